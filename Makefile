@@ -1,0 +1,26 @@
+# Installs what is missing, then calls the CMake presets.
+PRESET ?= release
+RESULTS ?= results
+CMAKE_FLAGS ?=
+
+.PHONY: packages build test paper bench
+
+packages:
+	@cmake/install-packages.sh
+
+build: packages
+	cmake --preset $(PRESET) $(CMAKE_FLAGS)
+	cmake --build --preset $(PRESET)
+
+test: build
+	ctest --preset $(PRESET) -j 2
+
+# Every experiment: tables and pictures under $(RESULTS)/.
+paper: build
+	@for e in experiments/*.toml; do \
+	  build/$(PRESET)/delquad run $$e -o $(RESULTS)/$$(basename $$e .toml) || exit $$?; \
+	done
+	@echo "Tables and pictures lie in $(RESULTS)/."
+
+bench: build
+	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done

@@ -1,0 +1,285 @@
+#include "algorithms/insertion/frontal_mesher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <queue>
+
+#include "mesh/constrained_delaunay.h"
+#include "mesh/delaunay_kernel.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr unsigned char kAllTried = 7;  // one bit a side
+constexpr std::array<int, 3> kNext = {1, 2, 0}, kPrev = {2, 0, 1};
+
+/// Fields at a vertex, asked for once; the hints say where its neighbourhood lies in the fields' background
+/// meshes.
+struct VertexFields {
+  Cross cross;  ///< of unit length
+  double delta;
+  int cross_hint, size_hint;
+};
+
+struct TriangleState {
+  double h = 0;             ///< dimensionless size
+  double delta = INFINITY;  ///< delta' at the centroid, where it was found to be too small for the triangle
+  unsigned stamp = 0;       ///< counts the triangles that have used this index
+  unsigned char front = 0;  ///< bit k: side k belongs to the frozen front of this layer
+  unsigned char tried = 0;  ///< bit k: an insertion over side k was refused
+  bool checked = false;     ///< resolved also by the size at its own centroid
+  bool listed = false;      ///< waits for the next layer
+};
+
+struct FrontEntry {
+  double h;
+  int triangle;
+  unsigned stamp;
+  /// Largest first; ties by index, for the same mesh everywhere.
+  bool operator<(const FrontEntry& o) const { return h != o.h ? h < o.h : triangle > o.triangle; }
+};
+
+class FrontalMesher {
+ public:
+  FrontalMesher(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                const ParametricSize& size, const FrontalOptions& options)
+      : placement_(placement),
+        cross_(cross),
+        size_(size),
+        options_(options),
+        h_max_(options.h_max > 0 ? options.h_max : placement.default_h_max()),
+        kernel_(constrained_delaunay(boundary)) {
+    VertexFields last{{}, 0, -1, -1};
+    for (const Vec2 u : kernel_.points()) vertices_.push_back(last = sample(u, last));
+    states_.resize(kernel_.triangles().size());
+    for (int t = 0; t < static_cast<int>(states_.size()); ++t) classify_new(t);
+  }
+
+  FrontalSummary run() {
+    do {
+      while (start_layer()) {
+        ++summary_.layers;
+        while (!queue_.empty()) {
+          const FrontEntry entry = queue_.top();
+          queue_.pop();
+          if (states_[entry.triangle].stamp != entry.stamp) continue;
+          if (summary_.inserted >= options_.max_points) {
+            summary_.termination = FrontalTermination::kMaxPoints;
+            return summary_;
+          }
+          advance(entry.triangle);
+        }
+      }
+    } while (recheck_resolved());
+    for (const TriangleState& s : states_) summary_.unresolved += s.h > h_max_;
+    return summary_;
+  }
+
+  TriPatch result(int n_boundary) const { return kernel_.to_patch(n_boundary); }
+
+ private:
+  VertexFields sample(Vec2 u, const VertexFields& near) const {
+    VertexFields f = near;
+    f.cross = unit(cross_.at(u, f.cross_hint));
+    f.delta = size_.at(u, f.size_hint);
+    return f;
+  }
+
+  static Cross unit(Cross z) {
+    const double length = std::sqrt(z.c * z.c + z.s * z.s);
+    return length > 0 ? Cross{z.c / length, z.s / length} : Cross{};
+  }
+
+  bool resolved(int t) const { return states_[t].h <= h_max_; }
+  /// Nothing could be inserted over its front: its neighbours treat it as resolved, so that the front goes on
+  /// behind it.
+  bool settled(int t) const { return resolved(t) || states_[t].tried; }
+
+  std::array<Vec2, 3> corners(int t) const {
+    const auto& v = kernel_.triangles()[t].v;
+    const auto& p = kernel_.points();
+    return {p[v[0]], p[v[1]], p[v[2]]};
+  }
+
+  Cross mean_cross(int t) const {
+    const auto& v = kernel_.triangles()[t].v;
+    return vertices_[v[0]].cross + vertices_[v[1]].cross + vertices_[v[2]].cross;
+  }
+
+  void list_for_next_layer(int t) {
+    if (states_[t].listed) return;
+    states_[t].listed = true;
+    next_layer_.push_back(t);
+  }
+
+  void classify_new(int t) {
+    const auto& v = kernel_.triangles()[t].v;
+    TriangleState& s = states_[t];
+    s.h =
+        placement_.triangle_size(corners(t), mean_cross(t),
+                                 (vertices_[v[0]].delta + vertices_[v[1]].delta + vertices_[v[2]].delta) / 3);
+    if (!resolved(t)) list_for_next_layer(t);
+  }
+
+  void wake_neighbours(int t) {
+    for (const int n : kernel_.triangles()[t].n) {
+      if (n >= 0 && !resolved(n)) list_for_next_layer(n);
+    }
+  }
+
+  /// Freezes the front: the sides of unresolved triangles towards settled ones and the boundary.
+  bool start_layer() {
+    for (const int t : next_layer_) {
+      TriangleState& s = states_[t];
+      s.listed = false;
+      if (resolved(t)) continue;
+      s.front = 0;
+      for (int k = 0; k < 3; ++k) {
+        const int n = kernel_.triangles()[t].n[k];
+        if ((n < 0 || settled(n)) && !(s.tried & (1 << k))) s.front |= 1 << k;
+      }
+      if (s.front) queue_.push({s.h, t, s.stamp});
+    }
+    next_layer_.clear();
+    return !queue_.empty();
+  }
+
+  /// Inserts a point over one of the triangle's front sides; marks the sides where none can go.
+  void advance(int t) {
+    for (int k = 0; k < 3; ++k) {
+      if (!(states_[t].front & (1 << k))) continue;
+      const unsigned stamp = states_[t].stamp;
+      const FrontEdge edge = front_edge(t, k);
+      const Candidates points = placement_.candidates(edge);
+      for (int c = 0; c < points.count; ++c) {
+        if (!try_insert(points.points[c], t, edge.frame, edge.delta)) {
+          ++summary_.rejected;
+          continue;
+        }
+        if (states_[t].stamp != stamp) return;
+        break;  // inserted elsewhere: the triangle outlived it
+      }
+      states_[t].tried |= 1 << k;
+      states_[t].front &= ~(1 << k);
+    }
+    if (states_[t].tried != kAllTried || !split_at_centroid(t)) wake_neighbours(t);
+  }
+
+  /// Last chance of a triangle over whose sides no point can go: its edges are much longer than delta'
+  /// inside.
+  bool split_at_centroid(int t) {
+    const auto c = corners(t);
+    const Vec2 x = (1.0 / 3) * (c[0] + c[1] + c[2]);
+    int hint = vertices_[kernel_.triangles()[t].v[0]].size_hint;
+    return try_insert(x, t, Frame::from_cross(mean_cross(t)), size_.at(x, hint));
+  }
+
+  FrontEdge front_edge(int t, int k) const {
+    const auto& tri = kernel_.triangles()[t];
+    const auto& p = kernel_.points();
+    const VertexFields &a = vertices_[tri.v[kNext[k]]], &b = vertices_[tri.v[kPrev[k]]];
+    FrontEdge edge{p[tri.v[kNext[k]]],
+                   p[tri.v[kPrev[k]]],
+                   p[tri.v[k]],
+                   {},
+                   std::min((a.delta + b.delta) / 2, states_[t].delta),
+                   Frame::from_cross(a.cross + b.cross)};
+    if (const int n = tri.n[k]; n >= 0) {
+      const auto& beyond = kernel_.triangles()[n];
+      const int j = beyond.n[0] == t ? 0 : beyond.n[1] == t ? 1 : 2;
+      edge.resolved_apex = p[beyond.v[j]];
+    }
+    return edge;
+  }
+
+  bool acceptable(Vec2 x, const Frame& frame, double delta) const {
+    const auto& p = kernel_.points();
+    for (const auto& e : kernel_.shell()) {
+      if (placement_.length(p[e.a] - x, frame) < options_.rejection * delta) return false;
+      if (e.outer >= 0) continue;
+      const Vec2 ab = p[e.b] - p[e.a];
+      if (cross(ab, x - p[e.a]) < options_.boundary_height * delta * norm(ab)) return false;
+    }
+    return true;
+  }
+
+  bool try_insert(Vec2 x, int t, const Frame& frame, double delta) {
+    const int holder = kernel_.locate(x, t);
+    if (holder < 0 || !kernel_.find_cavity(x, holder) || !acceptable(x, frame, delta)) return false;
+
+    const VertexFields near = vertices_[kernel_.triangles()[t].v[0]];
+    inherited_.clear();
+    for (const auto& e : kernel_.shell()) inherited_.push_back((states_[e.inner].front >> e.inner_side) & 1);
+    const auto star = kernel_.insert(x);
+    vertices_.push_back(sample(x, near));
+    states_.resize(kernel_.triangles().size());
+    for (const int n : star) {
+      const unsigned stamp = states_[n].stamp + 1;
+      const bool listed = states_[n].listed;
+      states_[n] = {};
+      states_[n].stamp = stamp;
+      states_[n].listed = listed;
+    }
+    for (size_t i = 0; i < star.size(); ++i) classify_new(star[i]);
+    for (size_t i = 0; i < star.size(); ++i) {
+      const int n = star[i];
+      if (resolved(n)) {
+        wake_neighbours(n);
+      } else if (inherited_[i]) {
+        states_[n].front = 1;  // side 0 lies opposite to the new point
+        queue_.push({states_[n].h, n, states_[n].stamp});
+      }
+    }
+    ++summary_.inserted;
+    return true;
+  }
+
+  /// Vertices may all miss a narrow minimum of the size field: asks once at each resolved triangle's
+  /// centroid.
+  bool recheck_resolved() {
+    for (int t = 0; t < static_cast<int>(states_.size()); ++t) {
+      TriangleState& s = states_[t];
+      if (s.checked || !resolved(t)) continue;
+      s.checked = true;
+      const auto c = corners(t);
+      int hint = vertices_[kernel_.triangles()[t].v[0]].size_hint;
+      const double delta = size_.at((1.0 / 3) * (c[0] + c[1] + c[2]), hint);
+      const double h = placement_.triangle_size(c, mean_cross(t), delta);
+      if (h <= h_max_) continue;
+      s.h = h;
+      s.delta = delta;
+      list_for_next_layer(t);
+    }
+    return !next_layer_.empty();
+  }
+
+  const PointPlacement& placement_;
+  const CrossField& cross_;
+  const ParametricSize& size_;
+  const FrontalOptions& options_;
+  const double h_max_;
+  DelaunayKernel kernel_;
+  std::vector<VertexFields> vertices_;
+  std::vector<TriangleState> states_;
+  std::priority_queue<FrontEntry> queue_;
+  std::vector<int> next_layer_;
+  std::vector<char> inherited_;
+  FrontalSummary summary_;
+};
+
+}  // namespace
+
+TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
+  const auto start = std::chrono::steady_clock::now();
+  FrontalMesher mesher(boundary, placement, cross, size, options);
+  FrontalSummary done = mesher.run();
+  TriPatch patch = mesher.result(static_cast<int>(boundary.points.size()));
+  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (summary) *summary = done;
+  return patch;
+}
+
+}  // namespace delquad

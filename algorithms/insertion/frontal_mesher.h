@@ -1,0 +1,39 @@
+#pragma once
+
+#include "algorithms/insertion/point_placement.h"
+#include "fields/cross_field.h"
+#include "fields/size_field.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+struct FrontalOptions {
+  /// A triangle is resolved when its dimensionless size is at most h_max (1: ideal). 0: the strategy's own
+  /// default.
+  double h_max = 0;
+  /// A point nearer than rejection * delta' to a vertex (in the strategy's norm) is refused.
+  double rejection = 0.7;
+  /// Refuse points whose height above a boundary edge is below this times delta'.
+  double boundary_height = 0.5;
+  /// The most points to insert; the summary says when it stopped the mesher.
+  long long max_points = 200'000'000;
+};
+
+enum class FrontalTermination { kResolved, kMaxPoints };
+
+struct FrontalSummary {
+  FrontalTermination termination = FrontalTermination::kResolved;
+  long long inserted = 0;    ///< points
+  long long rejected = 0;    ///< candidate points refused
+  long long unresolved = 0;  ///< triangles left above h_max because every candidate was refused
+  int layers = 0;
+  double seconds = 0;
+};
+
+/// Frontal Delaunay mesher [paper, section 5]: layer by layer, largest active triangle first, one strategy
+/// for where the point goes. Connects by the ordinary (L2) constrained Delaunay kernel, as the paper does.
+TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options = {},
+                      FrontalSummary* summary = nullptr);
+
+}  // namespace delquad

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/insertion/linf_geometry.h"
+#include "algorithms/insertion/point_placement.h"
+
+namespace delquad {
+
+namespace {
+
+/// Up to this slope |beta| / alpha an edge counts as aligned with the cross: the new point goes straight
+/// above one of its ends. An exactly aligned edge has a whole region for a bisector (the paper's Figure 9);
+/// on nearly aligned ones the bisector would lean by |rho - e| wherever sizes change.
+constexpr double kAlignedSlope = 0.25;
+/// The shortest leg relative to the edge, when sizes shrink faster than the front can follow.
+constexpr double kShortestLeg = 0.79;
+
+/// Delquad insertion in the L-infinity norm of the cross field [remacle2013, section 5], letter D: the
+/// ideal triangle is half a square of side delta'.
+///
+/// Differs from the paper: the point is B(rho), rho = delta' clamped by the circumsquares' rho instead of the
+/// printed t (whose min and max are exchanged); the lower clamp is an option; nearly aligned edges keep their
+/// right angle.
+class LinfDelquad final : public PointPlacement {
+ public:
+  explicit LinfDelquad(const LinfOptions& options) : options_(options) {}
+  char letter() const override { return 'D'; }
+  std::string name() const override { return "L-infinity Delquad"; }
+  double default_h_max() const override { return 1.4; }
+
+  double triangle_size(const std::array<Vec2, 3>& t, Cross cross, double delta) const override {
+    return linf_extent(t, Frame::from_cross(cross)) / delta;
+  }
+
+  Candidates candidates(const FrontEdge& edge) const override {
+    const CanonicalEdge e(edge.p, edge.q, edge.frame);
+    const Vec2 apex = e.to_local(edge.apex);
+    Candidates points;
+    if (std::abs(e.beta) > kAlignedSlope * e.alpha) {
+      points.add(e.to_global(bisector_point(e, distance(e, apex, edge))));
+      return points;
+    }
+    // Above P and above Q are the two ends of the bisector's tilted branch for either sign of beta.
+    bool above_p = e.beta > 0;
+    if (std::abs(e.beta) < kAlignedNoise * e.alpha) {
+      above_p = !edge.resolved_apex || e.to_local(*edge.resolved_apex).x <= 0;
+    }
+    for (const bool at_p : {above_p, !above_p}) {
+      CanonicalEdge side = e;
+      side.beta = std::copysign(e.beta, at_p ? 1.0 : -1.0);
+      const double rho = distance(side, apex, edge);
+      const double x = std::min(e.alpha, rho - e.alpha);
+      if (x < 0) continue;
+      points.add(e.to_global({at_p ? -x : x, rho + (at_p ? -e.beta : e.beta)}));
+    }
+    if (points.count == 0) points.add(flat_centre(e, apex));
+    return points;
+  }
+
+  double length(Vec2 v, const Frame& frame) const override { return linf_norm(frame.to_local(v)); }
+
+ private:
+  static constexpr double kAlignedNoise = 1e-9;
+
+  double distance(const CanonicalEdge& e, Vec2 apex, const FrontEdge& edge) const {
+    double rho = edge.delta;
+    if (options_.lower_clamp && edge.resolved_apex)
+      rho = std::max(rho, branch_exit(e, e.to_local(*edge.resolved_apex)));
+    rho = std::max(rho, kShortestLeg * e.length());
+    return std::min(rho, circumradius_on_branch(e, apex));
+  }
+
+  /// Circumcentre of a very flat active triangle: it lies on the bisector's straight part.
+  static Vec2 flat_centre(const CanonicalEdge& e, Vec2 apex) {
+    const double slack = e.alpha - std::abs(e.beta);
+    return e.to_global({0, std::clamp(apex.y - e.alpha, -slack, slack)});
+  }
+
+  LinfOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<PointPlacement> make_linf_delquad(const LinfOptions& options) {
+  return std::make_unique<LinfDelquad>(options);
+}
+
+}  // namespace delquad

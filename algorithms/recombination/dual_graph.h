@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "algorithms/recombination/matching.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// Cost of the quad that two triangles make, in millionths: 1 - signed eta, so 0 for a rectangle, above a
+/// million for a reflex quad, three millions at most.
+inline constexpr long long kCostUnit = 1'000'000;
+/// Cost of an extra edge: dearer than the worst of any hundred good quads.
+inline constexpr long long kExtraEdgeCost = 100 * kCostUnit;
+
+/// The graph whose perfect matchings are the ways to merge the triangles of a patch two by two.
+///
+/// Nodes are the triangles in Hilbert order, then one spare node for each connected component that has an odd
+/// number of them; a spare's mate is the triangle that is left over. Edges, in this order:
+/// 1. one for each interior side;
+/// 2. the extra ones [Remacle et al. 2011, section 4]: one for each boundary point, between the first and the
+/// last
+///    triangle of its fan, unless they are the same or share a side;
+/// 3. for each spare, one to every triangle of its component, free of charge.
+struct DualGraph {
+  MatchingGraph graph;
+  std::vector<int> triangle;      ///< of each node that is not a spare
+  int first_extra = 0;            ///< index of the first extra edge
+  std::vector<int> extra_vertex;  ///< boundary point of each extra edge
+};
+
+DualGraph build_dual_graph(const TriPatch& tri);
+
+/// The side of triangle t that faces triangle u, -1 when they share none.
+int facing_side(const TriPatch& tri, int t, int u);
+
+}  // namespace delquad

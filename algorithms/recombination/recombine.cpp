@@ -1,0 +1,109 @@
+#include "algorithms/recombination/recombine.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "algorithms/recombination/boundary_repair.h"
+#include "algorithms/recombination/chord_split.h"
+#include "algorithms/recombination/dual_graph.h"
+
+namespace delquad {
+
+namespace {
+
+/// Seconds since the last call.
+class Lap {
+ public:
+  double operator()() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> lap = now - last_;
+    last_ = now;
+    return lap.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The quads of all matched pairs that share a side, and the triangles matched with a spare.
+QuadPatch merge(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate) {
+  QuadPatch mesh;
+  mesh.points = tri.points;
+  mesh.n_boundary = tri.n_boundary;
+  const int n = static_cast<int>(dual.triangle.size());
+  mesh.quads.reserve(tri.triangles.size() / 2 + 1);
+  for (int i = 0; i < n; ++i) {
+    const int t = dual.triangle[i];
+    const auto& v = tri.triangles[t];
+    if (mate[i] >= n) mesh.triangles.push_back(v);
+    if (mate[i] >= n || mate[i] < i) continue;
+    const int u = dual.triangle[mate[i]];
+    const int side = facing_side(tri, t, u);
+    if (side < 0) continue;  // matched by an extra edge
+    const int opposite = tri.triangles[u][facing_side(tri, u, t)];
+    mesh.quads.push_back({v[side], v[(side + 1) % 3], opposite, v[(side + 2) % 3]});
+  }
+  return mesh;
+}
+
+/// The triangle, starting with vertex b.
+std::array<int, 3> starting_at(const std::array<int, 3>& v, int b) {
+  if (v[1] == b) return {v[1], v[2], v[0]};
+  if (v[2] == b) return {v[2], v[0], v[1]};
+  return v;
+}
+
+std::vector<FanEnds> matched_extra_edges(const TriPatch& tri, const DualGraph& dual,
+                                         const std::vector<int>& mate) {
+  std::vector<FanEnds> pairs;
+  for (std::size_t k = 0; k < dual.extra_vertex.size(); ++k) {
+    const MatchingGraph::Edge& e = dual.graph.edges[dual.first_extra + k];
+    if (mate[e.a] != e.b) continue;
+    const int b = dual.extra_vertex[k];
+    pairs.push_back({starting_at(tri.triangles[dual.triangle[e.a]], b),
+                     starting_at(tri.triangles[dual.triangle[e.b]], b)});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary) {
+  RecombineSummary s;
+  s.triangles = static_cast<int>(tri.triangles.size());
+  Lap lap;
+  DualGraph dual = build_dual_graph(tri);
+  s.graph_seconds = lap();
+  MatchingResult matching = solver.solve(dual.graph);
+  s.matching_seconds = lap();
+
+  const TriPatch* mesh = &tri;
+  TriPatch cut;
+  if (matching.status == MatchingStatus::kNotPerfect) {
+    cut = tri;
+    s.split_chords = split_chords(cut);
+    mesh = &cut;
+    dual = build_dual_graph(cut);
+    s.graph_seconds += lap();
+    matching = solver.solve(dual.graph);
+    s.matching_seconds += lap();
+    if (matching.status == MatchingStatus::kNotPerfect) {
+      throw std::logic_error(solver.name() + " finds no perfect matching although no chord is left");
+    }
+  }
+
+  QuadPatch quads = merge(*mesh, dual, matching.mate);
+  const std::vector<FanEnds> pairs = matched_extra_edges(*mesh, dual, matching.mate);
+  const BoundaryRepairSummary repairs = repair_fans(quads, pairs);
+  s.extra_edges = static_cast<int>(dual.extra_vertex.size());
+  s.matched_extra = static_cast<int>(pairs.size());
+  s.pentagon_swaps = repairs.pentagon_swaps;
+  s.duplications = repairs.duplications;
+  s.leftover_triangles = static_cast<int>(quads.triangles.size());
+  s.cost = matching.cost;
+  s.merge_seconds = lap();
+  if (summary != nullptr) *summary = s;
+  return quads;
+}
+
+}  // namespace delquad

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "algorithms/recombination/matching.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+struct RecombineSummary {
+  int triangles = 0;           ///< given
+  int split_chords = 0;        ///< sides between boundary points that had to be cut, see below
+  int extra_edges = 0;         ///< extra graph edges at boundary vertices
+  int matched_extra = 0;       ///< of these, matched and repaired
+  int pentagon_swaps = 0;      ///< repairs by swapping
+  int duplications = 0;        ///< repairs by duplicating the boundary vertex
+  int leftover_triangles = 0;  ///< 0 when the boundary is even, else 1 for each odd component
+  long long cost = 0;          ///< of the matching
+  double graph_seconds = 0, matching_seconds = 0, merge_seconds = 0;
+};
+
+/// Merges the triangles of a patch two by two by minimum-cost perfect matching on the dual graph
+/// (Blossom-Quad, Remacle et al. 2011), cost 1 - eta with reflex quads dearer than any convex one.
+///
+/// An even boundary gives quads only. An odd one leaves exactly one triangle in each odd component: the one
+/// whose absence makes the rest cheapest. Vertices are never moved; new ones come last (from duplication,
+/// placed where the worst quad around is best; from cut chords). The number of quads is half the triangles,
+/// plus one for each duplication and for each cut chord.
+///
+/// Differs from the paper, which takes the existence of a perfect matching from the theorem on cubic graphs
+/// without bridges although a triangle on the boundary has degree four: the graph may have none (18 points on
+/// a circle suffice). Then every chord (an interior side that joins two boundary points) is cut in two, and a
+/// perfect matching exists. Proof by Tutte: no triangle has two boundary sides any more, so the extra edges
+/// link the triangles of each boundary loop to a cycle. Were there a set S of s1 triangles with a boundary
+/// side and s3 without, whose removal leaves at least s1 + s3 + 2 odd components, then let r be the number of
+/// runs into which S cuts those cycles. A component without boundary sides has at least three edges to S. The
+/// others have four a run: two along the cycle and two because a path between boundary points that is no
+/// chord has two edges; there are at most r of them. S has 4 s1 + 3 s3 edge ends, of which at least 2 (s1 -
+/// r) lie inside it. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r; but each run
+/// ends at another triangle of S, hence r <= s1.
+QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr);
+
+}  // namespace delquad

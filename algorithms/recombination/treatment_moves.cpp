@@ -1,0 +1,105 @@
+#include "algorithms/recombination/treatment_moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace delquad {
+
+namespace {
+
+/// A corner of this angle or more is as good as flat: its element has an eta below .06.
+constexpr double kFlatAngle = 175 * std::numbers::pi / 180;
+/// Weight of a valence that forces a bad element, against single steps of valence.
+constexpr int kForcedBad = 12;
+
+}  // namespace
+
+ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
+  for (int v = 0; v < mesh.vertex_slots() && mesh.on_boundary(v); ++v) {
+    double angle = 0;
+    if (mesh.vertex_alive(v)) {
+      int last = -1;
+      mesh.for_each_out(v, [&](int h) { last = h; });
+      const Vec2 to = mesh.point(mesh.target(mesh.out(v))) - mesh.point(v);
+      const Vec2 from = mesh.point(mesh.origin(mesh.prev(last))) - mesh.point(v);
+      angle = std::atan2(cross(to, from), dot(to, from));
+      if (angle <= 0) angle += 2 * std::numbers::pi;
+    }
+    ideal_.push_back(static_cast<signed char>(std::max(1L, std::lround(angle / (std::numbers::pi / 2)))));
+    least_.push_back(static_cast<signed char>(std::floor(angle / kFlatAngle) + 1));
+  }
+}
+
+int ValenceEnergy::of(int v, int valence) const {
+  const bool boundary = mesh_.on_boundary(v);
+  const int off = valence - (boundary ? ideal_[v] : 4), least = boundary ? least_[v] : 3;
+  return off * off + (valence < least ? kForcedBad * (least - valence) : 0);
+}
+
+int ValenceEnergy::gain(const TreatmentMove& move) const {
+  const QuadTopology& m = mesh_;
+  if (move.kind == TreatmentMove::kDoublet) {
+    const int h = m.out(move.at);
+    return of(move.at) + change(m.target(h), -1) + change(m.origin(m.prev(h)), -1);
+  }
+  const int h = move.at;
+  const int a = m.origin(h), b = m.target(h);
+  if (move.kind == TreatmentMove::kCollapse) {
+    const int c = m.target(m.next(h)), d = m.origin(m.prev(h));
+    return of(a) + of(c) - of(a, m.valence(a) + m.valence(c) - 2) + change(b, -1) + change(d, -1);
+  }
+  const int t = m.twin(h);
+  const bool forward = move.kind == TreatmentMove::kRotateForward;
+  const int p = forward ? m.target(m.next(h)) : m.origin(m.prev(h));
+  const int q = forward ? m.target(m.next(t)) : m.origin(m.prev(t));
+  return change(a, -1) + change(b, -1) + change(p, 1) + change(q, 1);
+}
+
+bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
+  switch (move.kind) {
+    case TreatmentMove::kCollapse: return mesh.can_collapse(move.at);
+    case TreatmentMove::kDoublet: return mesh.can_remove_doublet(move.at);
+    case TreatmentMove::kInset: return mesh.is_quad(QuadTopology::element(move.at));
+    default: return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
+  }
+}
+
+void apply(QuadTopology& mesh, const TreatmentMove& move) {
+  switch (move.kind) {
+    case TreatmentMove::kCollapse: {
+      const int kept = mesh.origin(move.at), gone = mesh.target(mesh.next(move.at));
+      const Vec2 middle = 0.5 * (mesh.point(kept) + mesh.point(gone));
+      mesh.collapse(move.at);
+      if (!mesh.on_boundary(kept)) mesh.move(kept, middle);
+      break;
+    }
+    case TreatmentMove::kDoublet: mesh.remove_doublet(move.at); break;
+    case TreatmentMove::kInset: mesh.inset(move.at); break;
+    default: mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);
+  }
+}
+
+TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move) {
+  switch (move.kind) {
+    case TreatmentMove::kCollapse: {
+      const int h = move.at;
+      return {{mesh.origin(h), mesh.target(h), mesh.origin(mesh.prev(h))}, 3};
+    }
+    case TreatmentMove::kDoublet: {
+      TouchedVertices touched;
+      mesh.for_each_out(move.at, [&](int h) {
+        touched.v[touched.n++] = mesh.target(h);
+        if (mesh.is_quad(QuadTopology::element(h))) touched.v[touched.n++] = mesh.target(mesh.next(h));
+      });
+      return touched;
+    }
+    case TreatmentMove::kInset: {
+      const int h = move.at;
+      return {{mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))}, 4};
+    }
+    default: return {mesh.hexagon(move.at), 6};
+  }
+}
+
+}  // namespace delquad

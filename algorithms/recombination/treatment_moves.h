@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "smoothing/quad_topology.h"
+
+namespace delquad {
+
+/// One edit of the quad mesh that the treatment may choose.
+struct TreatmentMove {
+  enum Kind : int { kRotateForward, kRotateBackward, kCollapse, kDoublet, kInset };
+  Kind kind;
+  int at;  ///< half-edge; for a doublet its vertex
+  friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
+};
+
+/// Vertices that a move touches.
+struct TouchedVertices {
+  std::array<int, 6> v;
+  int n = 0;
+  const int* begin() const { return v.data(); }
+  const int* end() const { return v.data() + n; }
+};
+
+/// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle / 90 degrees,
+/// rounded and at least 1, on the boundary; more where a valence forces an element of eta 0 (a doublet, a flat corner).
+class ValenceEnergy {
+ public:
+  explicit ValenceEnergy(const QuadTopology& mesh);
+
+  int of(int v, int valence) const;
+  int of(int v) const { return of(v, mesh_.valence(v)); }
+  /// What the move takes off the sum. Not for insets, which are never chosen for it.
+  int gain(const TreatmentMove& move) const;
+
+ private:
+  int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
+
+  const QuadTopology& mesh_;
+  std::vector<signed char> ideal_, least_;  // of boundary vertices
+};
+
+bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
+void apply(QuadTopology& mesh, const TreatmentMove& move);
+/// The vertices whose valences the move changes or whose elements it replaces, without those that it removes or creates.
+TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move);
+
+/// Calls f(move) for the moves at an element: rotations of its sides, its two collapses, its doublets. Legality is not
+/// checked, except that rotated sides lie between quads.
+template <class F>
+void for_each_move(const QuadTopology& mesh, int element, F&& f) {
+  if (!mesh.alive(element)) return;
+  const int n = mesh.is_quad(element) ? 4 : 3;
+  for (int h = 4 * element; h < 4 * element + n; ++h) {
+    const int v = mesh.origin(h);
+    if (mesh.valence(v) == 2 && !mesh.on_boundary(v)) f(TreatmentMove{TreatmentMove::kDoublet, v});
+    if (n == 3) continue;
+    if (const int t = mesh.twin(h); t >= 0 && mesh.is_quad(QuadTopology::element(t))) {
+      f(TreatmentMove{TreatmentMove::kRotateForward, t < h ? t : h});
+      f(TreatmentMove{TreatmentMove::kRotateBackward, t < h ? t : h});
+    }
+    // The corner that goes is interior; of two interior ones the kept one is the first.
+    const int opposite = mesh.next(mesh.next(h));
+    const bool goes = !mesh.on_boundary(mesh.origin(opposite));
+    if (goes && (mesh.on_boundary(v) || h < opposite)) f(TreatmentMove{TreatmentMove::kCollapse, h});
+  }
+}
+
+}  // namespace delquad

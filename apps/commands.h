@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// Exit codes of the program, besides kInterrupted.
+inline constexpr int kDone = 0, kInternalError = 1, kBadInput = 2, kTrianglesLeft = 3;
+
+struct RunArguments {
+  std::filesystem::path experiment, folder;
+  std::vector<std::string> pipelines;  ///< empty: those of the file
+  long long max_elements = 50'000'000;
+  bool allow_triangles = false;
+};
+int run_command(const RunArguments& arguments);
+
+struct MeshArguments {
+  std::filesystem::path model, output, json;
+  std::string size, cross;  ///< empty: as the model says
+  std::string pipeline = "DB";
+  long long max_elements = 50'000'000;
+  bool allow_triangles = false;
+};
+int mesh_command(const MeshArguments& arguments);
+
+struct MetricsArguments {
+  std::filesystem::path mesh, json;
+  std::string size;  ///< empty: none
+};
+int metrics_command(const MetricsArguments& arguments);
+
+}  // namespace delquad

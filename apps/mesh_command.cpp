@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ostream>
+
+#include "apps/commands.h"
+#include "apps/print_metrics.h"
+#include "io/mesh_io.h"
+#include "pipeline/case_file.h"
+#include "pipeline/experiment_runner.h"
+#include "pipeline/interrupt.h"
+#include "pipeline/record.h"
+
+namespace delquad {
+namespace {
+
+/// Before any work: whether the file can be written at all.
+void check_output(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path))
+    throw InputError(path.string() + ": is a folder; expected a file to write");
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(path.string() + ": there is no folder '" + folder.string() + "'");
+  prepare_folder(folder);
+}
+
+void check_extension(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".msh" && extension != ".vtu" && extension != ".obj")
+    throw InputError(path.string() + ": unknown mesh format '" + extension + "'; known: .msh, .vtu, .obj");
+}
+
+}  // namespace
+
+int mesh_command(const MeshArguments& arguments) {
+  check_extension(arguments.output);
+  const Word word = parse_word(arguments.pipeline);
+  Case c = read_model_case(arguments.model);
+  c.options.max_elements = arguments.max_elements;
+  if (!arguments.size.empty()) c.size = {arguments.size, {}, 0, "--size"};
+  if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
+  check_output(arguments.output);
+  if (!arguments.json.empty()) check_output(arguments.json);
+
+  Progress progress(1 + run_steps(word));
+  progress.step(c.name + ": boundary and fields");
+  const PreparedCase prepared = prepare_case(c);
+  for (const std::string& warning : prepared.warnings) progress.message("warning: " + warning);
+  const RunResult result = run_word(c, prepared, word, progress);
+  {
+    const Uninterrupted whole;
+    write_mesh(arguments.output, result.mesh);
+    if (!arguments.json.empty())
+      write_file_atomically(arguments.json,
+                            [&](std::ostream& out) { out << run_record(c, prepared, word, result); });
+  }
+  progress.finish();
+  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
+             result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
+             result.seconds);
+  print_metrics(result.metrics);
+  if (word.result != PatchForm::kQuads || result.mesh.triangles.empty() || arguments.allow_triangles)
+    return kDone;
+  fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
+             result.mesh.triangles.size());
+  return kTrianglesLeft;
+}
+
+}  // namespace delquad

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "apps/commands.h"
+#include "apps/print_metrics.h"
+#include "io/mesh_io.h"
+#include "pipeline/record.h"
+
+namespace delquad {
+
+int metrics_command(const MetricsArguments& arguments) {
+  const Mesh mesh = read_mesh(arguments.mesh);
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");
+  std::shared_ptr<const SizeField> size;
+  if (!arguments.size.empty()) size = size_of_mesh(mesh, arguments.size);
+  const MeshMetrics metrics = evaluate_metrics(mesh, size.get());
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, [&](std::ostream& out) {
+      out << metrics_record(arguments.mesh.string(), arguments.size, metrics);
+    });
+  fmt::print("{}\n", arguments.mesh.string());
+  print_metrics(metrics);
+  return kDone;
+}
+
+}  // namespace delquad

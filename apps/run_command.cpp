@@ -1,0 +1,29 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "pipeline/experiment_runner.h"
+
+namespace delquad {
+
+int run_command(const RunArguments& arguments) {
+  Experiment experiment = read_experiment(arguments.experiment);
+  if (!arguments.pipelines.empty()) experiment.words = parse_words(arguments.pipelines);
+  for (Case& c : experiment.cases) c.options.max_elements = arguments.max_elements;
+
+  ExperimentOutcome outcome;
+  {
+    Progress progress(experiment_steps(experiment));
+    outcome = run_experiment(experiment, arguments.folder, progress);
+  }
+  fmt::print("{}\nresults: {}\n", to_markdown(outcome.table), arguments.folder.string());
+  if (outcome.internal_errors > 0) return kInternalError;
+  if (outcome.bad_inputs > 0) return kBadInput;
+  if (outcome.leftover_triangles == 0 || arguments.allow_triangles) return kDone;
+  fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
+             outcome.leftover_triangles);
+  return kTrianglesLeft;
+}
+
+}  // namespace delquad

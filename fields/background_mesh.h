@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mesh/patch.h"
+
+namespace delquad {
+
+class TriangleTree;
+
+/// A coarse triangulation of a planar domain (one or more patches), graded from the boundary's own edges: its
+/// size does not follow the final mesh's, so that fields on it stay cheap. Patches share no vertices, also
+/// where they touch: each has its own fields.
+class BackgroundMesh {
+ public:
+  /// Each patch's boundary edges are kept, maybe split. Throws InputError where a boundary crosses itself.
+  explicit BackgroundMesh(std::span<const PatchBoundary> patches);
+
+  const TriPatch& triangles() const { return tri_; }
+  /// Patch that each triangle lies in.
+  const std::vector<int>& triangle_patch() const { return patch_; }
+
+  /// Where a vertex lies on the boundary: on the edge of the patch's boundary which begins there or which it
+  /// splits.
+  struct BoundaryPoint {
+    int from = -1, to = -1;  ///< nodes of the boundary mesh at that edge's ends; -1: an interior vertex
+    double t = 0;            ///< 0 at `from`, < 1
+    Vec2 tangent;            ///< unit direction of that edge
+  };
+  /// Of each vertex.
+  const std::vector<BoundaryPoint>& boundary_points() const { return boundary_; }
+
+  /// The triangle that contains u (the first of several), or the nearest one when u is outside, and the
+  /// barycentric coordinates there, none negative.
+  struct Location {
+    int triangle;
+    double b[3];
+  };
+  /// Visibility walk from `hint` (-1: from anywhere), which is then set to the triangle found. Same answer
+  /// for any hint.
+  Location locate(Vec2 u, int& hint) const;
+
+ private:
+  int walk(Vec2 u, int hint) const;
+
+  TriPatch tri_;
+  std::vector<int> patch_;
+  std::vector<BoundaryPoint> boundary_;
+  std::shared_ptr<const TriangleTree> tree_;
+};
+
+}  // namespace delquad

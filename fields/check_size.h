@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/error.h"
+#include "mesh/vec.h"
+
+namespace delquad {
+
+/// Finite and positive.
+bool is_size(double delta);
+
+/// "`field` is -0.2 at (0.8, 0, 0); a size must be finite and positive"
+InputError bad_size(const std::string& field, const Vec3& x, double delta);
+
+}  // namespace delquad

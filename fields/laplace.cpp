@@ -1,0 +1,75 @@
+#include "fields/laplace.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <stdexcept>
+
+namespace delquad {
+
+namespace {
+
+// Twice the least area a triangle is taken to have, relative to its longest side squared: slivers below it
+// have no reliable area in floating point. The matrix stays positive definite whatever the areas.
+constexpr double kLeastArea = 1e-12;
+
+using Local = std::array<std::array<double, 3>, 3>;
+
+/// Products of the triangle's sides over twice its area.
+Local stiffness(const TriPatch& tri, int t) {
+  const auto& v = tri.triangles[t];
+  Vec2 side[3];
+  double longest2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    side[k] = tri.points[v[(k + 2) % 3]] - tri.points[v[(k + 1) % 3]];
+    longest2 = std::max(longest2, dot(side[k], side[k]));
+  }
+  const double area = std::max(cross(side[0], side[1]), kLeastArea * longest2);
+  Local matrix;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) matrix[i][j] = dot(side[i], side[j]) / area;
+  }
+  return matrix;
+}
+
+}  // namespace
+
+void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
+                   const std::vector<char>& fixed, std::span<std::vector<double>> columns) {
+  std::vector<int> row(fixed.size(), -1);
+  int n = 0;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (!fixed[i]) row[i] = n++;
+  }
+  if (n == 0) return;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(6 * tri.triangles.size());
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    const Local local = stiffness(tri, static_cast<int>(t));
+    for (int i = 0; i < 3; ++i) {
+      const int r = row[dofs[t][i]];
+      if (r < 0) continue;
+      for (int j = 0; j < 3; ++j) {
+        const int c = row[dofs[t][j]];
+        if (c >= 0 && c <= r) entries.emplace_back(r, c, local[i][j]);
+        for (std::size_t k = 0; c < 0 && k < columns.size(); ++k) {
+          right(r, static_cast<Eigen::Index>(k)) -= local[i][j] * columns[k][dofs[t][j]];
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+  if (factors.info() != Eigen::Success)
+    throw std::runtime_error("the background mesh's Laplace matrix is singular");
+  const Eigen::MatrixXd solution = factors.solve(right);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (row[i] < 0) continue;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      columns[k][i] = solution(row[i], static_cast<Eigen::Index>(k));
+  }
+}
+
+}  // namespace delquad

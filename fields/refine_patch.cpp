@@ -1,0 +1,149 @@
+#include "fields/refine_patch.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_criteria_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+// Least squared sine of an angle: 20.7 degrees, for which refinement is known to end (corners of less
+// excepted).
+constexpr double kShape = 0.125;
+// Refinement stops at this many vertices for each of the boundary's, plus a few: it normally needs less than
+// half, and what is left is still a triangulation, only with worse angles.
+constexpr std::size_t kMostGrowth = 8, kMostExtra = 1000;
+
+struct VertexIndex {
+  int value = -1;  ///< -1: made by refinement
+};
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexInfo = CGAL::Triangulation_vertex_base_with_info_2<VertexIndex, Kernel>;
+using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel, VertexInfo>;
+using FaceInfo = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using FaceConstraint = CGAL::Constrained_Delaunay_triangulation_face_base_2<
+    Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfo>>;
+using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel, FaceConstraint>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
+using Mesher = CGAL::Delaunay_mesher_2<Cdt, Criteria>;
+
+std::vector<Cdt::Vertex_handle> insert_boundary(Cdt& cdt, const PatchBoundary& patch) {
+  std::vector<std::pair<Kernel::Point_2, VertexIndex>> tagged;
+  for (const Vec2 p : patch.points) tagged.push_back({{p.x, p.y}, {static_cast<int>(tagged.size())}});
+  cdt.insert(tagged.begin(), tagged.end());
+  std::vector<Cdt::Vertex_handle> handle(patch.points.size());
+  for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) handle[v->info().value] = v;
+  for (std::size_t i = 0; i < handle.size(); ++i) {
+    if (handle[i] != nullptr) continue;
+    throw InputError(
+        fmt::format("two boundary points coincide at ({}, {})", patch.points[i].x, patch.points[i].y));
+  }
+  for (const auto& [i, j] : patch.edges) {
+    const Vec2 a = patch.points[i], b = patch.points[j];
+    const auto bad_edge = [a, b] {
+      return InputError(fmt::format("the boundary edge ({}, {}) - ({}, {}) meets another edge or point", a.x,
+                                    a.y, b.x, b.y));
+    };
+    try {
+      cdt.insert_constraint(handle[i], handle[j]);
+    } catch (const Cdt::Intersection_of_constraints_exception&) {
+      throw bad_edge();
+    }
+    if (!cdt.is_edge(handle[i], handle[j])) throw bad_edge();
+  }
+  return handle;
+}
+
+/// Marks the faces of the patch: those to the left of its edges and all that can be reached from there.
+void mark_domain(Cdt& cdt, const PatchBoundary& patch, const std::vector<Cdt::Vertex_handle>& handle) {
+  std::vector<Cdt::Face_handle> stack;
+  const auto enter = [&](Cdt::Face_handle f) {
+    if (cdt.is_infinite(f) || f->is_in_domain()) return;
+    f->set_in_domain(true);
+    stack.push_back(f);
+  };
+  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
+  for (const auto& [a, b] : patch.edges) {
+    Cdt::Face_handle f;
+    int side = 0;
+    cdt.is_edge(handle[a], handle[b], f, side);
+    enter(f->vertex(Cdt::ccw(side)) == handle[a] ? f : f->neighbor(side));
+  }
+  while (!stack.empty()) {
+    const Cdt::Face_handle f = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      if (!f->is_constrained(k)) enter(f->neighbor(k));
+    }
+  }
+}
+
+/// Numbers the faces of the patch so that most are near the one before.
+std::vector<Cdt::Face_handle> number_faces(Cdt& cdt) {
+  std::vector<Cdt::Face_handle> order, stack;
+  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = -1;
+  for (auto first = cdt.finite_faces_begin(); first != cdt.finite_faces_end(); ++first) {
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const Cdt::Face_handle f = stack.back();
+      stack.pop_back();
+      if (!f->is_in_domain() || f->info() >= 0) continue;
+      f->info() = static_cast<int>(order.size());
+      order.push_back(f);
+      for (int k = 0; k < 3; ++k) stack.push_back(f->neighbor(k));
+    }
+  }
+  return order;
+}
+
+TriPatch extract(Cdt& cdt, const PatchBoundary& patch) {
+  TriPatch tri;
+  tri.points = patch.points;
+  tri.n_boundary = static_cast<int>(patch.points.size());
+  for (const Cdt::Face_handle f : number_faces(cdt)) {
+    auto& vertices = tri.triangles.emplace_back();
+    auto& neighbours = tri.neighbours.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto v = f->vertex(k);
+      if (v->info().value < 0) {
+        v->info().value = static_cast<int>(tri.points.size());
+        tri.points.push_back({v->point().x(), v->point().y()});
+      }
+      vertices[k] = v->info().value;
+      neighbours[k] = f->neighbor(k)->info();
+    }
+  }
+  return tri;
+}
+
+}  // namespace
+
+TriPatch refine_patch(const PatchBoundary& patch) {
+  Cdt cdt;
+  const auto handle = insert_boundary(cdt, patch);
+  mark_domain(cdt, patch, handle);
+  Mesher mesher(cdt, Criteria(kShape));
+  mesher.init(true);
+  const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
+  while (cdt.number_of_vertices() < most && mesher.step_by_step_refine_mesh()) {
+  }
+  return extract(cdt, patch);
+}
+
+}  // namespace delquad

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// A triangle by its corners, cut up to look at a field closely.
+using Corners = std::array<Vec2, 3>;
+
+inline Corners corners_of(const TriPatch& tri, const std::array<int, 3>& v) {
+  return {tri.points[v[0]], tri.points[v[1]], tri.points[v[2]]};
+}
+
+inline double longest_side(const Corners& c) {
+  return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
+}
+
+/// Middles of the sides, each opposite to the corner of its index.
+inline Corners middles(const Corners& c) {
+  return {0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), 0.5 * (c[0] + c[1])};
+}
+
+inline std::array<Corners, 4> quarters(const Corners& c) {
+  const Corners m = middles(c);
+  return {Corners{c[0], m[2], m[1]}, Corners{m[2], c[1], m[0]}, Corners{m[1], m[0], c[2]}, m};
+}
+
+/// Of the points' bounding box.
+inline double diagonal(const TriPatch& tri) {
+  if (tri.points.empty()) return 0;
+  Vec2 low = tri.points[0], high = low;
+  for (const Vec2 p : tri.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return norm(high - low);
+}
+
+}  // namespace delquad

@@ -1,0 +1,128 @@
+#include "fields/singularities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+namespace delquad {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Turn of the phase from one side to another, in (-pi, pi) or half a turn; the opposite one the other way
+/// round.
+double phase_step(const std::vector<double>& phase, int from, int to) {
+  if (from > to) return -phase_step(phase, to, from);
+  const double step = phase[to] - phase[from];
+  return step > kPi ? step - 2 * kPi : step <= -kPi ? step + 2 * kPi : step;
+}
+
+int turns(double angle) { return static_cast<int>(std::lround(angle / (2 * kPi))); }
+
+/// Angle by which the boundary turns at each vertex; 0 inside.
+std::vector<double> boundary_turns(const BackgroundMesh& background) {
+  const TriPatch& tri = background.triangles();
+  const auto& boundary = background.boundary_points();
+  std::vector<double> turn(tri.points.size(), 0);
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (tri.neighbours[t][k] >= 0) continue;
+      const int from = tri.triangles[t][(k + 1) % 3], to = tri.triangles[t][(k + 2) % 3];
+      const Vec2 in = boundary[from].tangent, out = boundary[to].tangent;
+      turn[to] = std::atan2(cross(in, out), dot(in, out));
+    }
+  }
+  return turn;
+}
+
+/// Where the field, linear between the sides' middles, vanishes in a triangle around which it winds.
+Vec2 zero_point(const Vec2 (&middle)[3], const Cross (&z)[3]) {
+  const Vec2 a = {z[0].c, z[0].s}, b = {z[1].c, z[1].s}, c = {z[2].c, z[2].s};
+  const double weight[] = {std::abs(cross(b, c)), std::abs(cross(c, a)), std::abs(cross(a, b))};
+  const double sum = weight[0] + weight[1] + weight[2];
+  if (!(sum > 0)) return (1.0 / 3) * (middle[0] + middle[1] + middle[2]);
+  return (1 / sum) * (weight[0] * middle[0] + weight[1] * middle[1] + weight[2] * middle[2]);
+}
+
+void cancel(int& a, int& b) {
+  if (a == 0 || b == 0 || (a > 0) == (b > 0)) return;
+  const int n = std::min(std::abs(a), std::abs(b)) * (a > 0 ? 1 : -1);
+  a -= n;
+  b += n;
+}
+
+/// Takes opposite indices of touching cells away: triangle and vertex, two triangles, two vertices.
+void cancel_pairs(const BackgroundMesh& background, std::vector<int>& of_triangle,
+                  std::vector<int>& of_vertex) {
+  const TriPatch& tri = background.triangles();
+  const auto inside = [&](int v) { return background.boundary_points()[v].from < 0; };
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    for (const int v : tri.triangles[t]) {
+      if (inside(v)) cancel(of_triangle[t], of_vertex[v]);
+    }
+  }
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    for (const int other : tri.neighbours[t]) {
+      if (other >= 0) cancel(of_triangle[t], of_triangle[other]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int a = tri.triangles[t][k], b = tri.triangles[t][(k + 1) % 3];
+      if (inside(a) && inside(b)) cancel(of_vertex[a], of_vertex[b]);
+    }
+  }
+}
+
+}  // namespace
+
+FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
+                                 const std::vector<Cross>& crosses) {
+  const TriPatch& tri = background.triangles();
+  std::vector<double> phase;
+  phase.reserve(crosses.size());
+  for (const Cross& z : crosses) phase.push_back(std::atan2(z.s, z.c));
+
+  std::vector<int> of_triangle(tri.triangles.size());
+  std::vector<double> around = boundary_turns(background);
+  for (double& angle : around) angle *= 4;
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      // Counterclockwise in the triangle, past the middles of the two sides at vertex k; clockwise around
+      // that vertex.
+      const double step =
+          phase_step(phase, sides.of_triangle[t][(k + 2) % 3], sides.of_triangle[t][(k + 1) % 3]);
+      sum -= step;
+      around[tri.triangles[t][k]] += step;
+    }
+    of_triangle[t] = turns(sum);
+  }
+  std::vector<int> of_vertex;
+  of_vertex.reserve(around.size());
+  for (const double angle : around) of_vertex.push_back(turns(angle));
+
+  FieldTopology result;
+  for (const int index : of_triangle) result.index_sum += index;
+  for (const int index : of_vertex) result.index_sum += index;
+  cancel_pairs(background, of_triangle, of_vertex);
+  for (std::size_t t = 0; t < of_triangle.size(); ++t) {
+    if (of_triangle[t] == 0) continue;
+    Vec2 middle[3];
+    Cross z[3];
+    for (int k = 0; k < 3; ++k) {
+      const auto& v = tri.triangles[t];
+      middle[k] = 0.5 * (tri.points[v[(k + 1) % 3]] + tri.points[v[(k + 2) % 3]]);
+      z[k] = crosses[sides.of_triangle[t][k]];
+    }
+    result.singularities.push_back({zero_point(middle, z), of_triangle[t]});
+  }
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    if (of_vertex[v] != 0 && background.boundary_points()[v].from < 0) {
+      result.singularities.push_back({tri.points[v], of_vertex[v]});
+    }
+  }
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fields/check_size.h"
+#include "fields/fields.h"
+#include "geometry/expression.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+class ConstantSize final : public SizeField {
+ public:
+  explicit ConstantSize(double delta) : delta_(delta) {}
+  double at(const Vec3&, int&) const override { return delta_; }
+
+ private:
+  double delta_;
+};
+
+class ExpressionSize final : public SizeField {
+ public:
+  explicit ExpressionSize(const std::string& text) : delta_(text, {"x", "y", "z"}) {}
+  double at(const Vec3& x, int&) const override {
+    const double values[] = {x.x, x.y, x.z};
+    const double delta = delta_(values);
+    if (!is_size(delta)) throw bad_size(fmt::format("size field '{}'", delta_.text()), x, delta);
+    return delta;
+  }
+
+ private:
+  Expression delta_;
+};
+
+class SourceSize final : public SizeField {
+ public:
+  SourceSize(std::shared_ptr<const SizeField> base, std::vector<SizeSource> sources)
+      : base_(std::move(base)), sources_(std::move(sources)) {}
+
+  double at(const Vec3& x, int& hint) const override {
+    double delta = base_ ? base_->at(x, hint) : INFINITY;
+    for (const SizeSource& s : sources_) delta = std::min(delta, size_by(s, x));
+    if (!is_size(delta)) throw bad_size("size field of sources", x, delta);
+    return delta;
+  }
+
+ private:
+  static double size_by(const SizeSource& s, const Vec3& x) {
+    const Vec3 d = s.b - s.a;
+    const double length2 = dot(d, d);
+    const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
+    const double r = norm(x - s.a - along * d);
+    if (r <= s.radius_near) return s.size_near;
+    if (r >= s.radius_far) return s.size_far;
+    const double t = (r - s.radius_near) / (s.radius_far - s.radius_near);
+    return (1 - t) * s.size_near + t * s.size_far;
+  }
+
+  std::shared_ptr<const SizeField> base_;
+  std::vector<SizeSource> sources_;
+};
+
+void check_source(const SizeSource& s, std::size_t index) {
+  if (!is_size(s.size_near) || !is_size(s.size_far)) {
+    throw InputError(fmt::format("size source {}: sizes {} and {}; a size must be finite and positive",
+                                 index + 1, s.size_near, s.size_far));
+  }
+  if (!(s.radius_near >= 0) || !(s.radius_far >= s.radius_near) || !std::isfinite(s.radius_far)) {
+    throw InputError(fmt::format("size source {}: radii {} and {}; expected 0 <= near <= far", index + 1,
+                                 s.radius_near, s.radius_far));
+  }
+  if (!std::isfinite(dot(s.a, s.a)) || !std::isfinite(dot(s.b, s.b))) {
+    throw InputError(fmt::format("size source {}: its points must be finite", index + 1));
+  }
+}
+
+}  // namespace
+
+bool is_size(double delta) { return std::isfinite(delta) && delta > 0; }
+
+InputError bad_size(const std::string& field, const Vec3& x, double delta) {
+  return InputError(fmt::format("{} is {} at ({:.6g}, {:.6g}, {:.6g}); a size must be finite and positive",
+                                field, delta, x.x, x.y, x.z));
+}
+
+std::unique_ptr<SizeField> make_constant_size(double delta) {
+  if (!is_size(delta))
+    throw InputError(fmt::format("the size is {}; a size must be finite and positive", delta));
+  return std::make_unique<ConstantSize>(delta);
+}
+
+std::unique_ptr<SizeField> make_expression_size(const std::string& expression) {
+  return std::make_unique<ExpressionSize>(expression);
+}
+
+std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,
+                                            std::vector<SizeSource> sources) {
+  if (!base && sources.empty()) throw InputError("a size field needs a base or a source");
+  for (std::size_t i = 0; i < sources.size(); ++i) check_source(sources[i], i);
+  return std::make_unique<SourceSize>(std::move(base), std::move(sources));
+}
+
+}  // namespace delquad

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// A formula in named variables, parsed once: + - * / ^ (power), comparisons, && || ?:, the usual functions
+/// (sin, sqrt, exp, abs, min, max, atan2, ...) and the constants pi and e. Evaluation is const and may be
+/// called from several threads at a time.
+class Expression {
+ public:
+  /// Throws InputError, with the text, the position (characters from 1) and the reason, for what does not
+  /// parse and for names other than `variables`.
+  Expression(const std::string& text, std::vector<std::string> variables);
+  Expression(const Expression& other);
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression other) noexcept;
+  ~Expression();
+
+  /// One value for each variable, in their order. Not-a-number and infinity are returned as they come.
+  double operator()(std::span<const double> values) const;
+
+  const std::string& text() const;
+
+ private:
+  struct Parsed;
+  std::unique_ptr<Parsed> parsed_;
+};
+
+}  // namespace delquad

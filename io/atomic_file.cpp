@@ -1,0 +1,66 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "io/mesh_io.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw InputError(path.string() + ": cannot be written: " +
+                   (error != 0 ? std::generic_category().message(error) : "the output stream failed"));
+}
+
+void write_stream(const fs::path& path, const fs::path& shown,
+                  const std::function<void(std::ostream&)>& write) {
+  errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  if (!out) fail(shown, errno);
+  out.exceptions(std::ios::badbit | std::ios::failbit);
+  try {
+    errno = 0;
+    write(out);
+    out.close();
+  } catch (const std::ios_base::failure&) {
+    fail(shown, errno);
+  }
+}
+
+/// Removes the file unless it has been moved away.
+struct TemporaryFile {
+  fs::path path;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) throw InputError(path.string() + ": cannot be written: it is a folder");
+  // A device or pipe must not be replaced by a file.
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_stream(path, path, write);
+
+  // A link stays; what it points to is replaced.
+  const fs::path target = fs::exists(status) ? fs::canonical(path, error) : path;
+  constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
+  const std::string stem = target.filename().string().substr(0, kLongestStem);
+  const TemporaryFile temporary{target.parent_path() /
+                                ("." + stem + "." + std::to_string(getpid()) + ".tmp")};
+  write_stream(temporary.path, path, write);
+  fs::rename(temporary.path, target, error);
+  if (error) fail(path, error.value());
+}
+
+}  // namespace delquad

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/text_scanner.h"
+#include "mesh/mesh.h"
+
+namespace delquad::msh {
+
+/// What an MSH file says, before tags become indices.
+struct Node {
+  long long tag;
+  Vec3 at;
+  int line;  ///< of the file
+};
+
+struct Element {
+  int n_nodes;                     ///< 2 line, 3 triangle, 4 quad
+  int entity;                      ///< elementary tag
+  int physical;                    ///< physical tag (2.2 only), 0: none
+  std::array<long long, 4> nodes;  ///< node tags
+  int line;                        ///< of the file
+  int dim() const { return n_nodes == 2 ? 1 : 2; }
+};
+
+using DimTag = std::pair<int, int>;
+
+struct Contents {
+  std::vector<Node> nodes;
+  std::vector<Element> elements;
+  std::map<DimTag, std::vector<int>> entity_physicals;
+  std::map<DimTag, std::string> physical_names;
+};
+
+/// Reads the sections. [Gmsh reference manual, "MSH file format" and "Legacy formats"]
+Contents read_contents(TextScanner& scanner);
+
+/// Fills entity_physicals from the elements' own physical tags, as 2.2 keeps them: an element in several
+/// groups is listed once for each and becomes one; elements of one entity in different groups become entities
+/// of their own.
+void settle_physicals(Contents& contents);
+
+/// Tags become indices: nodes in the order of their tags, without those that no element uses.
+Mesh to_mesh(Contents contents, const TextScanner& scanner);
+
+}  // namespace delquad::msh

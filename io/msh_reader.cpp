@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <numeric>
+#include <tuple>
+
+#include "io/mesh_io.h"
+#include "io/msh_raw.h"
+
+namespace delquad {
+
+namespace msh {
+
+namespace {
+
+/// Groups of each element that is kept (ascending tags); elements listed once more for another group are
+/// marked.
+std::vector<std::vector<int>> groups_of_elements(const std::vector<Element>& elements,
+                                                 std::vector<char>& repeats) {
+  std::vector<Element> keys = elements;
+  for (Element& e : keys) std::sort(e.nodes.begin(), e.nodes.begin() + e.n_nodes);
+  const auto key = [&](int i) { return std::tie(keys[i].n_nodes, keys[i].entity, keys[i].nodes); };
+  std::vector<int> order(elements.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
+
+  std::vector<std::vector<int>> groups(elements.size());
+  repeats.assign(elements.size(), 0);
+  for (size_t at = 0; at < order.size();) {
+    const int first = order[at];
+    std::vector<int>& all = groups[first];
+    for (; at < order.size() && key(order[at]) == key(first); ++at) {
+      const int physical = elements[order[at]].physical;
+      if (std::find(all.begin(), all.end(), physical) == all.end()) {
+        all.push_back(physical);
+        repeats[order[at]] = order[at] != first;
+      } else {
+        groups[order[at]] = {physical};  // a true twin, which stays for others to complain about
+      }
+    }
+    std::sort(all.begin(), all.end());
+  }
+  for (auto& all : groups) std::erase(all, 0);
+  return groups;
+}
+
+int node_index(const std::vector<Node>& sorted, long long tag) {
+  // Tags mostly run without gaps.
+  const long long guess = tag - sorted.front().tag;
+  if (guess >= 0 && guess < static_cast<long long>(sorted.size()) && sorted[guess].tag == tag) {
+    return static_cast<int>(guess);
+  }
+  const auto it = std::lower_bound(sorted.begin(), sorted.end(), tag,
+                                   [](const Node& node, long long t) { return node.tag < t; });
+  return it != sorted.end() && it->tag == tag ? static_cast<int>(it - sorted.begin()) : -1;
+}
+
+/// Curves and regions in the order in which elements first name them.
+class EntityTable {
+ public:
+  EntityTable(const Contents& contents, Mesh& mesh) : contents_(contents), mesh_(mesh) {}
+
+  int index(int dim, int tag) {
+    if (dim == last_.first && tag == last_.second) return last_index_;
+    std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
+    const auto [it, is_new] = index_.emplace(DimTag{dim, tag}, static_cast<int>(entities.size()));
+    if (is_new) entities.push_back({tag, names(dim, tag)});
+    last_ = {dim, tag};
+    last_index_ = it->second;
+    return last_index_;
+  }
+
+ private:
+  /// A group without a name goes by its number.
+  std::vector<std::string> names(int dim, int tag) const {
+    std::vector<std::string> all;
+    const auto physicals = contents_.entity_physicals.find({dim, tag});
+    if (physicals == contents_.entity_physicals.end()) return all;
+    for (const int physical : physicals->second) {
+      const auto name = contents_.physical_names.find({dim, physical});
+      all.push_back(name != contents_.physical_names.end() ? name->second : std::to_string(physical));
+    }
+    return all;
+  }
+
+  const Contents& contents_;
+  Mesh& mesh_;
+  std::map<DimTag, int> index_;
+  DimTag last_{-1, -1};
+  int last_index_ = -1;
+};
+
+void check_tags(const Contents& contents, const TextScanner& scanner) {
+  for (size_t i = 1; i < contents.nodes.size(); ++i) {
+    const Node &a = contents.nodes[i - 1], &b = contents.nodes[i];
+    if (a.tag != b.tag) continue;
+    scanner.fail(fmt::format("node tag {} is used twice (first on line {})", a.tag, std::min(a.line, b.line)),
+                 std::max(a.line, b.line));
+  }
+  for (const Element& e : contents.elements) {
+    if (e.entity <= 0) scanner.fail(fmt::format("entity tag {}: expected a positive one", e.entity), e.line);
+  }
+}
+
+}  // namespace
+
+void settle_physicals(Contents& contents) {
+  int greatest[3] = {};
+  for (Element& e : contents.elements) {
+    if (e.entity == 0) e.entity = e.physical > 0 ? e.physical : 1;
+    greatest[e.dim()] = std::max(greatest[e.dim()], e.entity);
+  }
+  std::vector<char> repeats;
+  const auto groups = groups_of_elements(contents.elements, repeats);
+  std::map<std::pair<DimTag, std::vector<int>>, int> tag_of;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    Element& e = contents.elements[i];
+    if (repeats[i]) continue;
+    const DimTag own = {e.dim(), e.entity};
+    if (contents.entity_physicals.emplace(own, groups[i]).first->second == groups[i]) continue;
+    const auto [it, is_new] = tag_of.emplace(std::pair{own, groups[i]}, 0);
+    if (is_new) it->second = ++greatest[e.dim()];
+    e.entity = it->second;
+    contents.entity_physicals[{e.dim(), e.entity}] = groups[i];
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (!repeats[i]) contents.elements[kept++] = contents.elements[i];
+  }
+  contents.elements.resize(kept);
+}
+
+Mesh to_mesh(Contents contents, const TextScanner& scanner) {
+  if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles or quads");
+  if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
+  std::stable_sort(contents.nodes.begin(), contents.nodes.end(),
+                   [](const Node& a, const Node& b) { return a.tag < b.tag; });
+  check_tags(contents, scanner);
+
+  std::vector<int> new_index(contents.nodes.size(), -1);
+  for (Element& e : contents.elements) {
+    for (int k = 0; k < e.n_nodes; ++k) {
+      const int i = node_index(contents.nodes, e.nodes[k]);
+      if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", e.nodes[k]), e.line);
+      e.nodes[k] = i;
+      new_index[i] = 0;
+    }
+  }
+  Mesh mesh;
+  for (size_t i = 0; i < new_index.size(); ++i) {
+    if (new_index[i] < 0) continue;
+    new_index[i] = static_cast<int>(mesh.points.size());
+    mesh.points.push_back(contents.nodes[i].at);
+  }
+  EntityTable entities(contents, mesh);
+  for (const Element& e : contents.elements) {
+    const auto node = [&](int k) { return new_index[e.nodes[k]]; };
+    const int entity = entities.index(e.dim(), e.entity);
+    if (e.n_nodes == 2) {
+      mesh.lines.push_back({node(0), node(1)});
+      mesh.line_curve.push_back(entity);
+    } else if (e.n_nodes == 3) {
+      mesh.triangles.push_back({node(0), node(1), node(2)});
+      mesh.triangle_region.push_back(entity);
+    } else {
+      mesh.quads.push_back({node(0), node(1), node(2), node(3)});
+      mesh.quad_region.push_back(entity);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace msh
+
+Mesh read_msh(const std::filesystem::path& path) {
+  TextScanner scanner(path);
+  msh::Contents contents = msh::read_contents(scanner);
+  return msh::to_mesh(std::move(contents), scanner);
+}
+
+}  // namespace delquad

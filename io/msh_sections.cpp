@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <set>
+
+#include "io/msh_raw.h"
+
+namespace delquad::msh {
+
+namespace {
+
+constexpr long long kLargestTag = LLONG_MAX;      // of nodes and elements
+constexpr int kLargestEntityTag = 2'000'000'000;  // leaves room for new ones
+
+enum class Version { kUnknown, k22, k41 };
+
+/// Room for as many as the file says, unless it cannot hold them.
+template <class T>
+void reserve(std::vector<T>& items, long long count, const TextScanner& scanner) {
+  constexpr size_t kLeastBytes = 6;  // of a node or an element in the file
+  items.reserve(items.size() + std::min(static_cast<size_t>(count), scanner.bytes_left() / kLeastBytes));
+}
+
+/// Number of nodes of an element type; only points, lines, triangles and quads are known.
+int nodes_of_type(int type, const TextScanner& scanner) {
+  switch (type) {
+    case 1:
+      return 2;
+    case 2:
+      return 3;
+    case 3:
+      return 4;
+    case 15:
+      return 1;
+    default:
+      break;
+  }
+  static const std::map<int, const char*> names = {{4, "tetrahedron"},
+                                                   {5, "hexahedron"},
+                                                   {6, "prism"},
+                                                   {7, "pyramid"},
+                                                   {8, "second-order line"},
+                                                   {9, "second-order triangle"},
+                                                   {10, "second-order quad"},
+                                                   {16, "second-order quad"},
+                                                   {20, "third-order triangle"},
+                                                   {21, "third-order triangle"},
+                                                   {26, "third-order line"},
+                                                   {36, "third-order quad"}};
+  const auto name = names.find(type);
+  scanner.fail(fmt::format("element type {}{}: expected points (15), lines (1), triangles (2) or quads (3)",
+                           type, name == names.end() ? "" : fmt::format(" ({})", name->second)));
+}
+
+class SectionReader {
+ public:
+  explicit SectionReader(TextScanner& scanner) : in_(scanner) {}
+
+  Contents read() {
+    if (in_.at_end()) in_.fail("the file is empty; expected an MSH file, which starts with $MeshFormat");
+    while (!in_.at_end()) {
+      const std::string_view token = in_.token("a section");
+      if (token.size() < 2 || token[0] != '$') {
+        in_.fail(version_ == Version::kUnknown ? "not an MSH file: expected $MeshFormat"
+                                               : "expected a section, which starts with $");
+      }
+      section(std::string(token.substr(1)));
+    }
+    if (version_ == Version::kUnknown) in_.fail("not an MSH file: expected $MeshFormat");
+    for (const char* needed : {"Nodes", "Elements"}) {
+      if (!seen_.contains(needed)) in_.fail(fmt::format("the file ends without a ${} section", needed));
+    }
+    if (version_ == Version::k22) settle_physicals(contents_);
+    return std::move(contents_);
+  }
+
+ private:
+  void section(const std::string& name) {
+    static const std::map<std::string, void (SectionReader::*)()> readers = {
+        {"MeshFormat", &SectionReader::mesh_format}, {"PhysicalNames", &SectionReader::physical_names},
+        {"Entities", &SectionReader::entities},      {"Nodes", &SectionReader::nodes},
+        {"Elements", &SectionReader::elements},      {"PartitionedEntities", &SectionReader::partitioned}};
+    const auto reader = readers.find(name);
+    if (reader == readers.end()) return skip(name);
+    if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
+    if (version_ == Version::kUnknown && name != "MeshFormat") {
+      in_.fail(fmt::format("expected $MeshFormat before ${}", name));
+    }
+    (this->*reader->second)();
+    const std::string end = "$End" + name;
+    if (in_.token(end) != end) in_.fail(fmt::format("expected {}", end));
+  }
+
+  void skip(const std::string& name) {
+    const int first = in_.line();
+    const std::string end = "$End" + name;
+    while (!in_.at_end()) {
+      if (in_.token(end) == end) return;
+      in_.rest_of_line();
+    }
+    in_.fail(fmt::format("section ${} is not closed by {}", name, end), first);
+  }
+
+  void mesh_format() {
+    const std::string_view version = in_.token("the version");
+    if (version == "2.2") {
+      version_ = Version::k22;
+    } else if (version == "4.1") {
+      version_ = Version::k41;
+    } else {
+      in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)", in_.printable(version)));
+    }
+    if (in_.integer("the file type", 0, 1) == 1) {
+      in_.fail("binary MSH file: expected text (in Gmsh: Mesh.Binary = 0)");
+    }
+    in_.integer("the data size", 1, 64);
+  }
+
+  void physical_names() {
+    const long long count = in_.integer("the number of physical names", 0, INT_MAX);
+    for (long long i = 0; i < count; ++i) {
+      const int dim = static_cast<int>(in_.integer("the dimension of a physical name", 0, 3));
+      const int tag =
+          static_cast<int>(in_.integer("the tag of a physical name", -kLargestEntityTag, kLargestEntityTag));
+      const std::string_view rest = in_.rest_of_line();
+      const size_t open = rest.find('"'), close = rest.rfind('"');
+      if (open == close) in_.fail("expected a physical name in double quotes");
+      contents_.physical_names[{dim, std::abs(tag)}] = rest.substr(open + 1, close - open - 1);
+    }
+  }
+
+  void entities() {
+    if (version_ == Version::k22) in_.fail("$Entities does not belong to MSH 2.2");
+    long long counts[4];
+    for (int dim = 0; dim < 4; ++dim) counts[dim] = in_.integer("the number of entities", 0, INT_MAX);
+    for (int dim = 0; dim < 4; ++dim) {
+      for (long long i = 0; i < counts[dim]; ++i) entity(dim);
+    }
+  }
+
+  void entity(int dim) {
+    const int tag = static_cast<int>(in_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) in_.real("a bound of the entity");
+    std::vector<int> physicals;
+    const long long n_physicals = in_.integer("the number of the entity's physical tags", 0, INT_MAX);
+    for (long long k = 0; k < n_physicals; ++k) {
+      physicals.push_back(
+          std::abs(static_cast<int>(in_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
+    }
+    if (dim > 0) {
+      const long long n_bounding = in_.integer("the number of bounding entities", 0, INT_MAX);
+      for (long long k = 0; k < n_bounding; ++k)
+        in_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag);
+    }
+    if (!contents_.entity_physicals.emplace(DimTag{dim, tag}, std::move(physicals)).second) {
+      in_.fail(fmt::format("a second entity of dimension {} with tag {}", dim, tag));
+    }
+  }
+
+  Vec3 position() {
+    const double x = in_.real("coordinate x"), y = in_.real("coordinate y"), z = in_.real("coordinate z");
+    return {x, y, z};
+  }
+
+  void nodes() {
+    const bool blocks = version_ == Version::k41;
+    const long long n_blocks = blocks ? in_.integer("the number of node blocks", 0, INT_MAX) : 1;
+    const long long count = in_.integer("the number of nodes", 0, INT_MAX);
+    reserve(contents_.nodes, count, in_);
+    if (!blocks) {
+      for (long long i = 0; i < count; ++i) {
+        const long long tag = in_.integer("a node's tag", 1, kLargestTag);
+        const int line = in_.line();
+        contents_.nodes.push_back({tag, position(), line});
+      }
+      return;
+    }
+    in_.integer("the least node tag", 0, kLargestTag);
+    in_.integer("the greatest node tag", 0, kLargestTag);
+    for (long long b = 0; b < n_blocks; ++b) node_block(count);
+    if (static_cast<long long>(contents_.nodes.size()) != count) {
+      in_.fail(fmt::format("the blocks hold {} nodes, but {} were announced", contents_.nodes.size(), count));
+    }
+  }
+
+  void node_block(long long announced) {
+    const int dim = static_cast<int>(in_.integer("the dimension of a node block", 0, 3));
+    in_.integer("the entity of a node block", -kLargestEntityTag, kLargestEntityTag);
+    const bool parametric = in_.integer("0 or 1 (parametric)", 0, 1) == 1;
+    const size_t first = contents_.nodes.size();
+    const long long count = in_.integer("the number of nodes in the block", 0, INT_MAX);
+    if (static_cast<long long>(first) + count > announced) {
+      in_.fail(fmt::format("more nodes than the {} announced", announced));
+    }
+    for (long long i = 0; i < count; ++i) {
+      const long long tag = in_.integer("a node's tag", 1, kLargestTag);
+      contents_.nodes.push_back({tag, {}, in_.line()});
+    }
+    for (size_t i = first; i < contents_.nodes.size(); ++i) {
+      contents_.nodes[i].at = position();
+      for (int k = 0; parametric && k < dim; ++k) in_.real("a node's parameter");
+    }
+  }
+
+  void elements() {
+    if (version_ == Version::k22) return elements_22();
+    const long long n_blocks = in_.integer("the number of element blocks", 0, INT_MAX);
+    const long long announced = in_.integer("the number of elements", 0, INT_MAX);
+    in_.integer("the least element tag", 0, kLargestTag);
+    in_.integer("the greatest element tag", 0, kLargestTag);
+    reserve(contents_.elements, announced, in_);
+    long long total = 0;
+    for (long long b = 0; b < n_blocks; ++b) total += element_block(announced - total);
+    if (total != announced) {
+      in_.fail(fmt::format("the blocks hold {} elements, but {} were announced", total, announced));
+    }
+  }
+
+  long long element_block(long long most) {
+    const int dim = static_cast<int>(in_.integer("the dimension of an element block", 0, 3));
+    const int entity = static_cast<int>(
+        in_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
+    const int n_nodes = nodes_of_type(static_cast<int>(in_.integer("an element type", 1, INT_MAX)), in_);
+    if (dim != std::min(n_nodes - 1, 2)) {
+      in_.fail(fmt::format("elements of {} nodes in a block of dimension {}", n_nodes, dim));
+    }
+    const long long count = in_.integer("the number of elements in the block", 0, INT_MAX);
+    if (count > most) in_.fail("more elements than announced");
+    for (long long i = 0; i < count; ++i) {
+      in_.integer("an element's tag", 1, kLargestTag);
+      element(n_nodes, entity, 0);
+    }
+    return count;
+  }
+
+  void elements_22() {
+    const long long count = in_.integer("the number of elements", 0, INT_MAX);
+    reserve(contents_.elements, count, in_);
+    for (long long i = 0; i < count; ++i) {
+      in_.integer("an element's tag", 1, kLargestTag);
+      const int n_nodes = nodes_of_type(static_cast<int>(in_.integer("an element type", 1, INT_MAX)), in_);
+      const long long n_tags = in_.integer("the number of an element's tags", 0, INT_MAX);
+      int tags[2] = {0, 0};  // physical, elementary
+      for (long long k = 0; k < n_tags; ++k) {
+        const int tag = static_cast<int>(in_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
+        if (k < 2) tags[k] = std::abs(tag);
+      }
+      element(n_nodes, tags[1], tags[0]);
+    }
+  }
+
+  void element(int n_nodes, int entity, int physical) {
+    Element e{n_nodes, entity, physical, {}, in_.line()};
+    for (int k = 0; k < n_nodes; ++k) e.nodes[k] = in_.integer("a node's tag", 1, kLargestTag);
+    if (n_nodes > 1) contents_.elements.push_back(e);
+  }
+
+  [[noreturn]] void partitioned() { in_.fail("partitioned mesh: expected one that is saved whole"); }
+
+  TextScanner& in_;
+  Version version_ = Version::kUnknown;
+  std::set<std::string> seen_;
+  Contents contents_;
+};
+
+}  // namespace
+
+Contents read_contents(TextScanner& scanner) { return SectionReader(scanner).read(); }
+
+}  // namespace delquad::msh

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <map>
+
+#include "io/mesh_io.h"
+#include "io/text_scanner.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+
+namespace {
+
+class ObjReader {
+ public:
+  explicit ObjReader(const std::filesystem::path& path) : in_(path) {}
+
+  Mesh read() {
+    while (!in_.at_end()) {
+      const std::string keyword(in_.token("a keyword"));
+      if (keyword == "v") {
+        const double x = number(), y = number(), z = number();
+        mesh_.points.push_back({x, y, z});
+      } else if (keyword == "l") {
+        read_line();
+      } else if (keyword == "f") {
+        read_face();
+      } else if (keyword == "g") {
+        names_.clear();
+        while (!in_.at_end_of_line()) names_.emplace_back(in_.token("a group's name"));
+      }
+      in_.rest_of_line();
+    }
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty()) {
+      in_.fail("the file holds no lines and no faces");
+    }
+    drop_unused_points();
+    return std::move(mesh_);
+  }
+
+ private:
+  double number() {
+    if (in_.at_end_of_line()) in_.fail("expected three coordinates");
+    return in_.real("a coordinate");
+  }
+
+  /// The vertices on the rest of the line, each "v", "v/vt" or "v/vt/vn"; a negative v counts from the last
+  /// one.
+  std::vector<int> vertices() {
+    std::vector<int> result;
+    const long long n = static_cast<long long>(mesh_.points.size());
+    while (!in_.at_end_of_line()) {
+      const std::string_view token = in_.token("a vertex");
+      long long v = 0;
+      const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), v);
+      const bool is_number = error == std::errc() && (end == token.data() + token.size() || *end == '/');
+      if (!is_number || v == 0 || v > n || v < -n) {
+        in_.fail(fmt::format("expected a vertex from 1 to {}, found {}", n, TextScanner::printable(token)));
+      }
+      result.push_back(static_cast<int>(v > 0 ? v - 1 : n + v));
+    }
+    return result;
+  }
+
+  void read_line() {
+    const std::vector<int> v = vertices();
+    if (v.size() < 2) in_.fail("expected two vertices or more");
+    const int curve = entity(mesh_.curves, curve_of_);
+    for (size_t k = 0; k + 1 < v.size(); ++k) {
+      mesh_.lines.push_back({v[k], v[k + 1]});
+      mesh_.line_curve.push_back(curve);
+    }
+  }
+
+  void read_face() {
+    const std::vector<int> v = vertices();
+    if (v.size() != 3 && v.size() != 4) {
+      in_.fail(fmt::format("face of {} vertices: expected a triangle or a quad", v.size()));
+    }
+    const int region = entity(mesh_.regions, region_of_);
+    if (v.size() == 3) {
+      mesh_.triangles.push_back({v[0], v[1], v[2]});
+      mesh_.triangle_region.push_back(region);
+    } else {
+      mesh_.quads.push_back({v[0], v[1], v[2], v[3]});
+      mesh_.quad_region.push_back(region);
+    }
+  }
+
+  using Index = std::map<std::vector<std::string>, int>;
+  int entity(std::vector<Entity>& entities, Index& index) const {
+    const auto [it, is_new] = index.emplace(names_, static_cast<int>(entities.size()));
+    if (is_new) entities.push_back({it->second + 1, names_});
+    return it->second;
+  }
+
+  void drop_unused_points() {
+    std::vector<int> index(mesh_.points.size(), -1);
+    const auto each_vertex = [&](auto&& visit) {
+      for (auto& e : mesh_.lines) std::for_each(e.begin(), e.end(), visit);
+      for (auto& e : mesh_.triangles) std::for_each(e.begin(), e.end(), visit);
+      for (auto& e : mesh_.quads) std::for_each(e.begin(), e.end(), visit);
+    };
+    each_vertex([&](int v) { index[v] = 0; });
+    int kept = 0;
+    for (size_t i = 0; i < index.size(); ++i) {
+      if (index[i] < 0) continue;
+      mesh_.points[kept] = mesh_.points[i];
+      index[i] = kept++;
+    }
+    mesh_.points.resize(kept);
+    each_vertex([&](int& v) { v = index[v]; });
+  }
+
+  TextScanner in_;
+  Mesh mesh_;
+  std::vector<std::string> names_;
+  Index curve_of_, region_of_;
+};
+
+void write_group(TextWriter& out, const Entity& entity) {
+  out << 'g';
+  for (std::string name : entity.names) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }, '_');
+    out << ' ' << name;
+  }
+  out << '\n';
+}
+
+/// Elements in their order, a group line before each change of entity.
+template <size_t N>
+void write_elements(TextWriter& out, char keyword, const std::vector<std::array<int, N>>& elements,
+                    const std::vector<int>& entity_of, const std::vector<Entity>& entities) {
+  for (size_t i = 0; i < elements.size(); ++i) {
+    if (i == 0 || entity_of[i] != entity_of[i - 1]) write_group(out, entities[entity_of[i]]);
+    out << keyword;
+    for (const int v : elements[i]) out << ' ' << v + 1;
+    out << '\n';
+  }
+}
+
+}  // namespace
+
+Mesh read_obj(const std::filesystem::path& path) { return ObjReader(path).read(); }
+
+void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
+  write_file_atomically(path, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    for (const Vec3& p : mesh.points) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves);
+    write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions);
+    write_elements(out, 'f', mesh.quads, mesh.quad_region, mesh.regions);
+    out.flush();
+  });
+}
+
+}  // namespace delquad

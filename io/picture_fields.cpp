@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/picture.h"
+#include "io/svg.h"
+
+namespace delquad {
+
+namespace {
+
+using svg::Path;
+using svg::Picture;
+
+constexpr double kOutlineWidth = 1.2;  // pixels
+
+/// A corner of a piece of a triangle and the field's place on the colour bar there.
+struct Corner {
+  Vec2 at;
+  double t;
+};
+
+/// The part of the convex polygon where sign * (t - level) >= 0.
+std::vector<Corner> clipped(const std::vector<Corner>& polygon, double level, double sign) {
+  std::vector<Corner> kept;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Corner &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double da = sign * (a.t - level), db = sign * (b.t - level);
+    if (da >= 0) kept.push_back(a);
+    if ((da > 0 && db < 0) || (da < 0 && db > 0))
+      kept.push_back({a.at + (da / (da - db)) * (b.at - a.at), level});
+  }
+  return kept;
+}
+
+/// Bands of equal colour, cut from the linear interpolation over each triangle.
+void add_bands(Picture& picture, const Mesh& mesh, const std::vector<double>& t) {
+  constexpr int kBands = 40;
+  constexpr double kSeamWidth = 0.4;  // pixels; hides the seams between neighbours
+  std::vector<Path> bands(kBands);
+  for (const auto& v : mesh.triangles) {
+    std::vector<Corner> triangle;
+    for (const int i : v) triangle.push_back({{mesh.points[i].x, mesh.points[i].y}, t[i]});
+    const auto [low, high] = std::minmax({t[v[0]], t[v[1]], t[v[2]]});
+    const int last = std::clamp(static_cast<int>(high * kBands), 0, kBands - 1);
+    for (int band = std::clamp(static_cast<int>(low * kBands), 0, kBands - 1); band <= last; ++band) {
+      std::vector<Corner> piece = triangle;
+      if (band > 0) piece = clipped(piece, double(band) / kBands, 1);
+      if (band < kBands - 1) piece = clipped(piece, double(band + 1) / kBands, -1);
+      if (piece.size() < 3) continue;
+      std::vector<svg::Spot> corners;
+      for (const Corner& c : piece) corners.push_back(picture.spot(c.at));
+      bands[band].polygon(corners);
+    }
+  }
+  for (int band = 0; band < kBands; ++band) {
+    const std::string fill = svg::colour((band + 0.5) / kBands);
+    picture.add(bands[band], fill, fill, kSeamWidth);
+  }
+}
+
+/// Where a value stands on a colour bar from low to high: by its logarithm, or linearly when low is not
+/// positive.
+struct Scale {
+  double low, high;
+  bool is_log() const { return low > 0; }
+  double place(double value) const {
+    if (!(high > low)) return 0.5;
+    return is_log() ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  }
+  double value(double place) const {
+    return is_log() ? low * std::exp(place * std::log(high / low)) : low + place * (high - low);
+  }
+};
+
+/// 1, 2 and 5 times powers of ten where the range holds three or more of them; otherwise five equal steps.
+std::vector<std::pair<double, std::string>> labels(const Scale& scale) {
+  if (!(scale.high > scale.low)) return {{0.5, fmt::format("{:.4g}", scale.low)}};
+  std::vector<std::pair<double, std::string>> result;
+  const double decades = scale.is_log() ? std::log10(scale.high / scale.low) : 0;
+  constexpr double kRounding = 1e-9;
+  if (scale.is_log()) {
+    const int first = static_cast<int>(std::floor(std::log10(scale.low)));
+    const int last = static_cast<int>(std::ceil(std::log10(scale.high)));
+    const int step = std::max(1, static_cast<int>(decades / 6));
+    for (int power = first; power <= last; power += step) {
+      for (const int digit : decades > 4 ? std::vector<int>{1} : std::vector<int>{1, 2, 5}) {
+        const double value = digit * std::pow(10, power), place = scale.place(value);
+        if (place >= -kRounding && place <= 1 + kRounding)
+          result.emplace_back(place, fmt::format("{:.4g}", value));
+      }
+    }
+  }
+  if (result.size() >= 3) return result;
+  result.clear();
+  for (const double place : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    result.emplace_back(place, fmt::format("{:.3g}", scale.value(place)));
+  }
+  return result;
+}
+
+}  // namespace
+
+void draw_crosses(const std::filesystem::path& path, const Mesh& outline,
+                  const std::vector<CrossGlyph>& crosses, const std::vector<SingularityMark>& singularities,
+                  const std::string& title) {
+  Picture picture(outline.points, title);
+  std::map<int, Path> glyphs;  // by octave of their size in pixels
+  for (const CrossGlyph& glyph : crosses) {
+    const Vec2 arm = glyph.length / 2 * Vec2{std::cos(glyph.theta), std::sin(glyph.theta)};
+    const double pixels = glyph.length * picture.scale();
+    Path& lines = glyphs[std::clamp(pixels > 0 ? std::ilogb(pixels) : 0, 0, 5)];
+    for (const Vec2 half : {arm, perp(arm)}) {
+      lines.segment(picture.spot(glyph.at - half), picture.spot(glyph.at + half));
+    }
+  }
+  for (const auto& [octave, lines] : glyphs) picture.add(lines, "none", "#2a6f97", 0.08 * std::exp2(octave));
+  picture.add_outline(outline, kOutlineWidth);
+
+  constexpr double kRadius = 4.5;  // pixels
+  std::vector<svg::Mark> marks;
+  for (const SingularityMark& s : singularities)
+    marks.push_back({s.at, std::abs(s.index) == 1 ? s.index : 0, kRadius});
+  picture.add_marks(marks);
+  if (!marks.empty()) picture.add_mark_legend({{1, "index +1/4"}, {-1, "index -1/4"}, {0, "other index"}});
+  picture.write(path);
+}
+
+void draw_scalar(const std::filesystem::path& path, const Mesh& triangles, const std::vector<double>& values,
+                 const std::string& title) {
+  const bool all_finite =
+      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  if (values.size() != triangles.points.size() || !all_finite) {
+    throw std::invalid_argument("draw_scalar: one finite value a point is needed");
+  }
+  Picture picture(triangles.points, title);
+  if (!values.empty()) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const Scale scale{*low, *high};
+    std::vector<double> places;
+    for (const double value : values) places.push_back(scale.place(value));
+    add_bands(picture, triangles, places);
+    picture.add_colour_bar("", labels(scale));
+  }
+  picture.add_outline(triangles, kOutlineWidth);
+  picture.write(path);
+}
+
+}  // namespace delquad

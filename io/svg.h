@@ -1,0 +1,87 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/vec.h"
+
+namespace delquad::svg {
+
+/// Point of the drawing, in hundredths of a pixel, y down.
+struct Spot {
+  int x, y;
+};
+
+/// Data of an SVG path, in relative coordinates: many shapes in few bytes.
+class Path {
+ public:
+  void move_to(Spot s);
+  void line_to(Spot s);
+  void close();
+  void segment(Spot a, Spot b) {
+    move_to(a);
+    line_to(b);
+  }
+  void polygon(const std::vector<Spot>& corners);
+  const std::string& data() const { return data_; }
+
+ private:
+  void step(char command, Spot s);
+  std::string data_;
+  Spot at_{0, 0}, start_{0, 0};
+  char last_ = 0;
+};
+
+/// #rrggbb of t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
+std::string colour(double t);
+
+/// Colour of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too large),
+/// others.
+std::string_view mark_colour(int index);
+
+/// A dot in the drawing.
+struct Mark {
+  Vec2 at;
+  int index;      ///< see mark_colour
+  double radius;  ///< pixels
+};
+
+/// A picture of part of the plane: title, drawing to scale, legend at the right.
+class Picture {
+ public:
+  /// Shows the bounding box of the points, at the largest scale that fits the page.
+  Picture(const std::vector<Vec3>& points, const std::string& title);
+
+  Spot spot(double x, double y) const;
+  Spot spot(Vec2 p) const { return spot(p.x, p.y); }
+  Spot spot(const Vec3& p) const { return spot(p.x, p.y); }
+  /// Pixels a unit of length.
+  double scale() const { return scale_; }
+
+  /// Widths in pixels; "none" draws no fill or no stroke.
+  void add(const Path& path, std::string_view fill, std::string_view stroke, double stroke_width);
+  /// Free edges of the mesh and its lines.
+  void add_outline(const Mesh& mesh, double stroke_width);
+  void add_marks(const std::vector<Mark>& marks);
+
+  /// Colour bar: labels at positions in [0, 1].
+  void add_colour_bar(std::string_view title, const std::vector<std::pair<double, std::string>>& labels);
+  /// Labels of marks by index, below the bar.
+  void add_mark_legend(const std::vector<std::pair<int, std::string>>& labels);
+
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  double width_, height_;   ///< of the drawing, pixels
+  double x0_, y1_, scale_;  ///< the model's left and upper bounds; pixels a unit
+  double page_height_;      ///< below the title
+  double legend_y_;         ///< first free line of the legend
+  std::string title_, body_, legend_;
+};
+
+}  // namespace delquad::svg

@@ -1,0 +1,100 @@
+#include "io/text_scanner.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+std::string_view without_plus(std::string_view token) {
+  return token.size() > 1 && token[0] == '+' && token[1] != '-' ? token.substr(1) : token;
+}
+
+}  // namespace
+
+TextScanner::TextScanner(const std::filesystem::path& path) : path_(path.string()) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path_ + ": cannot be read: it is a folder");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path_ + ": cannot be read: " + std::generic_category().message(errno));
+  constexpr size_t kBlock = 1 << 16;
+  while (in) {
+    const size_t before = text_.size();
+    text_.resize(before + kBlock);
+    in.read(text_.data() + before, kBlock);
+    text_.resize(before + static_cast<size_t>(in.gcount()));
+  }
+  if (in.bad()) throw InputError(path_ + ": cannot be read to its end");
+}
+
+bool TextScanner::at_end() {
+  for (; at_ < text_.size() && is_space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+  return at_ == text_.size();
+}
+
+bool TextScanner::at_end_of_line() {
+  while (at_ < text_.size() && text_[at_] != '\n' && is_space(text_[at_])) ++at_;
+  return at_ == text_.size() || text_[at_] == '\n';
+}
+
+std::string_view TextScanner::token(std::string_view what) {
+  if (at_end()) fail(fmt::format("the file ends where {} was expected", what));
+  const size_t first = at_;
+  while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+  return std::string_view(text_).substr(first, at_ - first);
+}
+
+long long TextScanner::integer(std::string_view what, long long low, long long high) {
+  const std::string_view text = token(what), digits = without_plus(text);
+  long long value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
+    fail(fmt::format("expected {} (an integer), found {}", what, printable(text)));
+  }
+  if (error != std::errc() || value < low || value > high) {
+    fail(fmt::format("expected {} from {} to {}, found {}", what, low, high, printable(text)));
+  }
+  return value;
+}
+
+double TextScanner::real(std::string_view what) {
+  const std::string_view text = token(what), digits = without_plus(text);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_number = end == digits.data() + digits.size() && error != std::errc::invalid_argument;
+  if (!is_number || error != std::errc() || !std::isfinite(value)) {
+    fail(fmt::format("expected {} (a finite number), found {}", what, printable(text)));
+  }
+  return value;
+}
+
+std::string_view TextScanner::rest_of_line() {
+  const size_t first = at_;
+  while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  return std::string_view(text_).substr(first, at_ - first);
+}
+
+std::string TextScanner::printable(std::string_view token) {
+  constexpr size_t kLongest = 40;
+  std::string text;
+  for (const char c : token.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return "'" + text + (token.size() > kLongest ? "...'" : "'");
+}
+
+void TextScanner::fail(std::string_view message, int line) const {
+  throw InputError(fmt::format("{}:{}: {}", path_, line, message));
+}
+
+}  // namespace delquad

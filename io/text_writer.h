@@ -1,0 +1,47 @@
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+namespace delquad {
+
+/// Buffered text output; numbers in the shortest form that reads back to the same value.
+class TextWriter {
+ public:
+  explicit TextWriter(std::ostream& out) : out_(out) {}
+  TextWriter(const TextWriter&) = delete;
+  TextWriter& operator=(const TextWriter&) = delete;
+  ~TextWriter() = default;
+
+  TextWriter& operator<<(std::string_view text) {
+    buffer_ += text;
+    if (buffer_.size() > kBufferSize) flush();
+    return *this;
+  }
+  TextWriter& operator<<(char c) {
+    buffer_ += c;
+    return *this;
+  }
+  template <class Number>
+  requires(std::integral<Number> || std::floating_point<Number>) &&
+      (!std::same_as<Number, char>)TextWriter& operator<<(Number number) {
+    char digits[32];
+    const char* end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    return *this << std::string_view(digits, static_cast<size_t>(end - digits));
+  }
+  /// To be called at the end: the destructor writes nothing, so that no error is lost in it.
+  void flush() {
+    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+  }
+
+ private:
+  static constexpr size_t kBufferSize = 1 << 16;
+  std::ostream& out_;
+  std::string buffer_;
+};
+
+}  // namespace delquad

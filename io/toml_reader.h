@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/vec.h"
+
+namespace delquad {
+
+enum class TomlKind { kNone, kNumber, kText, kFlag, kArray, kTable };
+
+/// A checked view of one table of a TOML file. Every getter throws InputError "file:line: ..." which names
+/// the key and says what was expected; copies share the record of the keys that were asked for, against which
+/// finish() checks.
+class TomlTable {
+ public:
+  /// Throws InputError when the file cannot be read or is not TOML.
+  static TomlTable read(const std::filesystem::path& file);
+
+  const std::filesystem::path& file() const;
+  /// "file:line" of the table.
+  std::string where() const;
+  /// "file:line" of a key of it.
+  std::string where(const std::string& key) const;
+
+  /// kNone: absent.
+  TomlKind kind(const std::string& key) const;
+  bool has(const std::string& key) const { return kind(key) != TomlKind::kNone; }
+  /// The keys present, in alphabetical order.
+  std::vector<std::string> keys() const;
+
+  /// Finite; integers are numbers too.
+  double number(const std::string& key) const;
+  double number(const std::string& key, double absent) const;
+  double positive_number(const std::string& key) const;
+  long long integer(const std::string& key) const;
+  long long integer(const std::string& key, long long absent) const;
+  bool flag(const std::string& key, bool absent) const;
+  std::string text(const std::string& key) const;
+  std::string text(const std::string& key, const std::string& absent) const;
+  /// A text, or a number as it would be written in an expression.
+  std::string expression(const std::string& key) const;
+  /// [x, y]
+  Vec2 point(const std::string& key) const;
+  /// [[x, y], ...]
+  std::vector<Vec2> points(const std::string& key) const;
+  std::vector<double> numbers(const std::string& key) const;
+  std::vector<std::string> texts(const std::string& key) const;
+  TomlTable table(const std::string& key) const;
+  std::optional<TomlTable> optional_table(const std::string& key) const;
+  /// An array of tables, or one table; none when absent.
+  std::vector<TomlTable> tables(const std::string& key) const;
+
+  /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
+  void finish() const;
+
+ private:
+  struct Data;
+  explicit TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<Data> data_;
+};
+
+/// The name among `known` nearest to `given` (Damerau-Levenshtein distance), when it is near enough to be a
+/// slip.
+std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known);
+
+}  // namespace delquad

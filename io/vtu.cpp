@@ -1,0 +1,142 @@
+#include <bit>
+#include <cstdint>
+#include <stdexcept>
+
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+
+namespace {
+
+/// Base64 of a block of bytes after its length, as VTK wants it inline (header_type UInt64).
+class Base64Array {
+ public:
+  explicit Base64Array(TextWriter& out) : out_(out) {}
+
+  template <class T>
+  void write(const std::vector<T>& values) {
+    const std::uint64_t n_bytes = values.size() * sizeof(T);
+    put(&n_bytes, sizeof n_bytes);
+    put(values.data(), n_bytes);
+    if (n_held_ > 0) {
+      const int padding = 3 - n_held_;
+      held_ <<= 8 * padding;
+      emit(4 - padding);
+      out_ << (padding == 1 ? "=" : "==");
+    }
+  }
+
+ private:
+  void put(const void* data, size_t n_bytes) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (size_t i = 0; i < n_bytes; ++i) {
+      held_ = held_ << 8 | bytes[i];
+      if (++n_held_ == 3) emit(4);
+    }
+  }
+  void emit(int n_digits) {
+    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    char text[4];
+    for (int k = 0; k < n_digits; ++k) text[k] = kDigits[held_ >> (18 - 6 * k) & 63];
+    out_ << std::string_view(text, static_cast<size_t>(n_digits));
+    held_ = 0;
+    n_held_ = 0;
+  }
+
+  TextWriter& out_;
+  std::uint32_t held_ = 0;
+  int n_held_ = 0;
+};
+
+template <class T>
+void write_array(TextWriter& out, std::string_view attributes, const std::vector<T>& values) {
+  out << "        <DataArray " << attributes << " format=\"binary\">";
+  Base64Array(out).write(values);
+  out << "</DataArray>\n";
+}
+
+struct Cells {
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+  std::vector<std::int32_t> entities;
+
+  template <size_t N>
+  void add(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
+           const std::vector<Entity>& all, std::uint8_t type) {
+    for (size_t i = 0; i < elements.size(); ++i) {
+      connectivity.insert(connectivity.end(), elements[i].begin(), elements[i].end());
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+      types.push_back(type);
+      entities.push_back(all[entity_of[i]].tag);
+    }
+  }
+};
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
+                const std::map<std::string, std::vector<double>>& cell_data) {
+  constexpr bool kLittle = std::endian::native == std::endian::little;
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
+      << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
+      << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << cells.types.size()
+      << "\">\n";
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * mesh.points.size());
+  for (const Vec3& p : mesh.points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+  out << "      <Points>\n";
+  write_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates);
+  out << "      </Points>\n      <Cells>\n";
+  write_array(out, "type=\"Int64\" Name=\"connectivity\"", cells.connectivity);
+  write_array(out, "type=\"Int64\" Name=\"offsets\"", cells.offsets);
+  write_array(out, "type=\"UInt8\" Name=\"types\"", cells.types);
+  out << "      </Cells>\n      <CellData>\n";
+  write_array(out, "type=\"Int32\" Name=\"entity\"", cells.entities);
+  for (const auto& [name, values] : cell_data) {
+    write_array(out, "type=\"Float64\" Name=\"" + escaped(name) + "\"", values);
+  }
+  out << "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
+               const std::map<std::string, std::vector<double>>& cell_data) {
+  constexpr std::uint8_t kLine = 3, kTriangle = 5, kQuad = 9;  // VTK cell types
+  Cells cells;
+  cells.add(mesh.lines, mesh.line_curve, mesh.curves, kLine);
+  cells.add(mesh.triangles, mesh.triangle_region, mesh.regions, kTriangle);
+  cells.add(mesh.quads, mesh.quad_region, mesh.regions, kQuad);
+  for (const auto& [name, values] : cell_data) {
+    if (values.size() != cells.types.size()) {
+      throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +
+                                  " values for " + std::to_string(cells.types.size()) + " cells");
+    }
+  }
+  write_file_atomically(path, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    write_file(out, mesh, cells, cell_data);
+    out.flush();
+  });
+}
+
+}  // namespace delquad

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mesh/half_edges.h"
+#include "mesh/mesh.h"
+
+namespace delquad {
+
+namespace {
+
+using Report = std::vector<std::string>;
+
+void check_entities(const std::vector<Entity>& entities, const char* kind, Report& wrong) {
+  std::set<int> tags;
+  for (const Entity& entity : entities) {
+    if (entity.tag <= 0) wrong.push_back(fmt::format("{} tag {}: not positive", kind, entity.tag));
+    if (!tags.insert(entity.tag).second)
+      wrong.push_back(fmt::format("{} tag {}: used twice", kind, entity.tag));
+  }
+}
+
+/// Indices of one kind of element and of the entities that they lie on. True when the vertices are in range.
+template <size_t N>
+bool check_indices(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
+                   size_t n_points, size_t n_entities, const char* kind, Report& wrong) {
+  bool in_range = true;
+  for (size_t i = 0; i < elements.size(); ++i) {
+    for (const int v : elements[i]) {
+      if (v >= 0 && v < static_cast<int>(n_points)) continue;
+      wrong.push_back(
+          fmt::format("{} {}: vertex {} is out of range (0 to {})", kind, i, v, int(n_points) - 1));
+      in_range = false;
+    }
+    auto sorted = elements[i];
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+      wrong.push_back(fmt::format("{} {}: a vertex is repeated", kind, i));
+    }
+  }
+  if (entity_of.size() != elements.size()) {
+    wrong.push_back(
+        fmt::format("{}s: {} elements but {} entity indices", kind, elements.size(), entity_of.size()));
+  }
+  for (size_t i = 0; i < entity_of.size(); ++i) {
+    if (entity_of[i] >= 0 && entity_of[i] < static_cast<int>(n_entities)) continue;
+    wrong.push_back(fmt::format("{} {}: entity {} is out of range (0 to {})", kind, i, entity_of[i],
+                                int(n_entities) - 1));
+  }
+  return in_range;
+}
+
+template <size_t N>
+void check_no_twins(std::vector<std::array<int, N>> elements, const char* kind, Report& wrong) {
+  for (auto& v : elements) std::sort(v.begin(), v.end());
+  std::sort(elements.begin(), elements.end());
+  for (auto it = std::adjacent_find(elements.begin(), elements.end()); it != elements.end();
+       it = std::adjacent_find(it + 1, elements.end())) {
+    wrong.push_back(fmt::format("two {}s on the vertices {}", kind, fmt::join(*it, ", ")));
+  }
+}
+
+void check_edges(const Mesh& mesh, Report& wrong) {
+  std::vector<std::array<int, 2>> lines = mesh.lines;
+  for (auto& v : lines) std::sort(v.begin(), v.end());
+  std::sort(lines.begin(), lines.end());
+  auto line = lines.begin();
+  const auto report_lines_before = [&](const std::array<int, 2>& edge) {
+    for (; line != lines.end() && *line < edge; ++line) {
+      wrong.push_back(fmt::format("line {}, {}: not an edge of any element", (*line)[0], (*line)[1]));
+    }
+    while (line != lines.end() && *line == edge) ++line;
+  };
+
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
+    const HalfEdge& e = sides[0];
+    report_lines_before({e.lo, e.hi});
+    if (sides.size() > 2)
+      wrong.push_back(fmt::format("edge {}, {}: in {} elements", e.lo, e.hi, sides.size()));
+    if (sides.size() == 2 && sides[0].forward == sides[1].forward) {
+      wrong.push_back(fmt::format("edge {}, {}: elements {} and {} run along it the same way", e.lo, e.hi,
+                                  sides[0].element, sides[1].element));
+    }
+  });
+  const int past_the_end = static_cast<int>(mesh.points.size());
+  report_lines_before({past_the_end, past_the_end});
+}
+
+void check_all_used(const Mesh& mesh, Report& wrong) {
+  std::vector<char> used(mesh.points.size(), 0);
+  for_each_element(mesh, [&](int, const auto& v) {
+    for (const int i : v) used[i] = 1;
+  });
+  for (const auto& v : mesh.lines) used[v[0]] = used[v[1]] = 1;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) wrong.push_back(fmt::format("vertex {}: nothing uses it", i));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> check_invariants(const Mesh& mesh) {
+  Report wrong;
+  check_entities(mesh.curves, "curve", wrong);
+  check_entities(mesh.regions, "region", wrong);
+  const size_t n = mesh.points.size();
+  const bool lines = check_indices(mesh.lines, mesh.line_curve, n, mesh.curves.size(), "line", wrong);
+  const bool triangles =
+      check_indices(mesh.triangles, mesh.triangle_region, n, mesh.regions.size(), "triangle", wrong);
+  const bool quads = check_indices(mesh.quads, mesh.quad_region, n, mesh.regions.size(), "quad", wrong);
+  check_no_twins(mesh.lines, "line", wrong);
+  check_no_twins(mesh.triangles, "triangle", wrong);
+  check_no_twins(mesh.quads, "quad", wrong);
+  if (!lines || !triangles || !quads) return wrong;  // what follows reads by these indices
+  if (!mesh.triangles.empty() || !mesh.quads.empty()) check_edges(mesh, wrong);
+  check_all_used(mesh, wrong);
+  return wrong;
+}
+
+}  // namespace delquad

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// Constrained Delaunay triangulation of a patch: the boundary's points, then `interior` ones; nothing
+/// outside is kept. Throws InputError when boundary edges cross or an interior point lies outside, on the
+/// boundary or on another point.
+TriPatch constrained_delaunay(const PatchBoundary& boundary, const std::vector<Vec2>& interior = {});
+
+/// What is wrong with the triangulation, one line each: ranges, orientation, neighbours that do not agree.
+std::vector<std::string> check_invariants(const TriPatch& tri);
+
+}  // namespace delquad

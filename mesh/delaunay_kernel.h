@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// Indexed constrained Delaunay triangulation that grows by single points (Bowyer-Watson with exact
+/// predicates). Boundary sides have no neighbour, which is what stops a cavity there.
+class DelaunayKernel {
+ public:
+  struct Triangle {
+    std::array<int, 3> v;  ///< counterclockwise
+    std::array<int, 3> n;  ///< n[k] lies across the side opposite to v[k]; -1: boundary
+  };
+  /// An edge of the cavity's shell; the new point lies on its left.
+  struct ShellEdge {
+    int a, b;
+    int outer;       ///< triangle beyond, -1 on the boundary
+    int inner;       ///< cavity triangle that owns the edge
+    int inner_side;  ///< which of its sides it is
+  };
+
+  /// Starts from a constrained Delaunay triangulation.
+  explicit DelaunayKernel(const TriPatch& initial);
+
+  const std::vector<Vec2>& points() const { return points_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  /// The triangle that holds x, found by a visibility walk from `start`; -1 when the walk leaves the domain.
+  int locate(Vec2 x, int start) const;
+
+  /// Finds the triangles whose circumcircles contain x, which lies in `triangle`. False when x cannot be
+  /// connected to the whole shell (it lies on the boundary or on a vertex). Nothing changes until insert().
+  bool find_cavity(Vec2 x, int triangle);
+  std::span<const int> cavity() const { return cavity_; }
+  /// Counterclockwise.
+  std::span<const ShellEdge> shell() const { return shell_; }
+
+  /// Replaces the last cavity by the star of x, whose index is points().size() - 1 afterwards. Returns the
+  /// new triangles: the k-th is (x, a, b) over the k-th shell edge. The cavity's indices are used again.
+  std::span<const int> insert(Vec2 x);
+
+  TriPatch to_patch(int n_boundary) const;
+
+ private:
+  int side_of(int triangle, int neighbour) const;
+
+  std::vector<Vec2> points_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> cavity_, star_;
+  std::vector<ShellEdge> shell_;
+  std::vector<std::array<int, 2>> stack_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace delquad {
+
+/// One side of a triangle or quad.
+struct HalfEdge {
+  int lo, hi;    ///< its ends, lo <= hi
+  int element;   ///< triangles first, then quads
+  bool forward;  ///< the element runs from lo to hi
+};
+
+/// Calls visit(element, vertices) for every triangle, then every quad; `vertices` is an array of 3 or 4.
+template <class Visit>
+void for_each_element(const Mesh& mesh, Visit visit) {
+  int element = 0;
+  for (const auto& v : mesh.triangles) visit(element++, v);
+  for (const auto& v : mesh.quads) visit(element++, v);
+}
+
+/// All sides of all elements, sorted by (lo, hi, element): the sides of one edge follow each other. Indices
+/// must be in range.
+inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
+  std::vector<int> start(mesh.points.size() + 1, 0);
+  for_each_element(mesh, [&](int, const auto& v) {
+    for (size_t k = 0; k < v.size(); ++k) ++start[std::min(v[k], v[(k + 1) % v.size()]) + 1];
+  });
+  for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+
+  std::vector<HalfEdge> sides(start.back());
+  std::vector<int> next = start;
+  for_each_element(mesh, [&](int element, const auto& v) {
+    for (size_t k = 0; k < v.size(); ++k) {
+      const int a = v[k], b = v[(k + 1) % v.size()];
+      sides[next[std::min(a, b)]++] = {std::min(a, b), std::max(a, b), element, a < b};
+    }
+  });
+  for (size_t i = 0; i + 1 < start.size(); ++i) {
+    std::sort(sides.begin() + start[i], sides.begin() + start[i + 1],
+              [](const HalfEdge& s, const HalfEdge& t) {
+                return std::tie(s.hi, s.element, s.forward) < std::tie(t.hi, t.element, t.forward);
+              });
+  }
+  return sides;
+}
+
+/// Calls visit(span of its sides) once for each edge of sorted half-edges.
+template <class Visit>
+void for_each_edge(std::span<const HalfEdge> sides, Visit visit) {
+  for (size_t i = 0; i < sides.size();) {
+    size_t j = i + 1;
+    while (j < sides.size() && sides[j].lo == sides[i].lo && sides[j].hi == sides[i].hi) ++j;
+    visit(sides.subspan(i, j - i));
+    i = j;
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,153 @@
+#include "metrics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesh/half_edges.h"
+#include "metrics/shape.h"
+#include "metrics/size_efficiency.h"
+
+namespace delquad {
+
+namespace {
+
+using Values = std::map<std::string, double>;
+
+void add_to(Histogram& histogram, double value) {
+  const double bins = static_cast<double>(histogram.counts.size());
+  const double bin = std::floor((value - histogram.low) / (histogram.high - histogram.low) * bins);
+  // The last bin is closed; not a number falls into the first.
+  ++histogram.counts[bin > 0 ? static_cast<size_t>(std::min(bin, bins - 1)) : 0];
+}
+
+/// Smallest value that at least `percent` of the sorted values do not exceed.
+double nearest_rank(const std::vector<double>& sorted, double percent) {
+  const double rank = std::ceil(percent / 100 * static_cast<double>(sorted.size()));
+  return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];
+}
+
+template <size_t N>
+void add_angles(const ElementShape<N>& shape, MeshMetrics& metrics) {
+  double& low = metrics.values["angle_min"];
+  double& high = metrics.values["angle_max"];
+  for (const double radians : shape.angle) {
+    const double angle = radians * 180 / std::numbers::pi;
+    add_to(metrics.angle, angle);
+    if (!(angle >= low)) low = angle;
+    if (!(angle <= high)) high = angle;
+  }
+}
+
+void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
+  const auto normal = common_normal(mesh);
+  std::vector<double> etas;
+  etas.reserve(mesh.quads.size());
+  double inverted = 0, worst_jacobian = 1, jacobian_sum = 0, eta_sum = 0;
+  for (size_t q = 0; q < mesh.quads.size(); ++q) {
+    const ElementShape<4> shape = quad_shape(mesh, static_cast<int>(q), normal);
+    add_angles(shape, metrics);
+    etas.push_back(eta_of(shape.angle));
+    add_to(metrics.eta, etas.back());
+    eta_sum += etas.back();
+    inverted += etas.back() > 0 ? 0 : 1;
+    worst_jacobian = std::min(worst_jacobian, shape.scaled_jacobian);
+    jacobian_sum += shape.scaled_jacobian;
+  }
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const ElementShape<3> shape = triangle_shape(mesh, static_cast<int>(t), normal);
+    add_angles(shape, metrics);
+    inverted += shape.scaled_jacobian > 0 ? 0 : 1;
+  }
+  metrics.values["n_inverted"] = inverted;
+  if (etas.empty()) return;
+
+  std::sort(etas.begin(), etas.end());
+  const double n = static_cast<double>(etas.size());
+  metrics.values["eta_mean"] = eta_sum / n;
+  metrics.values["eta_worst"] = etas.front();
+  metrics.values["eta_p1"] = nearest_rank(etas, 1);
+  metrics.values["eta_p5"] = nearest_rank(etas, 5);
+  metrics.values["eta_p50"] = nearest_rank(etas, 50);
+  metrics.values["scaled_jacobian_min"] = worst_jacobian;
+  metrics.values["scaled_jacobian_mean"] = jacobian_sum / n;
+}
+
+void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMetrics& metrics) {
+  std::vector<int> quads_at(mesh.points.size(), 0), triangles_at(mesh.points.size(), 0);
+  for (const auto& v : mesh.quads) {
+    for (const int i : v) ++quads_at[i];
+  }
+  for (const auto& v : mesh.triangles) {
+    for (const int i : v) ++triangles_at[i];
+  }
+  std::vector<char> on_boundary(mesh.points.size(), 0);
+  double n_edges = 0;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    ++n_edges;
+    if (edge.size() != 2) on_boundary[edge[0].lo] = on_boundary[edge[0].hi] = 1;
+  });
+  double n_vertices = 0, n_interior = 0, n_regular = 0;
+  for (size_t i = 0; i < mesh.points.size(); ++i) {
+    const int valence = quads_at[i] + triangles_at[i];
+    if (valence == 0) continue;
+    ++n_vertices;
+    if (on_boundary[i]) continue;
+    ++n_interior;
+    ++metrics.valences[valence];
+    n_regular += quads_at[i] == 4 && triangles_at[i] == 0 ? 1 : 0;
+  }
+  Values& values = metrics.values;
+  values["n_vertices"] = n_vertices;
+  values["n_edges"] = n_edges;
+  if (metrics.valences.empty()) return;
+  values["d_min"] = metrics.valences.begin()->first;
+  values["d_max"] = metrics.valences.rbegin()->first;
+  if (mesh.quads.empty()) return;
+  values["d4"] = 100 * n_regular / n_interior;
+  values["n_irregular"] = n_interior - n_regular;
+}
+
+}  // namespace
+
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size) {
+  MeshMetrics metrics;
+  for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
+  metrics.eta = {0, 1, std::vector<long long>(20, 0)};
+  metrics.angle = {0, 360, std::vector<long long>(36, 0)};
+
+  const double n_quads = static_cast<double>(mesh.quads.size());
+  const double n_elements = n_quads + static_cast<double>(mesh.triangles.size());
+  metrics.values["n_quads"] = n_quads;
+  metrics.values["n_triangles"] = n_elements - n_quads;
+  metrics.values["n_elements"] = n_elements;
+  if (n_elements > 0) metrics.values["percent_quads"] = 100 * n_quads / n_elements;
+
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  measure_shapes(mesh, metrics);
+  measure_topology(mesh, sides, metrics);
+  if (size != nullptr) metrics.values["tau"] = efficiency_index(mesh, sides, *size);
+  return metrics;
+}
+
+double quad_eta(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal) {
+  return eta_of(element_shape(std::array{a, b, c, d}, normal).angle);
+}
+
+double quad_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const auto lift = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  return quad_eta(lift(a), lift(b), lift(c), lift(d), {0, 0, 1});
+}
+
+std::vector<double> quad_etas(const Mesh& mesh) {
+  const auto normal = common_normal(mesh);
+  std::vector<double> etas;
+  etas.reserve(mesh.quads.size());
+  for (size_t q = 0; q < mesh.quads.size(); ++q) {
+    etas.push_back(eta_of(quad_shape(mesh, static_cast<int>(q), normal).angle));
+  }
+  return etas;
+}
+
+}  // namespace delquad

@@ -1,0 +1,40 @@
+#include <limits>
+
+#include "metrics/metrics.h"
+
+namespace delquad {
+
+std::span<const Metric> metric_registry() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  using enum Better;
+  static const Metric registry[] = {
+      {"n_elements", "N", "", kNeither, kNone, "triangles and quads"},
+      {"eta_mean", "eta mean", "", kHigher, 0, "paper 6.1, equation (4), mean over quads"},
+      {"eta_worst", "eta worst", "", kHigher, 0, "paper 6.1, equation (4), least over quads"},
+      {"tau", "tau", "%", kHigher, 0, "paper 6.2, equations (5) and (6), each edge once"},
+      {"d4", "d4", "%", kHigher, 0, "paper 6.3, interior vertices with four quads and nothing else"},
+      {"d_min", "dmin", "", kHigher, 1, "paper 6.3, least number of elements at an interior vertex"},
+      {"d_max", "dmax", "", kLower, kInfinite,
+       "paper 6.3, greatest number of elements at an interior vertex"},
+      {"percent_quads", "% quads", "%", kHigher, 0, "paper, table I, share of the elements"},
+      {"n_vertices", "vertices", "", kNeither, kNone, "vertices of elements"},
+      {"n_edges", "edges", "", kNeither, kNone, "edges of elements, each once"},
+      {"n_quads", "quads", "", kNeither, kNone, "count"},
+      {"n_triangles", "triangles", "", kNeither, kNone, "count"},
+      {"n_irregular", "irregular", "", kLower, kInfinite, "interior vertices that d4 leaves out"},
+      {"n_inverted", "inverted", "", kLower, kInfinite, "quads with eta 0, triangles without positive area"},
+      {"scaled_jacobian_min", "SJ min", "", kHigher, -1,
+       "least sine of a quad's angles (signed), least over quads"},
+      {"scaled_jacobian_mean", "SJ mean", "", kHigher, -1,
+       "least sine of a quad's angles (signed), mean over quads"},
+      {"angle_min", "angle min", "deg", kHigher, 0, "inner angles of all elements"},
+      {"angle_max", "angle max", "deg", kLower, 360, "inner angles of all elements"},
+      {"eta_p1", "eta 1 %", "", kHigher, 0, "eta that 1 % of the quads do not exceed (nearest rank)"},
+      {"eta_p5", "eta 5 %", "", kHigher, 0, "eta that 5 % of the quads do not exceed (nearest rank)"},
+      {"eta_p50", "eta 50 %", "", kHigher, 0, "eta that half the quads do not exceed (nearest rank)"},
+  };
+  return registry;
+}
+
+}  // namespace delquad

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fields/fields.h"
+#include "geometry/planar_model.h"
+#include "pipeline/model_file.h"
+#include "pipeline/options.h"
+
+namespace delquad {
+
+/// The wanted size, as it was written.
+struct SizeSpec {
+  std::string base;  ///< a number, an expression in x, y, z, or "boundary"; empty: boundary for line meshes
+  std::vector<SizeSource> sources;
+  double gradation = 0;  ///< the most |grad delta|; 0: no limit
+  std::string where;     ///< for messages
+};
+
+/// The wanted directions: "boundary", "gradient" or an angle expression in x, y, z (radians).
+struct CrossSpec {
+  std::string text = "boundary";
+  std::string where;
+};
+
+/// A model with its fields and options: what a pipeline works on.
+struct Case {
+  std::string name;
+  std::string where;                 ///< file and line it was read from
+  std::optional<PlanarModel> model;  ///< analytic curves, or else
+  std::vector<DeclaredHole> holes;   ///< loops of the model that must not bound a region from outside
+  std::filesystem::path mesh_file;   ///< a mesh of lines
+  SizeSpec size;
+  CrossSpec cross;
+  MeshingOptions options;
+  std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
+};
+
+/// The value of a text that is a number and nothing else.
+std::optional<double> as_number(const std::string& text);
+
+}  // namespace delquad

@@ -1,0 +1,143 @@
+#include "pipeline/case_file.h"
+
+#include <charconv>
+
+#include "pipeline/located.h"
+#include "pipeline/model_file.h"
+
+namespace delquad {
+namespace {
+
+double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
+  const double value = table.number(key, absent);
+  if (value < least)
+    throw InputError(table.where(key) + ": '" + key + "' is " + std::to_string(value) +
+                     ": expected at least " + std::to_string(least));
+  return value;
+}
+
+SizeSource read_source(const TomlTable& table) {
+  const Vec2 at = table.point("at");
+  const Vec2 to = table.has("to") ? table.point("to") : at;
+  SizeSource source{{at.x, at.y, 0},
+                    {to.x, to.y, 0},
+                    table.positive_number("near"),
+                    table.positive_number("far"),
+                    number_at_least(table, "radius_near", 0, 0),
+                    table.positive_number("radius_far")};
+  if (source.radius_far <= source.radius_near)
+    throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
+  table.finish();
+  return source;
+}
+
+SizeSpec read_size(const TomlTable& table) {
+  SizeSpec size;
+  size.where = table.where("size");
+  if (table.kind("size") != TomlKind::kTable) {
+    size.base = table.expression("size");
+    return size;
+  }
+  const TomlTable fields = table.table("size");
+  if (fields.has("base")) size.base = fields.expression("base");
+  for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
+  if (fields.has("gradation")) size.gradation = fields.positive_number("gradation");
+  fields.finish();
+  return size;
+}
+
+void read_insertion(const TomlTable& table, MeshingOptions& options) {
+  FrontalOptions& frontal = options.frontal;
+  if (table.has("h_max")) frontal.h_max = table.positive_number("h_max");
+  frontal.rejection = number_at_least(table, "rejection", 0, frontal.rejection);
+  frontal.boundary_height = number_at_least(table, "boundary_height", 0, frontal.boundary_height);
+  options.linf.lower_clamp = table.flag("lower_clamp", options.linf.lower_clamp);
+  table.finish();
+}
+
+void read_recombination(const TomlTable& table, MeshingOptions& options) {
+  if (table.has("treatment")) {
+    const std::string text = table.text("treatment");
+    if (text != "none" && text != "paper")
+      throw InputError(table.where("treatment") + ": 'treatment' is '" + text +
+                       "': expected \"none\" or \"paper\"");
+    options.treatment = text == "none" ? Treatment::kNone : Treatment::kPaper;
+  }
+  if (table.has("max_rounds")) {
+    const long long rounds = table.integer("max_rounds");
+    if (rounds < 0 || rounds > 1'000'000)
+      throw InputError(table.where("max_rounds") + ": 'max_rounds' must lie between 0 and 1000000");
+    options.treatment_options.max_rounds = static_cast<int>(rounds);
+  }
+  table.finish();
+}
+
+void read_model_keys(const TomlTable& table, Case& target) {
+  const std::filesystem::path folder = table.file().parent_path();
+  const bool drawn = has_planar_model(table);
+  if (table.has("mesh") && drawn)
+    throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
+  if (table.has("model") && (drawn || table.has("mesh")))
+    throw InputError(table.where("model") + ": 'model' and a model of the case's own exclude each other");
+  if (table.has("model")) {
+    Case other =
+        located(table.where("model"), [&] { return read_model_case(folder / table.text("model"), target); });
+    other.name = target.name;
+    other.where = target.where;
+    target = std::move(other);
+  } else if (table.has("mesh")) {
+    target.mesh_file = folder / table.text("mesh");
+    if (target.mesh_file.extension() != ".msh")
+      throw InputError(table.where("mesh") + ": '" + target.mesh_file.string() + "' is not a .msh file");
+  } else if (drawn) {
+    ModelFile file = read_planar_model(table);
+    target.model = std::move(file.model);
+    target.holes = std::move(file.holes);
+  }
+}
+
+}  // namespace
+
+std::optional<double> as_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+void read_case_keys(const TomlTable& table, Case& target) {
+  read_model_keys(table, target);
+  if (table.has("size")) target.size = read_size(table);
+  if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
+  if (const auto insertion = table.optional_table("insertion")) read_insertion(*insertion, target.options);
+  if (const auto merging = table.optional_table("recombination"))
+    read_recombination(*merging, target.options);
+  if (const auto compare = table.optional_table("compare"))
+    for (const std::string& word : compare->keys()) target.compare[word] = compare->text(word);
+}
+
+Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
+  Case result = defaults;
+  result.name = file.stem().string();
+  result.where = file.string();
+  if (file.extension() == ".msh") {
+    result.mesh_file = file;
+    return result;
+  }
+  if (file.extension() != ".toml")
+    throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
+                     "'; known: .toml (curves and loops), .msh (line elements)");
+  const TomlTable table = TomlTable::read(file);
+  if (table.has("case"))
+    throw InputError(table.where("case") +
+                     ": this is an experiment with cases of its own: run it with 'delquad run'");
+  if (table.has("model"))
+    throw InputError(table.where("model") + ": a model file cannot take its model from another one");
+  read_case_keys(table, result);
+  table.finish();
+  if (!result.model && result.mesh_file.empty())
+    throw InputError(file.string() + ": no model: expected 'loop', 'pattern' or 'mesh'");
+  return result;
+}
+
+}  // namespace delquad

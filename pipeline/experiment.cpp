@@ -1,0 +1,139 @@
+#include "pipeline/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/toml_reader.h"
+#include "metrics/metrics.h"
+#include "pipeline/case_file.h"
+#include "pipeline/located.h"
+
+namespace delquad {
+namespace {
+
+const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
+
+void check_metric(const TomlTable& table, const std::string& key, const std::string& metric) {
+  std::vector<std::string> known;
+  for (const Metric& m : metric_registry()) known.push_back(m.key);
+  if (std::find(known.begin(), known.end(), metric) != known.end()) return;
+  const auto near = nearest_name(metric, known);
+  throw InputError(table.where(key) + ": unknown metric '" + metric + "'" +
+                   (near ? "; did you mean '" + *near + "'?" : ""));
+}
+
+std::vector<PublishedRow> read_published(const std::filesystem::path& file) {
+  const TomlTable top = TomlTable::read(file);
+  const std::string source = top.text("source");
+  std::vector<PublishedRow> rows;
+  for (const TomlTable& table : top.tables("row")) {
+    PublishedRow row{table.text("name"), source, {}};
+    for (const std::string& key : table.keys()) {
+      if (key == "name") continue;
+      check_metric(table, key, key);
+      row.values[key] = table.number(key);
+    }
+    rows.push_back(std::move(row));
+  }
+  top.finish();
+  return rows;
+}
+
+ExpectedRatio read_ratio(const TomlTable& table) {
+  ExpectedRatio ratio{table.text("metric"), table.text("numerator"), table.text("denominator"),
+                      table.positive_number("expected"), table.text("source", "")};
+  check_metric(table, "metric", ratio.metric);
+  located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
+  located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
+  table.finish();
+  return ratio;
+}
+
+std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most) {
+  std::vector<int> counts;
+  for (const double n : table.numbers(key)) {
+    if (n != std::floor(n) || n < least || n > most)
+      throw InputError(table.where(key) + ": '" + key + "' must hold integers from " +
+                       std::to_string(static_cast<int>(least)) + " to " +
+                       std::to_string(static_cast<int>(most)));
+    counts.push_back(static_cast<int>(n));
+  }
+  if (counts.empty()) throw InputError(table.where(key) + ": '" + key + "' is empty");
+  return counts;
+}
+
+LinfStudy read_linf_study(const TomlTable& table) {
+  LinfStudy study{read_counts(table, "points", 3, 1e7), read_counts(table, "seeds", 0, 1e9)};
+  table.finish();
+  return study;
+}
+
+/// Case names become folders.
+void check_case_name(const TomlTable& table, const std::string& name, const std::vector<Case>& others) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  if (name.empty() || name.front() == '.' || name.size() > 100 ||
+      !std::all_of(name.begin(), name.end(), plain))
+    throw InputError(table.where("name") + ": '" + name +
+                     "' names a folder: expected letters, digits, '_', '-' and '.', not at the front");
+  for (const Case& other : others)
+    if (other.name == name) throw InputError(table.where("name") + ": a second case '" + name + "'");
+}
+
+void check_comparisons(const TomlTable& table, const Case& c, const std::vector<PublishedRow>& published) {
+  std::vector<std::string> names;
+  for (const PublishedRow& row : published) names.push_back(row.name);
+  for (const auto& [word, name] : c.compare) {
+    located(table.where("compare"), [&] { return parse_word(word); });
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const auto near = nearest_name(name, names);
+    throw InputError(table.where("compare") + ": no published row '" + name + "'" +
+                     (near ? "; did you mean '" + *near + "'?" : ""));
+  }
+}
+
+Case read_case(const TomlTable& table, const Case& defaults, const Experiment& experiment) {
+  Case c = defaults;
+  c.name = table.text("name");
+  c.where = table.where();
+  check_case_name(table, c.name, experiment.cases);
+  read_case_keys(table, c);
+  check_comparisons(table, c, experiment.published);
+  table.finish();
+  if (!c.model && c.mesh_file.empty())
+    throw InputError(table.where() + ": case '" + c.name +
+                     "' has no model: expected 'loop', 'pattern', 'mesh' or 'model'");
+  return c;
+}
+
+}  // namespace
+
+Experiment read_experiment(const std::filesystem::path& file) {
+  const TomlTable table = TomlTable::read(file);
+  Experiment experiment;
+  experiment.file = file;
+  experiment.title = table.text("title", file.stem().string());
+  const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
+  experiment.words = located(table.where("pipelines"), [&] { return parse_words(words); });
+  if (table.has("reference"))
+    experiment.published = read_published(file.parent_path() / table.text("reference"));
+  if (const auto ratio = table.optional_table("ratio")) experiment.ratio = read_ratio(*ratio);
+  if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
+
+  Case defaults;  // what the file says for every case
+  defaults.where = file.string();
+  read_case_keys(table, defaults);
+  for (const TomlTable& c : table.tables("case"))
+    experiment.cases.push_back(read_case(c, defaults, experiment));
+  table.finish();
+  if (experiment.cases.empty() && !experiment.linf)
+    throw InputError(file.string() +
+                     ": no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'");
+  if (!experiment.cases.empty() && experiment.linf)
+    throw InputError(table.where("linf_delaunay") + ": 'linf_delaunay' and cases exclude each other");
+  return experiment;
+}
+
+}  // namespace delquad

@@ -1,0 +1,215 @@
+#include "pipeline/experiment_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "io/mesh_io.h"
+#include "io/picture.h"
+#include "pipeline/case_pictures.h"
+#include "pipeline/interrupt.h"
+#include "pipeline/linf_study.h"
+#include "pipeline/record.h"
+#include "pipeline/runner.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSeconds = "seconds";
+/// What the paper's tables show, then the counts and the time.
+const std::vector<std::pair<const char*, int>> kColumns = {
+    {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0}, {"eta_worst", 3}, {"eta_mean", 3},
+    {"d4", 1},         {"d_min", 0},   {"d_max", 0},       {"tau", 1},       {"percent_quads", 1}};
+
+std::vector<TableColumn> table_columns() {
+  std::vector<TableColumn> columns;
+  for (const auto& [key, digits] : kColumns) {
+    const auto metrics = metric_registry();
+    const auto at =
+        std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.key == key; });
+    columns.push_back({key, at == metrics.end() ? key : at->title, digits});
+  }
+  columns.push_back({kSeconds, "s", 2});
+  return columns;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  write_file_atomically(path, [&](std::ostream& out) { out << text; });
+}
+
+/// What an earlier run left would pass for what this one made.
+void clear_cell(const fs::path& folder) {
+  for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"}) {
+    std::error_code status;  // nothing there: nothing to do; not removable: writing says so
+    fs::remove(folder / name, status);
+  }
+}
+
+class Runner {
+ public:
+  Runner(const Experiment& experiment, const fs::path& folder, Progress& progress)
+      : experiment_(experiment), folder_(folder), progress_(progress) {
+    outcome_.table.title = experiment.title;
+    outcome_.table.columns = table_columns();
+  }
+
+  ExperimentOutcome run() {
+    for (const PublishedRow& row : experiment_.published)
+      outcome_.table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
+    for (const Case& c : experiment_.cases) run_case(c);
+    if (experiment_.ratio) note_ratio(*experiment_.ratio);
+    return std::move(outcome_);
+  }
+
+ private:
+  void run_case(const Case& c) {
+    progress_.step(c.name + ": boundary and fields");
+    std::optional<PreparedCase> prepared;
+    const std::string failure = guarded(c.name, [&] { prepared = prepare_case(c); });
+    if (prepared) {
+      for (const std::string& warning : prepared->warnings) progress_.message("warning: " + warning);
+      const fs::path folder = folder_ / c.name;
+      prepare_folder(folder);
+      const Uninterrupted whole;
+      draw_case(*prepared, c.name, folder);
+    }
+    for (const Word& word : experiment_.words) {
+      if (prepared)
+        run_cell(c, *prepared, word);
+      else {
+        progress_.skip(run_steps(word));
+        add_failure(c, word, failure);
+      }
+    }
+  }
+
+  void run_cell(const Case& c, const PreparedCase& prepared, const Word& word) {
+    std::optional<RunResult> result;
+    const std::string failure =
+        guarded(c.name + " " + word.text, [&] { result = run_word(c, prepared, word, progress_); });
+    if (!result) return add_failure(c, word, failure);
+
+    const fs::path folder = folder_ / c.name / word.text;
+    prepare_folder(folder);
+    {
+      const Uninterrupted whole;
+      clear_cell(folder);
+      write_msh(folder / "mesh.msh", result->mesh);
+      write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
+      draw_mesh(folder / "picture.svg", result->mesh, c.name + " " + word.text);
+      write_text(folder / "record.json", run_record(c, prepared, word, *result));
+    }
+    TableRow row{c.name, word.text, result->metrics.values, {}, "", ""};
+    row.values[kSeconds] = result->seconds;
+    compare(c, word, row);
+    outcome_.table.rows.push_back(std::move(row));
+    if (word.result == PatchForm::kQuads)
+      outcome_.leftover_triangles += static_cast<long long>(result->mesh.triangles.size());
+  }
+
+  void compare(const Case& c, const Word& word, TableRow& row) const {
+    const auto name = c.compare.find(word.text);
+    if (name == c.compare.end()) return;
+    for (const PublishedRow& published : experiment_.published)
+      if (published.name == name->second) {
+        row.published = published.values;
+        row.source = published.name + ", " + published.source;
+      }
+  }
+
+  void add_failure(const Case& c, const Word& word, const std::string& reason) {
+    outcome_.table.rows.push_back({c.name, word.text, {}, {}, "", reason});
+    const fs::path folder = folder_ / c.name / word.text;
+    prepare_folder(folder);
+    const Uninterrupted whole;
+    clear_cell(folder);
+    write_text(folder / "record.json", failure_record(c, word, reason));
+  }
+
+  /// Runs `work`, called `label`; returns why it failed, empty when it did not. Counts the failure and prints
+  /// it.
+  template <class F>
+  std::string guarded(const std::string& label, F&& work) {
+    std::string reason;
+    try {
+      work();
+    } catch (const InputError& error) {
+      reason = error.what();
+      ++outcome_.bad_inputs;
+      progress_.message(fmt::format("error: {}: {}", label, reason));
+    } catch (const std::exception& error) {
+      reason = std::string("internal error: ") + error.what();
+      ++outcome_.internal_errors;
+      progress_.message(fmt::format("{}: {}", label, reason));
+    }
+    return reason;
+  }
+
+  void note_ratio(const ExpectedRatio& ratio) {
+    for (const Case& c : experiment_.cases) {
+      const double a = value(c.name, ratio.numerator, ratio.metric),
+                   b = value(c.name, ratio.denominator, ratio.metric);
+      if (std::isnan(a) || std::isnan(b) || b == 0) continue;
+      outcome_.table.notes.push_back(
+          fmt::format("{}: {} of {} / {} = {:.4f}; expected {:.4f} ({:+.2f} %{}{})", c.name, ratio.metric,
+                      ratio.numerator, ratio.denominator, a / b, ratio.expected,
+                      100 * (a / b / ratio.expected - 1), ratio.source.empty() ? "" : "; ", ratio.source));
+    }
+  }
+
+  double value(const std::string& case_name, const std::string& word, const std::string& metric) const {
+    for (const TableRow& row : outcome_.table.rows)
+      if (row.group == case_name && row.name == word && row.values.contains(metric))
+        return row.values.at(metric);
+    return std::nan("");
+  }
+
+  const Experiment& experiment_;
+  const fs::path& folder_;
+  Progress& progress_;
+  ExperimentOutcome outcome_;
+};
+
+void write_tables(const Table& table, const fs::path& folder) {
+  const Uninterrupted whole;
+  write_text(folder / "table.md", to_markdown(table));
+  write_text(folder / "table.csv", to_csv(table));
+  write_text(folder / "table.tex", to_tex(table));
+  write_text(folder / "table.json", to_json(table));
+}
+
+}  // namespace
+
+int experiment_steps(const Experiment& experiment) {
+  if (experiment.linf) return linf_study_steps(*experiment.linf);
+  int steps = 0;
+  for (const Word& word : experiment.words) steps += run_steps(word);
+  return static_cast<int>(experiment.cases.size()) * (1 + steps);
+}
+
+ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& folder, Progress& progress) {
+  prepare_folder(folder);
+  ExperimentOutcome outcome;
+  if (experiment.linf)
+    outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
+  else
+    outcome = Runner(experiment, folder, progress).run();
+  write_tables(outcome.table, folder);
+  return outcome;
+}
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
+  const fs::path probe = folder / ".delquad-probe";
+  write_text(probe, "");
+  fs::remove(probe, status);
+}
+
+}  // namespace delquad

@@ -1,0 +1,196 @@
+#include "pipeline/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/mesh_io.h"
+#include "pipeline/boundary_report.h"
+#include "pipeline/located.h"
+#include "pipeline/stopwatch.h"
+
+namespace delquad {
+namespace {
+
+constexpr const char* kFromBoundary = "boundary";
+constexpr const char* kFromGradient = "gradient";
+/// Central differences for the direction of grad delta, in diagonals of the domain: far above rounding of the
+/// coordinates, far below any feature that a mesh could show.
+constexpr double kGradientStep = 1e-6;
+/// Up to this many boundary edges, the domain is cheap enough to be built before the number of quads is
+/// known.
+constexpr double kCheapEdges = 2e5;
+/// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
+constexpr double kCoarseEdges = 2e4;
+
+/// A number or an expression as a field.
+std::shared_ptr<const SizeField> make_base(const std::string& text) {
+  if (const auto number = as_number(text)) {
+    if (!(*number > 0) || *number > std::numeric_limits<double>::max())
+      throw InputError("size " + text + ": expected a finite number > 0");
+    return make_constant_size(*number);
+  }
+  return make_expression_size(text);
+}
+
+/// The field without its gradation limit; `boundary` makes the one that follows the boundary's edges.
+template <class F>
+std::shared_ptr<const SizeField> make_size(const SizeSpec& spec, F&& boundary) {
+  std::shared_ptr<const SizeField> base;
+  if (spec.base == kFromBoundary || (spec.base.empty() && spec.sources.empty()))
+    base = boundary();
+  else if (!spec.base.empty())
+    base = located(spec.where, [&] { return make_base(spec.base); });
+  if (spec.sources.empty()) return base;
+  return make_source_size(std::move(base), spec.sources);
+}
+
+SizeFunction as_function(std::shared_ptr<const SizeField> size, double scale = 1) {
+  return
+      [size = std::move(size), scale, hint = -1](const Vec3& x) mutable { return scale * size->at(x, hint); };
+}
+
+/// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
+double rough_edges(const PlanarModel& model, const SizeField& size) {
+  constexpr int kChords = 200;  // a curve
+  double edges = 0;
+  int hint = -1;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k < kChords; ++k) {
+      const Vec2 a = curve.shape->point(double(k) / kChords), b = curve.shape->point(double(k + 1) / kChords);
+      const Vec2 m = 0.5 * (a + b);
+      edges += norm(b - a) / size.at({m.x, m.y, 0}, hint);
+    }
+  return edges;
+}
+
+void check_count(double quads, const Case& c) {
+  if (quads <= static_cast<double>(c.options.max_elements)) return;
+  throw InputError(fmt::format("{}: the size asks for about {:.3g} quads, more than --max-elements {}",
+                               c.size.where.empty() ? c.where : c.size.where, quads, c.options.max_elements));
+}
+
+/// Refuses a hopeless size while it is still cheap: estimates the quads on a domain with coarser boundaries.
+void check_count_early(const Case& c, const std::shared_ptr<const SizeField>& size) {
+  const double edges = rough_edges(*c.model, *size);
+  if (!(edges > kCheapEdges)) return;
+  std::optional<PlanarDomain> coarse;
+  try {
+    coarse = make_domain(*c.model, as_function(size, edges / kCoarseEdges));
+  } catch (const InputError&) {
+    // The boundary makes sense only at its full resolution, where the same check is made again.
+  }
+  if (!coarse)
+    return check_count(edges / 2,
+                       c);  // each boundary edge has a quad, which has two at most, but for corners
+  check_count(expected_quads(BackgroundMesh(coarse->patches), *size), c);
+}
+
+PlanarDomain mesh_model(const Case& c, const std::shared_ptr<const SizeField>& size) {
+  CurveMeshOptions options;
+  options.max_edges = static_cast<double>(c.options.max_elements);
+  return make_domain(*c.model, as_function(size), options);
+}
+
+void prepare_model(const Case& c, PreparedCase& p) {
+  const SizeSpec& spec = c.size;
+  p.size = make_size(spec, [&]() -> std::shared_ptr<const SizeField> {
+    throw InputError(
+        (spec.where.empty() ? c.where : spec.where) +
+        ": curves have no edge lengths of their own: expected a size (a number or an expression)");
+  });
+  check_count_early(c, p.size);
+  p.domain = mesh_model(c, p.size);
+  p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
+  if (spec.gradation > 0) {
+    p.size = limit_gradation(p.size, p.background, spec.gradation);
+    check_count_early(c, p.size);
+    p.domain = mesh_model(c, p.size);
+    p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
+  }
+}
+
+Mesh read_lines(const Case& c, PreparedCase& p) {
+  Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file); });
+  if (mesh.lines.empty())
+    throw InputError(c.mesh_file.string() +
+                     ": holds no line elements: expected the boundary of a planar domain");
+  if (!mesh.triangles.empty() || !mesh.quads.empty()) {
+    p.warnings.push_back(
+        fmt::format("{}: {} triangles and {} quads are left out: only lines count as boundary",
+                    c.mesh_file.string(), mesh.triangles.size(), mesh.quads.size()));
+    mesh.triangles.clear();
+    mesh.triangle_region.clear();
+    mesh.quads.clear();
+    mesh.quad_region.clear();
+    mesh.regions.clear();
+  }
+  return mesh;
+}
+
+void prepare_mesh(const Case& c, PreparedCase& p) {
+  const SizeSpec& spec = c.size;
+  p.domain = make_domain(read_lines(c, p), {c.mesh_file.string(), {}});
+  p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
+  p.size = make_size(spec, [&] { return make_boundary_size(p.background, p.domain.boundary); });
+  if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
+  for (const std::string& warning : odd_boundaries(p.domain)) p.warnings.push_back(warning);
+}
+
+void make_cross(const Case& c, PreparedCase& p) {
+  const std::string& text = c.cross.text;
+  if (text == kFromGradient) {
+    p.cross = make_gradient_cross(p.size, kGradientStep * diagonal(p.domain.boundary));
+  } else if (text != kFromBoundary) {
+    p.cross = located(c.cross.where, [&] { return make_expression_cross(text); });
+  } else {
+    const auto field = std::make_shared<HarmonicCrossField>(p.background);
+    p.singularities = field->singularities();
+    const int expected = 4 * field->euler_characteristic();
+    p.index_sum_and_expected = {field->index_sum(), expected};
+    if (field->index_sum() != expected)
+      p.warnings.push_back(
+          fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
+                      "characteristic is {}/4",
+                      c.name, field->index_sum(), expected));
+    p.cross = field;
+  }
+}
+
+}  // namespace
+
+PreparedCase prepare_case(const Case& c) {
+  PreparedCase p;
+  const Stopwatch domain;
+  if (c.model)
+    prepare_model(c, p);
+  else
+    prepare_mesh(c, p);
+  p.expected_quads = expected_quads(*p.background, *p.size);
+  check_count(p.expected_quads, c);
+  check_holes(c.holes, p.domain);
+  p.seconds.emplace_back("domain", domain.seconds());
+  const Stopwatch cross;
+  make_cross(c, p);
+  p.seconds.emplace_back("cross field", cross.seconds());
+  return p;
+}
+
+std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {
+  if (text != kFromBoundary) return make_base(text);
+  const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
+  return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
+}
+
+double diagonal(const Mesh& mesh) {
+  if (mesh.points.empty()) return 0;
+  Vec3 low = mesh.points.front(), high = low;
+  for (const Vec3& p : mesh.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+}  // namespace delquad

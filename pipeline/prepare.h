@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fields/fields.h"
+#include "geometry/planar_model.h"
+#include "pipeline/case.h"
+
+namespace delquad {
+
+/// What every pipeline on a case starts from.
+struct PreparedCase {
+  PlanarDomain domain;
+  std::shared_ptr<const BackgroundMesh> background;
+  std::shared_ptr<const SizeField> size;
+  std::shared_ptr<const CrossField> cross;
+  std::vector<Singularity> singularities;  ///< of the boundary-aligned cross field
+  /// Sum of the indices of the boundary-aligned field, and what the domain's Euler characteristic makes of
+  /// it, in quarters.
+  std::optional<std::pair<int, int>> index_sum_and_expected;
+  double expected_quads = 0;  ///< integral of dA/delta^2
+  std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, double>> seconds;  ///< by step
+};
+
+/// Boundary, background mesh and fields of a case. Throws InputError for models and fields that cannot be
+/// meshed, and for a size that would need more than options.max_elements, with the estimate, before that work
+/// begins.
+PreparedCase prepare_case(const Case& c);
+
+/// The size field of a mesh that is there already: `text` is a number, an expression or "boundary".
+std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
+
+/// Diagonal of the bounding box.
+double diagonal(const Mesh& mesh);
+
+}  // namespace delquad

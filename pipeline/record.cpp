@@ -1,0 +1,189 @@
+#include "pipeline/record.h"
+
+#include <sys/utsname.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "build_info.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+Json seconds_json(const std::vector<std::pair<std::string, double>>& seconds) {
+  Json json = Json::object();
+  for (const auto& [step, s] : seconds) json[step] = s;
+  return json;
+}
+
+Json size_json(const SizeSpec& size) {
+  Json json = {{"base", size.base.empty() ? Json() : Json(size.base)}, {"sources", Json::array()}};
+  for (const SizeSource& s : size.sources)
+    json["sources"].push_back({{"at", point_json(s.a)},
+                               {"to", point_json(s.b)},
+                               {"near", s.size_near},
+                               {"far", s.size_far},
+                               {"radius_near", s.radius_near},
+                               {"radius_far", s.radius_far}});
+  json["gradation"] = size.gradation > 0 ? Json(size.gradation) : Json();
+  return json;
+}
+
+/// h_max as it was used: the strategy's own where the option leaves it.
+Json h_max_json(const MeshingOptions& options, const Word& word) {
+  if (options.frontal.h_max > 0) return options.frontal.h_max;
+  if (word.text.starts_with('F')) return make_l2_frontal()->default_h_max();
+  if (word.text.starts_with('D')) return make_linf_delquad()->default_h_max();
+  return Json();
+}
+
+Json options_json(const Case& c, const Word& word) {
+  const MeshingOptions& o = c.options;
+  return {{"size", size_json(c.size)},
+          {"cross", c.cross.text},
+          {"h_max", h_max_json(o, word)},
+          {"rejection", o.frontal.rejection},
+          {"boundary_height", o.frontal.boundary_height},
+          {"max_points", o.frontal.max_points},
+          {"lower_clamp", o.linf.lower_clamp},
+          {"treatment", o.treatment == Treatment::kPaper ? "paper" : "none"},
+          {"max_rounds", o.treatment_options.max_rounds},
+          {"max_elements", o.max_elements}};
+}
+
+Json domain_json(const PreparedCase& p) {
+  std::size_t edges = 0;
+  for (const PatchBoundary& patch : p.domain.patches) edges += patch.edges.size();
+  Json json = {{"patches", p.domain.patches.size()},
+               {"boundary_edges", edges},
+               {"background_triangles", p.background->triangles().triangles.size()},
+               {"expected_quads", p.expected_quads}};
+  return json;
+}
+
+Json cross_json(const PreparedCase& p) {
+  Json json = {{"singularities", Json::array()}};
+  for (const Singularity& s : p.singularities)
+    json["singularities"].push_back({{"at", {s.at.x, s.at.y}}, {"index_quarters", s.index}});
+  if (p.index_sum_and_expected) {
+    json["index_sum_quarters"] = p.index_sum_and_expected->first;
+    json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
+  }
+  return json;
+}
+
+Json histogram_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
+
+void add_metrics(Json& json, const MeshMetrics& metrics) {
+  Json values = Json::object();
+  for (const Metric& metric : metric_registry())
+    if (const auto at = metrics.values.find(metric.key); at != metrics.values.end())
+      values[metric.key] = at->second;
+  json["metrics"] = values;
+  json["eta_histogram"] = histogram_json(metrics.eta);
+  json["angle_histogram"] = histogram_json(metrics.angle);
+  Json valences = Json::object();
+  for (const auto& [valence, count] : metrics.valences) valences[std::to_string(valence)] = count;
+  json["valences"] = valences;
+}
+
+Json insertion_json(const FrontalSummary& s) {
+  return {{"termination", s.termination == FrontalTermination::kResolved ? "resolved" : "max_points"},
+          {"inserted", s.inserted},
+          {"rejected", s.rejected},
+          {"unresolved", s.unresolved},
+          {"layers", s.layers},
+          {"seconds", s.seconds}};
+}
+
+Json recombination_json(const RecombineSummary& s) {
+  return {{"triangles", s.triangles},
+          {"extra_edges", s.extra_edges},
+          {"matched_extra", s.matched_extra},
+          {"pentagon_swaps", s.pentagon_swaps},
+          {"duplications", s.duplications},
+          {"leftover_triangles", s.leftover_triangles},
+          {"cost", s.cost},
+          {"graph_seconds", s.graph_seconds},
+          {"matching_seconds", s.matching_seconds},
+          {"merge_seconds", s.merge_seconds}};
+}
+
+Json treatment_json(const TreatmentSummary& s) {
+  return {{"rounds", s.rounds},
+          {"doublets", s.doublets},
+          {"diamonds", s.diamonds},
+          {"swaps", s.swaps},
+          {"boundary_repairs", s.boundary_repairs},
+          {"relocated", s.relocated},
+          {"seconds", s.seconds}};
+}
+
+void add_origin(Json& json) {
+  utsname machine = {};
+  uname(&machine);
+  json["versions"] = {{"delquad", kVersion},         {"commit", kCommit},    {"build", kBuildType},
+                      {"compiler", kCompiler},       {"cgal", kCgalVersion}, {"eigen", kEigenVersion},
+                      {"lemon", kLemonVersion},      {"fmt", kFmtVersion},   {"nlohmann_json", kJsonVersion},
+                      {"muparser", kMuparserVersion}};
+  json["machine"] = {{"system", std::string(machine.sysname) + " " + machine.release},
+                     {"architecture", machine.machine},
+                     {"processors", std::thread::hardware_concurrency()}};
+}
+
+Json start_record(const Case& c, const Word& word, const std::string& status) {
+  return {{"case", c.name},
+          {"pipeline", word.text},
+          {"status", status},
+          {"model", c.model ? c.model->source : c.mesh_file.string()}};
+}
+
+std::string print(const Json& json) {
+  // A file name need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string run_record(const Case& c, const PreparedCase& prepared, const Word& word,
+                       const RunResult& result) {
+  Json json = start_record(c, word, "ok");
+  json["options"] = options_json(c, word);
+  json["domain"] = domain_json(prepared);
+  json["cross_field"] = cross_json(prepared);
+  json["warnings"] = prepared.warnings;
+  const StageLog& log = result.log;
+  if (log.insertion) json["insertion"] = insertion_json(*log.insertion);
+  if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
+  if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
+  auto seconds = prepared.seconds;
+  seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
+  json["seconds"] = seconds_json(seconds);
+  json["meshing_seconds"] = result.seconds;
+  json["peak_memory_bytes"] = result.peak_memory;
+  add_metrics(json, result.metrics);
+  add_origin(json);
+  return print(json);
+}
+
+std::string failure_record(const Case& c, const Word& word, const std::string& reason) {
+  Json json = start_record(c, word, "failed");
+  json["reason"] = reason;
+  json["options"] = options_json(c, word);
+  add_origin(json);
+  return print(json);
+}
+
+std::string metrics_record(const std::string& mesh_file, const std::string& size,
+                           const MeshMetrics& metrics) {
+  Json json = {{"mesh", mesh_file}, {"size", size.empty() ? Json() : Json(size)}};
+  add_metrics(json, metrics);
+  add_origin(json);
+  return print(json);
+}
+
+}  // namespace delquad

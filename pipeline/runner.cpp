@@ -1,0 +1,97 @@
+#include "pipeline/runner.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "pipeline/stopwatch.h"
+
+namespace delquad {
+namespace {
+
+long long peak_memory() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
+}
+
+/// Mesh node of each point of a patch; nodes are made for the points inside.
+std::vector<int> add_points(const std::vector<Vec2>& points, int n_boundary, const PatchBoundary& boundary,
+                            Mesh& mesh) {
+  std::vector<int> node(boundary.point_node.begin(), boundary.point_node.begin() + n_boundary);
+  node.reserve(points.size());
+  for (std::size_t i = n_boundary; i < points.size(); ++i) {
+    node.push_back(static_cast<int>(mesh.points.size()));
+    mesh.points.push_back({points[i].x, points[i].y, 0});
+  }
+  return node;
+}
+
+template <std::size_t N>
+void add_elements(const std::vector<std::array<int, N>>& elements, const std::vector<int>& node, int region,
+                  std::vector<std::array<int, N>>& target, std::vector<int>& target_region) {
+  target.reserve(target.size() + elements.size());
+  for (std::array<int, N> element : elements) {
+    for (int& v : element) v = node[v];
+    target.push_back(element);
+    target_region.push_back(region);
+  }
+}
+
+void check_sound(const Mesh& mesh) {
+  const std::vector<std::string> violations = check_invariants(mesh);
+  if (violations.empty()) return;
+  throw std::logic_error(
+      fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
+}
+
+}  // namespace
+
+int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
+
+Mesh assemble(const PlanarDomain& domain, const std::vector<PatchMesh>& patches) {
+  Mesh mesh = domain.boundary;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PatchMesh& patch = patches[i];
+    const PatchBoundary& boundary = domain.patches[i];
+    const int region = domain.patch_region[i];
+    if (patch.form == PatchForm::kTriangles) {
+      const auto node = add_points(patch.triangles.points, patch.triangles.n_boundary, boundary, mesh);
+      add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
+    } else {
+      const auto node = add_points(patch.quads.points, patch.quads.n_boundary, boundary, mesh);
+      add_elements(patch.quads.triangles, node, region, mesh.triangles, mesh.triangle_region);
+      add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
+    }
+  }
+  return mesh;
+}
+
+RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
+  const Stopwatch watch;
+  const PlanarSize size(*prepared.size);
+  std::vector<PatchMesh> patches(prepared.domain.patches.size());
+  RunResult result;
+  for (const Stage* stage : word.stages) {
+    progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      stage->run({prepared.domain.patches[i], *prepared.cross, size, c.options}, patches[i], result.log);
+    if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
+      throw InputError(fmt::format("{}: insertion stopped at {} points, the most allowed", c.where,
+                                   result.log.insertion->inserted));
+  }
+  result.mesh = assemble(prepared.domain, patches);
+  patches.clear();
+  result.seconds = watch.seconds();
+  progress.step(fmt::format("{} {}: metrics", c.name, word.text));
+  check_sound(result.mesh);
+  const Stopwatch measuring;
+  result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
+  result.log.add_seconds("metrics", measuring.seconds());
+  result.peak_memory = peak_memory();
+  return result;
+}
+
+}  // namespace delquad

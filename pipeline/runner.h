@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metrics/metrics.h"
+#include "pipeline/prepare.h"
+#include "pipeline/progress.h"
+#include "pipeline/stages.h"
+
+namespace delquad {
+
+/// What one pipeline made of one case.
+struct RunResult {
+  Mesh mesh;
+  MeshMetrics metrics;
+  StageLog log;
+  double seconds = 0;         ///< meshing: the stages of the word
+  long long peak_memory = 0;  ///< bytes, the most that the process has held so far
+};
+
+/// How many times run_word() calls Progress::step().
+int run_steps(const Word& word);
+
+/// Meshes every patch stage by stage, puts the patches together and measures the mesh.
+/// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
+RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
+
+/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow.
+Mesh assemble(const PlanarDomain& domain, const std::vector<PatchMesh>& patches);
+
+}  // namespace delquad

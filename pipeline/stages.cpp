@@ -1,0 +1,149 @@
+#include "pipeline/stages.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "mesh/error.h"
+#include "pipeline/stopwatch.h"
+
+namespace delquad {
+namespace {
+
+void add(std::optional<FrontalSummary>& sum, const FrontalSummary& s) {
+  if (!sum) sum.emplace();
+  if (s.termination != FrontalTermination::kResolved) sum->termination = s.termination;
+  sum->inserted += s.inserted;
+  sum->rejected += s.rejected;
+  sum->unresolved += s.unresolved;
+  sum->layers = std::max(sum->layers, s.layers);
+  sum->seconds += s.seconds;
+}
+
+void add(std::optional<RecombineSummary>& sum, const RecombineSummary& s) {
+  if (!sum) sum.emplace();
+  sum->triangles += s.triangles;
+  sum->extra_edges += s.extra_edges;
+  sum->matched_extra += s.matched_extra;
+  sum->pentagon_swaps += s.pentagon_swaps;
+  sum->duplications += s.duplications;
+  sum->leftover_triangles += s.leftover_triangles;
+  sum->cost += s.cost;
+  sum->graph_seconds += s.graph_seconds;
+  sum->matching_seconds += s.matching_seconds;
+  sum->merge_seconds += s.merge_seconds;
+}
+
+void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
+  if (!sum) sum.emplace();
+  sum->rounds = std::max(sum->rounds, s.rounds);
+  sum->doublets += s.doublets;
+  sum->diamonds += s.diamonds;
+  sum->swaps += s.swaps;
+  sum->boundary_repairs += s.boundary_repairs;
+  sum->relocated += s.relocated;
+  sum->seconds += s.seconds;
+}
+
+void insert_points(const PointPlacement& placement, const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  FrontalSummary summary;
+  patch.triangles = mesh_frontal(in.boundary, placement, in.cross, in.size, in.options.frontal, &summary);
+  patch.form = PatchForm::kTriangles;
+  add(log.insertion, summary);
+  log.add_seconds("insertion", watch.seconds());
+}
+
+void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch recombination;
+  RecombineSummary summary;
+  patch.quads = recombine(patch.triangles, *make_lemon_solver(), &summary);
+  patch.triangles = {};
+  patch.form = PatchForm::kQuads;
+  add(log.recombination, summary);
+  log.add_seconds("recombination", recombination.seconds());
+  if (in.options.treatment == Treatment::kNone) return;
+
+  const Stopwatch treatment;
+  TreatmentSummary treated;
+  patch.quads = treat_paper(std::move(patch.quads), in.size, in.options.treatment_options, &treated);
+  add(log.treatment, treated);
+  log.add_seconds("treatment", treatment.seconds());
+}
+
+std::string form_name(PatchForm form) {
+  switch (form) {
+    case PatchForm::kBoundary:
+      return "a boundary";
+    case PatchForm::kTriangles:
+      return "triangles";
+    case PatchForm::kQuads:
+      return "quads";
+  }
+  return "";
+}
+
+std::string known_letters() {
+  std::string known;
+  for (const Stage& stage : stage_registry())
+    known += (known.empty() ? "" : ", ") + std::string(1, stage.letter) + " (" + stage.name + ")";
+  return known;
+}
+
+}  // namespace
+
+void StageLog::add_seconds(const std::string& step, double s) {
+  const auto at =
+      std::find_if(seconds.begin(), seconds.end(), [&](const auto& entry) { return entry.first == step; });
+  if (at == seconds.end())
+    seconds.emplace_back(step, s);
+  else
+    at->second += s;
+}
+
+std::span<const Stage> stage_registry() {
+  static const std::vector<Stage> stages = {
+      {'F', "frontal insertion in the L2 norm", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(*make_l2_frontal(), in, patch, log);
+       }},
+      {'D', "frontal insertion in the L-infinity norm", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(*make_linf_delquad(in.options.linf), in, patch, log);
+       }},
+      {'B', "recombination by matching", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+  };
+  return stages;
+}
+
+Word parse_word(const std::string& text) {
+  const std::string label = "pipeline '" + text + "': ";
+  if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
+  Word word{text, {}, PatchForm::kBoundary};
+  for (const char letter : text) {
+    const auto stages = stage_registry();
+    const auto stage =
+        std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.letter == letter; });
+    if (stage == stages.end())
+      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters());
+    if (stage->from != word.result)
+      throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
+                       (word.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +
+                       form_name(word.result));
+    word.stages.push_back(&*stage);
+    word.result = stage->to;
+  }
+  return word;
+}
+
+std::vector<Word> parse_words(const std::vector<std::string>& texts) {
+  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
+  std::vector<Word> words;
+  for (const std::string& text : texts) {
+    for (const Word& word : words)
+      if (word.text == text) throw InputError("pipeline '" + text + "' is given twice");
+    words.push_back(parse_word(text));
+  }
+  return words;
+}
+
+}  // namespace delquad

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/recombination/recombine.h"
+#include "pipeline/options.h"
+
+namespace delquad {
+
+/// What a patch holds between two stages.
+enum class PatchForm { kBoundary, kTriangles, kQuads };
+
+struct PatchMesh {
+  PatchForm form = PatchForm::kBoundary;
+  TriPatch triangles;  ///< when form is kTriangles
+  QuadPatch quads;     ///< when form is kQuads
+};
+
+struct StageInput {
+  const PatchBoundary& boundary;
+  const CrossField& cross;
+  const ParametricSize& size;
+  const MeshingOptions& options;
+};
+
+/// What the stages did, summed over the patches.
+struct StageLog {
+  std::vector<std::pair<std::string, double>> seconds;  ///< by step, in order of first use
+  std::optional<FrontalSummary> insertion;
+  std::optional<RecombineSummary> recombination;
+  std::optional<TreatmentSummary> treatment;
+  void add_seconds(const std::string& step, double s);
+};
+
+/// One letter of a pipeline word: takes a patch from one form to another.
+struct Stage {
+  char letter;
+  std::string name;
+  PatchForm from, to;
+  std::function<void(const StageInput&, PatchMesh&, StageLog&)> run;
+};
+
+/// Every stage. A new idea is a new entry here.
+std::span<const Stage> stage_registry();
+
+/// A pipeline: stages read from left to right, each starting from what the one before leaves.
+struct Word {
+  std::string text;  ///< "DB"
+  std::vector<const Stage*> stages;
+  PatchForm result = PatchForm::kBoundary;
+};
+
+/// Throws InputError for an empty word, an unknown letter (naming it and those known) and for letters that do
+/// not follow each other.
+Word parse_word(const std::string& text);
+/// Throws InputError for a word given twice, too.
+std::vector<Word> parse_words(const std::vector<std::string>& texts);
+
+}  // namespace delquad

@@ -1,0 +1,178 @@
+#include "pipeline/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace delquad {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double value_or_nan(const std::map<std::string, double>& values, const std::string& key) {
+  const auto at = values.find(key);
+  return at == values.end() ? kUnknown : at->second;
+}
+
+std::string cell(const TableRow& row, const TableColumn& column) {
+  const double ours = value_or_nan(row.values, column.key),
+               published = value_or_nan(row.published, column.key);
+  const std::string text = std::isnan(ours) ? "-" : fmt::format("{:.{}f}", ours, column.digits);
+  if (std::isnan(published)) return text;
+  if (std::isnan(ours)) return fmt::format("{} ({})", text, published);
+  return fmt::format("{} ({}, {:+.{}f})", text, published, ours - published, column.digits);
+}
+
+/// Header and body as text; a failed row's reason goes to the notes.
+struct Rendered {
+  std::vector<std::vector<std::string>> lines;  // the first is the header
+  std::vector<std::string> notes;
+};
+
+Rendered render(const Table& table) {
+  Rendered result;
+  result.lines.push_back({table.group_title, table.name_title});
+  for (const TableColumn& column : table.columns) result.lines.back().push_back(column.title);
+  bool compared = false;
+  for (const TableRow& row : table.rows) {
+    std::vector<std::string> line = {row.group, row.name};
+    for (const TableColumn& column : table.columns) {
+      const bool first = line.size() == 2;
+      line.push_back(row.failure.empty() ? cell(row, column) : first ? "failed" : "");
+    }
+    result.lines.push_back(std::move(line));
+    compared = compared || !row.published.empty();
+    if (!row.failure.empty())
+      result.notes.push_back(fmt::format("{} {} failed: {}", row.group, row.name, row.failure));
+  }
+  if (compared) result.notes.push_back("In brackets: the published number, and ours minus it.");
+  for (const TableRow& row : table.rows)
+    if (!row.source.empty())
+      result.notes.push_back(fmt::format("{} {}: {}", row.group, row.name, row.source));
+  result.notes.insert(result.notes.end(), table.notes.begin(), table.notes.end());
+  return result;
+}
+
+std::string replace_all(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string tex_escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\\')
+      result += "\\textbackslash{}";
+    else if (c == '^' || c == '~')
+      result += fmt::format("\\{}{{}}", c);
+    else if (std::string("&%$#_{}").find(c) != std::string::npos)
+      result += fmt::format("\\{}", c);
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
+}
+
+std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+}  // namespace
+
+std::string to_markdown(const Table& table) {
+  const Rendered rendered = render(table);
+  const auto escaped = [](const std::string& text) { return replace_all(text, "|", "\\|"); };
+  std::vector<std::size_t> width(rendered.lines[0].size(), 3);
+  for (const auto& line : rendered.lines)
+    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], escaped(line[k]).size());
+  std::string text = fmt::format("# {}\n\n", table.title);
+  for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
+    text += "|";
+    for (std::size_t k = 0; k < width.size(); ++k) {
+      const std::string content = escaped(rendered.lines[i][k]);
+      text +=
+          k < 2 ? fmt::format(" {:<{}} |", content, width[k]) : fmt::format(" {:>{}} |", content, width[k]);
+    }
+    text += "\n";
+    if (i > 0) continue;
+    text += "|";
+    for (std::size_t k = 0; k < width.size(); ++k)
+      text += k < 2 ? std::string(width[k] + 2, '-') + "|" : std::string(width[k] + 1, '-') + ":|";
+    text += "\n";
+  }
+  if (!rendered.notes.empty()) text += "\n";
+  for (const std::string& note : rendered.notes) text += fmt::format("- {}\n", replace_all(note, "\n", " "));
+  return text;
+}
+
+std::string to_tex(const Table& table) {
+  const Rendered rendered = render(table);
+  std::string text = fmt::format("% {}\n\\begin{{tabular}}{{ll{}}}\n\\toprule\n",
+                                 replace_all(table.title, "\n", " "), std::string(table.columns.size(), 'r'));
+  for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
+    for (std::size_t k = 0; k < rendered.lines[i].size(); ++k)
+      text.append(k ? " & " : "").append(tex_escaped(rendered.lines[i][k]));
+    text += i == 0 ? " \\\\\n\\midrule\n" : " \\\\\n";
+  }
+  text += "\\bottomrule\n\\end{tabular}\n";
+  for (const std::string& note : rendered.notes) text += fmt::format("% {}\n", replace_all(note, "\n", " "));
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text = csv_quoted(table.group_title) + "," + csv_quoted(table.name_title) + ",status,source";
+  for (const TableColumn& column : table.columns)
+    text += fmt::format(",{0},{0}_published,{0}_difference", column.key);
+  text += "\n";
+  for (const TableRow& row : table.rows) {
+    text += csv_quoted(row.group) + "," + csv_quoted(row.name) + "," +
+            csv_quoted(row.failure.empty() ? "ok" : "failed: " + row.failure) + "," + csv_quoted(row.source);
+    for (const TableColumn& column : table.columns) {
+      const double ours = value_or_nan(row.values, column.key),
+                   published = value_or_nan(row.published, column.key);
+      text += fmt::format(",{},{},{}", csv_number(ours), csv_number(published), csv_number(ours - published));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string to_json(const Table& table) {
+  using Json = nlohmann::ordered_json;
+  const auto object = [&](const std::map<std::string, double>& values) {
+    Json json = Json::object();
+    for (const TableColumn& column : table.columns)
+      if (values.contains(column.key)) json[column.key] = values.at(column.key);
+    return json;
+  };
+  Json json = {{"title", table.title}, {"rows", Json::array()}, {"notes", table.notes}};
+  for (const TableRow& row : table.rows) {
+    Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
+    if (!row.failure.empty()) {
+      line["status"] = "failed";
+      line["reason"] = row.failure;
+    } else {
+      line["status"] = "ok";
+      line["values"] = object(row.values);
+    }
+    if (!row.published.empty()) {
+      line["published"] = object(row.published);
+      std::map<std::string, double> difference;
+      for (const auto& [key, value] : row.published)
+        if (row.values.contains(key)) difference[key] = row.values.at(key) - value;
+      line["difference"] = object(difference);
+      line["source"] = row.source;
+    }
+    json["rows"].push_back(std::move(line));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace delquad

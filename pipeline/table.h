@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+struct TableColumn {
+  std::string key;    ///< in CSV and JSON
+  std::string title;  ///< for people
+  int digits = 0;     ///< after the decimal point
+};
+
+struct TableRow {
+  std::string group, name;                  ///< first two columns: case and pipeline
+  std::map<std::string, double> values;     ///< by column key; absent or NaN: not known
+  std::map<std::string, double> published;  ///< to compare with, as printed there
+  std::string source;                       ///< where the published values stand; empty: none
+  std::string failure;                      ///< why there are no values; empty: none
+};
+
+/// Results beside published ones.
+struct Table {
+  std::string title;
+  std::string group_title = "case", name_title = "pipeline";
+  std::vector<TableColumn> columns;
+  std::vector<TableRow> rows;
+  std::vector<std::string> notes;
+};
+
+/// A cell of ours with a published counterpart reads "ours (published, difference)".
+std::string to_markdown(const Table& table);
+/// Booktabs.
+std::string to_tex(const Table& table);
+/// For each column: value, published value, difference.
+std::string to_csv(const Table& table);
+std::string to_json(const Table& table);
+
+}  // namespace delquad

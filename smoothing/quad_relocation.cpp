@@ -1,0 +1,235 @@
+#include "smoothing/quad_relocation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace delquad {
+
+namespace {
+
+/// Weight of the length term against the corners'.
+constexpr double kLengthWeight = 0.12;
+/// The steep term of a corner starts at this sine and has this factor.
+constexpr double kSteepSine = 0.05, kSteep = 40;
+/// A step is at most this part of the shortest edge.
+constexpr double kLongestStep = 0.4;
+/// delta' is evaluated anew after a move of this part of it.
+constexpr double kDeltaReach = 0.15;
+/// Steps of the search that lifts a vertex's worst corner.
+constexpr int kLiftSteps = 10;
+constexpr double kTiny = 1e-300;
+
+Vec2 unit(Vec2 v) { return (1 / std::max(norm(v), kTiny)) * v; }
+
+}  // namespace
+
+double least_sine(const QuadTopology& mesh, int element) {
+  const int n = mesh.is_quad(element) ? 4 : 3;
+  Vec2 side[4];
+  for (int k = 0; k < n; ++k) {
+    const int h = 4 * element + k;
+    side[k] = unit(mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h)));
+  }
+  double least = cross(side[n - 1], side[0]);
+  for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
+  return least;
+}
+
+QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) : mesh_(mesh), size_(size) {
+  adopt_new_vertices(0);
+}
+
+void QuadRelocation::adopt_new_vertices(int first) {
+  const std::size_t n = mesh_.vertex_slots();
+  hint_.resize(n, -1), delta_.resize(n), delta_at_.resize(n), active_.resize(n, 0);
+  for (std::size_t v = first; v < n; ++v) {
+    // Points that lie close together follow one another.
+    if (v > 0) hint_[v] = hint_[v - 1];
+    delta_at_[v] = mesh_.point(static_cast<int>(v));
+    delta_[v] = size_.at(delta_at_[v], hint_[v]);
+  }
+}
+
+void QuadRelocation::refresh_delta(int v) {
+  const Vec2 at = mesh_.point(v);
+  if (norm(at - delta_at_[v]) < kDeltaReach * delta_[v]) return;
+  delta_at_[v] = at;
+  delta_[v] = size_.at(at, hint_[v]);
+}
+
+void QuadRelocation::activate(int v) {
+  if (active_[v] || mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return;
+  active_[v] = 1;
+  queue_.push_back(v);
+}
+
+void QuadRelocation::activate_all() {
+  for (int v = 0; v < mesh_.vertex_slots(); ++v) activate(v);
+}
+
+void QuadRelocation::activate_ring(int v) {
+  activate(v);
+  mesh_.for_each_out(v, [&](int h) {
+    const int across = mesh_.next(h);
+    activate(mesh_.origin(across));
+    activate(mesh_.target(across));
+  });
+}
+
+void QuadRelocation::gather(int v) {
+  star_.clear();
+  mesh_.for_each_out(v, [&](int h) {
+    const int across = mesh_.next(h);
+    const Vec2 end = mesh_.point(mesh_.origin(across));
+    star_.push_back({end, unit(mesh_.point(mesh_.target(across)) - end), {}, 0.5 * (delta_[v] + delta_[mesh_.origin(across)])});
+  });
+  std::size_t i = 0;
+  mesh_.for_each_out(v, [&](int h) {
+    i = i + 1 == star_.size() ? 0 : i + 1;
+    const int before = mesh_.prev(h);
+    star_[i].right = unit(mesh_.point(mesh_.origin(mesh_.prev(before))) - star_[i].end);
+  });
+}
+
+template <bool kDerivatives>
+QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives) const {
+  Value value;
+  value.shortest = 1e300;
+  // Gradient of the direction angle of a spoke with respect to v: -perp(u) / length.
+  const auto corner = [&](double sine, double cosine, Vec2 turn) {
+    const double c = 1 - sine, excess = std::max(0.0, kSteepSine - sine);
+    value.cost += c + kSteep * excess * excess;
+    value.least_sine = std::min(value.least_sine, sine);
+    if constexpr (kDerivatives) {
+      const double slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
+      const double first = -slope * cosine;
+      const double second = std::max(slope * sine + (excess > 0 ? 2 * kSteep * cosine * cosine : 0), 0.1);
+      derivatives->gradient += first * turn;
+      derivatives->hxx += second * turn.x * turn.x;
+      derivatives->hxy += second * turn.x * turn.y;
+      derivatives->hyy += second * turn.y * turn.y;
+    }
+  };
+  const Spoke& last = star_.back();
+  Vec2 previous = last.end - at;
+  double length = std::max(norm(previous), kTiny);
+  previous = (1 / length) * previous;
+  Vec2 previous_turn = (-1 / length) * perp(previous);
+  for (const Spoke& s : star_) {
+    const Vec2 along = s.end - at;
+    length = std::max(norm(along), kTiny);
+    const double inverse = 1 / length;
+    const Vec2 u = inverse * along, turn = (-inverse) * perp(u);
+    corner(cross(previous, u), dot(previous, u), turn - previous_turn);
+    corner(cross(u, s.left), -dot(u, s.left), turn);
+    corner(cross(s.right, u), -dot(s.right, u), -turn);
+    const double misfit = std::log(length / s.delta);
+    value.cost += kLengthWeight * misfit * misfit;
+    value.shortest = std::min(value.shortest, length);
+    if constexpr (kDerivatives) {
+      derivatives->gradient += (-2 * kLengthWeight * misfit * inverse) * u;
+      const double second = 2 * kLengthWeight * inverse * inverse;
+      derivatives->hxx += second * u.x * u.x;
+      derivatives->hxy += second * u.x * u.y;
+      derivatives->hyy += second * u.y * u.y;
+    }
+    previous = u;
+    previous_turn = turn;
+  }
+  return value;
+}
+
+double QuadRelocation::cost(int v) {
+  gather(v);
+  return evaluate<false>(mesh_.point(v), nullptr).cost;
+}
+
+double QuadRelocation::step(int v) {
+  if (mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return 0;
+  gather(v);
+  const Vec2 at = mesh_.point(v);
+  Derivatives d;
+  const Value before = evaluate<true>(at, &d);
+  const double determinant = d.hxx * d.hyy - d.hxy * d.hxy;
+  if (!(determinant > 0)) return 0;
+  Vec2 move = (-1 / determinant) * Vec2{d.hyy * d.gradient.x - d.hxy * d.gradient.y, d.hxx * d.gradient.y - d.hxy * d.gradient.x};
+  const double length = norm(move), longest = kLongestStep * before.shortest;
+  if (!(length > 1e-4 * before.shortest)) return 0;
+  if (length > longest) move = (longest / length) * move;
+  for (int halving = 0; halving < 4; ++halving, move = 0.4 * move) {
+    const Value after = evaluate<false>(at + move, nullptr);
+    if (!(after.cost < before.cost)) continue;
+    // A convex star stays convex whatever the sum gains.
+    if (after.least_sine <= 0 && before.least_sine > 0) continue;
+    mesh_.move(v, at + move);
+    return norm(move) / before.shortest;
+  }
+  return 0;
+}
+
+long long QuadRelocation::relax(double tolerance, int max_sweeps) {
+  long long moves = 0;
+  for (int sweep = 0; sweep < max_sweeps && !queue_.empty(); ++sweep) {
+    visiting_.swap(queue_);
+    queue_.clear();
+    for (const int v : visiting_) {
+      active_[v] = 0;
+      if (!mesh_.vertex_alive(v)) continue;
+      refresh_delta(v);
+      const double moved = step(v);
+      if (moved > 0) ++moves;
+      if (moved > tolerance) activate_ring(v);
+    }
+    mesh_.commit();
+  }
+  for (const int v : queue_) active_[v] = 0;
+  queue_.clear();
+  return moves;
+}
+
+double QuadRelocation::lift(int v) {
+  gather(v);
+  const Vec2 at = mesh_.point(v);
+  Value best = evaluate<false>(at, nullptr);
+  const double least = best.least_sine;
+  Vec2 place = at;
+  // Compass search for the worst corner: eight directions, a step that shrinks.
+  constexpr double kDiagonal = std::numbers::sqrt2 / 2;
+  constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
+                                {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
+  double reach = 0.2 * best.shortest;
+  for (int steps = 0; steps < kLiftSteps; ++steps) {
+    const Vec2 centre = place;
+    const double sine = best.least_sine;
+    for (const Vec2 direction : kCompass) {
+      const Value trial = evaluate<false>(centre + reach * direction, nullptr);
+      if (trial.least_sine <= best.least_sine) continue;
+      best = trial;
+      place = centre + reach * direction;
+    }
+    if (best.least_sine == sine) reach /= 2;
+  }
+  if (best.least_sine <= least) return 0;
+  mesh_.move(v, place);
+  return best.least_sine - least;
+}
+
+long long QuadRelocation::lift_worst(double eta, int max_sweeps) {
+  const double sine = std::sin(eta * std::numbers::pi / 2);
+  long long moves = 0;
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    long long moved = 0;
+    for (int e = 0; e < mesh_.element_slots(); ++e) {
+      if (!mesh_.is_quad(e) || least_sine(mesh_, e) >= sine) continue;
+      for (int k = 0; k < 4; ++k)
+        if (const int v = mesh_.origin(4 * e + k); !mesh_.on_boundary(v) && lift(v) > 1e-3) ++moved;
+    }
+    mesh_.commit();
+    moves += moved;
+    if (moved == 0) break;
+  }
+  return moves;
+}
+
+}  // namespace delquad

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <vector>
+
+#include "fields/size_field.h"
+#include "smoothing/quad_topology.h"
+
+namespace delquad {
+
+/// Moves the interior vertices of a quad mesh, one by one, towards right angles and the wanted edge lengths.
+///
+/// Each vertex lowers
+///   sum over the corners of its elements that its place changes of  psi(1 - sin alpha),  psi(c) = c + steep term past .95
+/// + kLengthWeight * sum over its edges of (max(r, 1/r) - 1)^2,  r = length / mean of delta' at the two ends,
+/// by a damped Newton step, at most a part of its shortest edge. 1 - sin alpha grows with |alpha - 90 deg| up to 180 degrees, so
+/// that reflex and inverted corners are pulled straight. Only vertices near which something still moves are visited.
+class QuadRelocation {
+ public:
+  /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part of delta'.
+  QuadRelocation(QuadTopology& mesh, const ParametricSize& size);
+
+  double delta(int v) const { return delta_[v]; }
+  /// Makes delta' known at the vertices that an edit created, `first` and later ones.
+  void adopt_new_vertices(int first);
+
+  /// Marks v for the next sweeps (no effect on boundary or dead vertices).
+  void activate(int v);
+  void activate_all();
+  /// Visits the active vertices until no move exceeds `tolerance` (part of the vertex's shortest edge) or `max_sweeps`
+  /// are done. Returns the number of moves.
+  long long relax(double tolerance, int max_sweeps);
+  /// Lifts the worst elements: while quads below `eta` improve, moves their vertices (and their neighbours') so that the
+  /// worst corner around the vertex gets better. Never lowers the least eta around a vertex. Returns the number of moves.
+  long long lift_worst(double eta, int max_sweeps);
+
+  /// One Newton step of v; how far it went, as a part of its shortest edge. 0 for boundary and dead vertices.
+  double step(int v);
+  /// The vertex's part of the objective where it is.
+  double cost(int v);
+
+ private:
+  struct Spoke {
+    Vec2 end;       ///< the neighbour
+    Vec2 left;      ///< unit vector from it along the side of the element on the spoke's left that v does not touch
+    Vec2 right;     ///< same on the right
+    double delta;   ///< wanted length
+  };
+  struct Value {
+    double cost = 0;
+    double least_sine = 1;
+    double shortest = 0;  ///< edge
+  };
+  struct Derivatives {
+    Vec2 gradient;
+    double hxx = 0, hxy = 0, hyy = 0;  ///< positive definite approximation of the second derivatives
+  };
+
+  void gather(int v);
+  template <bool kDerivatives>
+  Value evaluate(Vec2 at, Derivatives* derivatives) const;
+  void refresh_delta(int v);
+  void activate_ring(int v);
+  double lift(int v);
+
+  QuadTopology& mesh_;
+  const ParametricSize& size_;
+  std::vector<double> delta_;
+  std::vector<Vec2> delta_at_;  ///< where delta_ was evaluated
+  std::vector<int> hint_;
+  std::vector<char> active_;
+  std::vector<int> queue_, visiting_;
+  std::vector<Spoke> star_;
+};
+
+/// Least sine over the corners of an element, negative when one is reflex or inverted; eta = 2/pi asin of it, at least 0.
+double least_sine(const QuadTopology& mesh, int element);
+
+}  // namespace delquad

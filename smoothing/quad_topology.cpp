@@ -1,0 +1,286 @@
+#include "smoothing/quad_topology.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace delquad {
+
+QuadTopology::QuadTopology(const QuadPatch& mesh) : n_boundary_(mesh.n_boundary), points_(mesh.points) {
+  corner_.reserve(4 * (mesh.quads.size() + mesh.triangles.size()));
+  for (const auto& q : mesh.quads) corner_.insert(corner_.end(), q.begin(), q.end());
+  for (const auto& t : mesh.triangles) corner_.insert(corner_.end(), {t[0], t[1], t[2], -1});
+  twin_.assign(corner_.size(), -1);
+  out_.assign(points_.size(), -1);
+  valence_.assign(points_.size(), 0);
+  for (int h = 0; h < static_cast<int>(corner_.size()); ++h) {
+    const int v = corner_[h];
+    if ((h & 3) == 3 && v == -1 && h >= 4 * static_cast<int>(mesh.quads.size())) continue;
+    if (v < 0 || v >= vertex_slots())
+      throw std::invalid_argument("quad mesh: element " + std::to_string(h / 4) + " has no vertex " + std::to_string(v));
+    ++valence_[v];
+  }
+  build_twins();
+}
+
+void QuadTopology::build_twins() {
+  // Half-edges by origin, so that the twin is found among the few that leave the target.
+  std::vector<int> first(points_.size() + 1, 0), leaving(corner_.size());
+  for (const int v : corner_)
+    if (v >= 0) ++first[v + 1];
+  for (std::size_t v = 0; v < points_.size(); ++v) first[v + 1] += first[v];
+  std::vector<int> fill(first.begin(), first.end() - 1);
+  for (int h = 0; h < static_cast<int>(corner_.size()); ++h)
+    if (corner_[h] >= 0) leaving[fill[corner_[h]]++] = h;
+
+  for (int h = 0; h < static_cast<int>(corner_.size()); ++h) {
+    if (corner_[h] < 0) continue;
+    const int a = corner_[h], b = target(h);
+    for (int i = first[a]; i < first[a + 1]; ++i)
+      if (leaving[i] != h && target(leaving[i]) == b)
+        throw std::invalid_argument("quad mesh: two elements run from vertex " + std::to_string(a) + " to " +
+                                    std::to_string(b));
+    for (int i = first[b]; i < first[b + 1]; ++i)
+      if (target(leaving[i]) == a) twin_[h] = leaving[i];
+    if (twin_[h] < 0 && (!on_boundary(a) || !on_boundary(b)))
+      throw std::invalid_argument("quad mesh: the edge from vertex " + std::to_string(a) + " to " + std::to_string(b) +
+                                  " is open though not both ends are boundary points");
+    if (twin_[h] < 0 || out_[a] < 0) out_[a] = h;
+  }
+}
+
+QuadPatch QuadTopology::to_patch() const {
+  QuadPatch mesh;
+  mesh.n_boundary = n_boundary_;
+  std::vector<int> number(points_.size(), -1);
+  for (int v = 0; v < vertex_slots(); ++v) {
+    if (!vertex_alive(v) && !on_boundary(v)) continue;
+    number[v] = static_cast<int>(mesh.points.size());
+    mesh.points.push_back(points_[v]);
+  }
+  for (int e = 0; e < element_slots(); ++e) {
+    if (!alive(e)) continue;
+    const int* c = &corner_[4 * e];
+    if (is_quad(e))
+      mesh.quads.push_back({number[c[0]], number[c[1]], number[c[2]], number[c[3]]});
+    else
+      mesh.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+  }
+  return mesh;
+}
+
+std::vector<std::string> QuadTopology::check_invariants() const {
+  std::vector<std::string> wrong;
+  const auto half_edge = [](int h) { return "half-edge " + std::to_string(h); };
+  std::vector<int> count(points_.size(), 0);
+  for (int h = 0; h < static_cast<int>(corner_.size()); ++h) {
+    if (corner_[h] < 0) continue;
+    ++count[corner_[h]];
+    if (!vertex_alive(corner_[h])) wrong.push_back(half_edge(h) + " leaves a dead vertex");
+    const int t = twin_[h];
+    if (t < 0) {
+      if (!on_boundary(origin(h)) || !on_boundary(target(h))) wrong.push_back(half_edge(h) + " is open inside");
+      if (out_[origin(h)] != h) wrong.push_back(half_edge(h) + " is not its boundary vertex's first");
+    } else if (twin_[t] != h || origin(t) != target(h) || target(t) != origin(h)) {
+      wrong.push_back(half_edge(h) + " and its twin disagree");
+    }
+  }
+  if (!wrong.empty()) return wrong;
+  for (int v = 0; v < vertex_slots(); ++v) {
+    if (!vertex_alive(v)) continue;
+    int fan = 0;
+    for_each_out(v, [&](int h) { fan += origin(h) == v ? 1 : count[v] + 1; });
+    if (fan != count[v] || valence_[v] != count[v])
+      wrong.push_back("vertex " + std::to_string(v) + " has " + std::to_string(count[v]) + " elements, " +
+                      std::to_string(fan) + " around it, and says " + std::to_string(valence_[v]));
+  }
+  return wrong;
+}
+
+bool QuadTopology::adjacent(int a, int b) const {
+  bool found = false;
+  for_each_out(a, [&](int h) { found |= target(h) == b || origin(prev(h)) == b; });
+  return found;
+}
+
+std::array<int, 6> QuadTopology::hexagon(int h) const {
+  const int t = twin_[h];
+  const int bc = next(h), cd = next(bc), ae = next(t), ef = next(ae);
+  return {corner_[bc], corner_[cd], target(cd), corner_[ae], corner_[ef], target(ef)};
+}
+
+bool QuadTopology::can_rotate(int h, bool counterclockwise) const {
+  if (twin_[h] < 0 || !is_quad(element(h)) || !is_quad(element(twin_[h]))) return false;
+  const auto x = hexagon(h);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < i; ++j)
+      if (x[i] == x[j]) return false;
+  return counterclockwise ? !adjacent(x[1], x[4]) : !adjacent(x[2], x[5]);
+}
+
+int QuadTopology::rotate(int h, bool counterclockwise) {
+  const int a_side = element(h), b_side = element(twin_[h]);
+  const auto [b, c, d, a, e, f] = hexagon(h);
+  const int bc = next(h), cd = next(bc), da = next(cd);
+  const int ae = next(twin_[h]), ef = next(ae), fb = next(ef);
+  const int t_bc = twin_[bc], t_cd = twin_[cd], t_da = twin_[da];
+  const int t_ae = twin_[ae], t_ef = twin_[ef], t_fb = twin_[fb];
+  add_to_valence(a, -1);
+  add_to_valence(b, -1);
+  if (counterclockwise) {
+    add_to_valence(c, 1);
+    add_to_valence(e, 1);
+    set_element(a_side, {e, c, d, a}, {4 * b_side, t_cd, t_da, t_ae});
+    set_element(b_side, {c, e, f, b}, {4 * a_side, t_ef, t_fb, t_bc});
+  } else {
+    add_to_valence(d, 1);
+    add_to_valence(f, 1);
+    set_element(a_side, {d, f, b, c}, {4 * b_side, t_fb, t_bc, t_cd});
+    set_element(b_side, {f, d, a, e}, {4 * a_side, t_da, t_ae, t_ef});
+  }
+  return 4 * a_side;
+}
+
+bool QuadTopology::can_collapse(int h) const {
+  if (!is_quad(element(h))) return false;
+  const int a = origin(h), b = target(h), c = target(next(h)), d = origin(prev(h));
+  if (on_boundary(c)) return false;
+  if ((!on_boundary(b) && valence_[b] < 3) || (!on_boundary(d) && valence_[d] < 3)) return false;
+  // Any other common neighbour, or an edge between the two, would become a double edge or a loop.
+  bool free = true;
+  for_each_out(c, [&](int g) {
+    const int n = target(g);
+    if (n == a || (n != b && n != d && adjacent(a, n))) free = false;
+  });
+  return free;
+}
+
+void QuadTopology::collapse(int h) {
+  const int ab = h, bc = next(ab), cd = next(bc), da = next(cd);
+  const int a = corner_[ab], b = corner_[bc], c = corner_[cd], d = corner_[da];
+  const int t_ab = twin_[ab], t_bc = twin_[bc], t_cd = twin_[cd], t_da = twin_[da];
+  write(kValence, a, valence_[a] + valence_[c] - 2);
+  add_to_valence(b, -1);
+  add_to_valence(d, -1);
+  for (int g = out_[c], first = g; g >= 0;) {
+    const int following = around(g);
+    write(kCorner, g, a);
+    g = following == first ? -1 : following;
+  }
+  // c is interior, so its own sides have twins; what lies across a's sides may be the outside.
+  link(t_bc, t_ab);
+  link(t_cd, t_da);
+  if (!on_boundary(a) || t_ab < 0) write(kOut, a, t_bc);
+  if (!on_boundary(b)) write(kOut, b, t_ab);
+  if (!on_boundary(d) || t_da < 0) write(kOut, d, t_cd);
+  write(kOut, c, -1);
+  write(kValence, c, 0);
+  kill_element(element(h));
+}
+
+bool QuadTopology::can_remove_doublet(int v) const {
+  if (on_boundary(v) || valence_[v] != 2) return false;
+  const int h = out_[v], g = around(h);
+  const int e = element(h), f = element(g);
+  if (!is_quad(e) && !is_quad(f)) return false;
+  // The far corners must differ, else nothing is left of the two.
+  return !is_quad(e) || !is_quad(f) || target(next(h)) != target(next(g));
+}
+
+void QuadTopology::remove_doublet(int v) {
+  const std::array<int, 2> start{out_[v], around(out_[v])};
+  std::array<int, 4> corners{-1, -1, -1, -1}, twins{-1, -1, -1, -1};
+  int n = 0;
+  for (const int h : start) {
+    add_to_valence(target(h), -1);
+    for (int g = next(h); target(g) != v; g = next(g), ++n) corners[n] = corner_[g], twins[n] = twin_[g];
+  }
+  write(kOut, v, -1);
+  write(kValence, v, 0);
+  kill_element(element(start[1]));
+  set_element(element(start[0]), corners, twins);
+}
+
+void QuadTopology::inset(int h) {
+  std::array<int, 4> corner, inner, across, face;
+  for (int k = 0, g = h; k < 4; ++k, g = next(g)) corner[k] = corner_[g], across[k] = twin_[g];
+  const Vec2 middle = 0.25 * (points_[corner[0]] + points_[corner[1]] + points_[corner[2]] + points_[corner[3]]);
+  for (int k = 0; k < 4; ++k) {
+    inner[k] = add_vertex(0.5 * (points_[corner[k]] + middle));
+    face[k] = add_element();
+  }
+  const int core = element(h);
+  set_element(core, inner, {4 * face[0] + 2, 4 * face[1] + 2, 4 * face[2] + 2, 4 * face[3] + 2});
+  for (int k = 0; k < 4; ++k) {
+    const int l = (k + 1) % 4, j = (k + 3) % 4;
+    set_element(face[k], {corner[k], corner[l], inner[l], inner[k]},
+                {across[k], 4 * face[l] + 3, 4 * core + k, 4 * face[j] + 1});
+    write(kValence, inner[k], 3);
+    add_to_valence(corner[k], 1);
+  }
+}
+
+void QuadTopology::move(int v, Vec2 to) {
+  move_log_.push_back({v, points_[v]});
+  points_[v] = to;
+}
+
+void QuadTopology::rollback(const Mark& mark) {
+  for (; int_log_.size() > mark.ints; int_log_.pop_back())
+    array(int_log_.back().array)[int_log_.back().index] = int_log_.back().old;
+  for (; move_log_.size() > mark.moves; move_log_.pop_back())
+    points_[move_log_.back().vertex] = move_log_.back().old;
+  points_.resize(mark.vertices);
+  out_.resize(mark.vertices);
+  valence_.resize(mark.vertices);
+  corner_.resize(4 * mark.elements);
+  twin_.resize(4 * mark.elements);
+}
+
+std::vector<int>& QuadTopology::array(Array which) {
+  switch (which) {
+    case kCorner: return corner_;
+    case kTwin: return twin_;
+    case kOut: return out_;
+    default: return valence_;
+  }
+}
+
+void QuadTopology::write(Array which, int index, int value) {
+  int& slot = array(which)[index];
+  if (slot == value) return;
+  int_log_.push_back({which, index, slot});
+  slot = value;
+}
+
+void QuadTopology::link(int h, int twin) {
+  write(kTwin, h, twin);
+  if (twin >= 0) write(kTwin, twin, h);
+}
+
+void QuadTopology::set_element(int element, std::array<int, 4> corners, std::array<int, 4> twins) {
+  for (int k = 0; k < 4; ++k) {
+    const int h = 4 * element + k, v = corners[k];
+    write(kCorner, h, v);
+    link(h, v < 0 ? -1 : twins[k]);
+    if (v >= 0 && (!on_boundary(v) || twins[k] < 0)) write(kOut, v, h);
+  }
+}
+
+void QuadTopology::kill_element(int element) {
+  for (int k = 0; k < 4; ++k) write(kCorner, 4 * element + k, -1);
+}
+
+int QuadTopology::add_element() {
+  corner_.insert(corner_.end(), 4, -1);
+  twin_.insert(twin_.end(), 4, -1);
+  return element_slots() - 1;
+}
+
+int QuadTopology::add_vertex(Vec2 at) {
+  points_.push_back(at);
+  out_.push_back(-1);
+  valence_.push_back(0);
+  return vertex_slots() - 1;
+}
+
+}  // namespace delquad

@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "tests/apps/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// A refusal: exit code 2, one line that says `part`, and nothing written.
+void expect_refusal(const ProgramResult& result, const std::vector<std::string>& parts) {
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "error: ")) << result.err;
+  EXPECT_FALSE(contains(result.err, "internal")) << result.err;
+  for (const std::string& part : parts)
+    EXPECT_TRUE(contains(result.err, part)) << "'" << part << "' is not in: " << result.err;
+}
+
+struct BadModel {
+  const char* name;
+  std::string text;
+  std::vector<std::string> parts;  ///< of the message
+};
+
+void PrintTo(const BadModel& model, std::ostream* out) { *out << model.name; }
+
+class BadModels : public testing::TestWithParam<BadModel> {};
+
+TEST_P(BadModels, AreRefusedWithOneMessage) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", GetParam().text);
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.1"}), GetParam().parts);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+const BadModel kModels[] = {
+    {"not_toml", "loop = {", {"model.toml:1", "not TOML"}},
+    {"binary", std::string("\x00\xff\xfe\x01", 4), {"model.toml:1", "not TOML"}},
+    {"empty", "", {"model.toml", "no model"}},
+    {"misspelt_key",
+     "lop = { rectangle = [[0, 0], [1, 1]] }",
+     {"model.toml:1", "unknown key 'lop'", "'loop'"}},
+    {"misspelt_shape",
+     "[[loop]]\nrectangel = [[0, 0], [1, 1]]",
+     {"model.toml:2", "unknown key 'loop.rectangel'", "'rectangle'"}},
+    {"wrong_type",
+     "[[loop]]\ncircle = { centre = [0, 0], radius = \"1\" }",
+     {"model.toml:2", "radius", "number > 0"}},
+    {"nan_coordinate", "[[loop]]\npolygon = [[0, 0], [1, nan], [1, 1]]", {"model.toml:2", "points"}},
+    {"two_shapes",
+     "[[loop]]\ncircle = { centre = [0, 0], radius = 1 }\nrectangle = [[0, 0], [1, 1]]",
+     {"model.toml", "exclude each other"}},
+    {"flat_rectangle", "[[loop]]\nrectangle = [[0, 0], [1, 0]]", {"model.toml:2", "no area"}},
+    {"two_corners", "[[loop]]\npolygon = [[0, 0], [1, 0]]", {"model.toml:2", "three corners"}},
+    {"unknown_curve",
+     "[[curve]]\nname = \"wall\"\ncircle = { centre = [0, 0], radius = 1 }\n[[loop]]\ncurves = [\"wal\"]",
+     {"model.toml:5", "'wal'", "'wall'"}},
+    {"unused_curve",
+     kSquare + "[[curve]]\nname = \"wall\"\nsegment = [[0, 0], [1, 1]]",
+     {"model.toml:2", "'wall'"}},
+    {"bad_expression",
+     "[[curve]]\nname = \"c\"\nexpression = { x = \"cos(\", y = \"0\", from = 0, to = 1 }",
+     {"model.toml", "cos("}},
+    {"self_intersecting", "[[loop]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]", {"0.5"}},
+    {"zero_length", "[[loop]]\npolygon = [[0, 0], [0, 0], [1, 0], [1, 1]]", {"model.toml:1"}},
+    {"open",
+     "[[curve]]\nname = \"a\"\nsegment = [[0, 0], [1, 0]]\n[[curve]]\nname = \"b\"\nsegment = [[1, 0], [1, "
+     "1]]\n"
+     "[[loop]]\ncurves = [\"a\", \"b\"]",
+     {"model.toml"}},
+    {"duplicate", kSquare + "[[loop]]\nrectangle = [[0, 0], [1, 1]]", {}},
+    {"touching", kSquare + "[[loop]]\nrectangle = [[0.25, 0], [0.75, 0.5]]", {}},
+    {"crossing_loops", kSquare + "[[loop]]\nrectangle = [[0.5, 0.25], [1.5, 0.75]]", {}},
+    {"hole_outside",
+     kSquare + "[[loop]]\ncircle = { centre = [3, 0], radius = 0.5 }\nhole = true",
+     {"model.toml:2", "hole", "outside"}},
+};
+INSTANTIATE_TEST_SUITE_P(Toml, BadModels, testing::ValuesIn(kModels),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+class BadSizes : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(BadSizes, AreRefusedWithOneMessage) {
+  const auto [size, part] = GetParam();
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh", "--size", size}), {part});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+INSTANTIATE_TEST_SUITE_P(OnASquare, BadSizes,
+                         testing::Values(std::pair{"0", "> 0"}, std::pair{"-0.1", "> 0"},
+                                         std::pair{"nan", "> 0"}, std::pair{"inf", "> 0"},
+                                         std::pair{"0.1*(x", "position"}, std::pair{"0.1*q", "'q'"},
+                                         std::pair{"0.1*(x - 0.5)", "positive"},
+                                         // Wrong in the middle only, which no boundary node sees.
+                                         std::pair{"0.1*((x-0.5)^2 + (y-0.5)^2 - 0.01)", "positive"},
+                                         std::pair{"boundary", "no edge lengths"},
+                                         std::pair{"1e-5", "about 1e+10 quads"},
+                                         std::pair{"1e-200", "--max-elements"}));
+
+struct BadMesh {
+  const char* name;
+  std::string text;
+};
+void PrintTo(const BadMesh& mesh, std::ostream* out) { *out << mesh.name; }
+
+class BadMeshes : public testing::TestWithParam<BadMesh> {};
+
+TEST_P(BadMeshes, AreRefusedWithOneMessage) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "lines.msh", GetParam().text);
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh"}), {"lines.msh"});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"lines.msh"});
+}
+
+const std::string kTriangle = line_mesh({{0, 0}, {1, 0}, {0, 1}}, "rim");
+const BadMesh kMeshes[] = {
+    {"empty", ""},
+    {"garbage", std::string("\x7f\x45\x4c\x46\x00\xff", 6)},
+    {"truncated", kTriangle.substr(0, kTriangle.size() / 2)},
+    {"no_lines", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n"},
+    {"two_nodes", line_mesh({{0, 0}, {1, 0}}, "rim")},
+    {"coincident_nodes", line_mesh({{0, 0}, {1, 0}, {1, 0}, {0, 1}}, "rim")},
+    {"bow_tie", line_mesh({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, "rim")},
+};
+INSTANTIATE_TEST_SUITE_P(Msh, BadMeshes, testing::ValuesIn(kMeshes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(BadArguments, AreRefused) {
+  const TemporaryFolder folder;
+  const std::string model = write_text(folder / "model.toml", kSquare), out = folder / "out.msh";
+  const auto mesh = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", model, "-o", out, "--size", "0.1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return delquad(arguments);
+  };
+  expect_refusal(mesh({"--pipeline", "DX"}), {"'X'", "F (", "D (", "B ("});
+  expect_refusal(mesh({"--pipeline", "BD"}), {"'BD'"});
+  expect_refusal(mesh({"--cross", "sin("}), {"--cross", "sin("});
+  expect_refusal(mesh({"--json", folder / "nowhere" / "record.json"}), {"nowhere"});
+  expect_refusal(mesh({"--max-elements", "50"}), {"about 100 quads", "50"});
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
+                 {".stl", ".msh, .vtu, .obj"});
+  expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
+                 {"nowhere"});
+  expect_refusal(delquad({"mesh", folder / "model.step", "-o", out, "--size", "0.1"}),
+                 {".step", ".toml", ".msh"});
+  expect_refusal(delquad({"mesh", folder / "none.toml", "-o", out, "--size", "0.1"}),
+                 {"none.toml", "No such file"});
+  expect_refusal(delquad({"metrics", folder / "none.msh"}), {"none.msh", "No such file"});
+  expect_refusal(delquad({"run", model, "-o", folder / "results"}), {"model.toml", "no cases"});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+TEST(BadArguments, UsageErrorsHaveTheSameExitCode) {
+  EXPECT_EQ(delquad({}).exit_code, 2);
+  EXPECT_EQ(delquad({"mesh"}).exit_code, 2);
+  EXPECT_EQ(delquad({"mush"}).exit_code, 2);
+  EXPECT_EQ(delquad({"mesh", "a.toml", "-o", "b.msh", "--sise", "1"}).exit_code, 2);
+  EXPECT_EQ(delquad({"--help"}).exit_code, 0);
+}
+
+TEST(BadArguments, ExperimentGivenAsModelIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = write_text(folder / "e.toml", "[[case]]\nname = \"a\"\n" + kSquare);
+  expect_refusal(delquad({"mesh", file, "-o", folder / "out.msh", "--size", "0.1"}),
+                 {"e.toml:1", "delquad run"});
+}
+
+TEST(Output, FullDiskLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  const ProgramResult result =
+      run_program(DELQUAD_PROGRAM, {{"mesh", model, "-o", folder / "out.msh", "--size", "0.01"}, 4096, {}});
+  expect_refusal(result, {"out.msh"});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+TEST(Output, FolderThatIsAFileIsRefusedBeforeWork) {
+  const TemporaryFolder folder;
+  const auto file = write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 0.1\n" + kSquare);
+  expect_refusal(delquad({"run", file, "-o", file / "results"}), {"results"});
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "io/mesh_io.h"
+#include "metrics/metrics.h"
+#include "tests/apps/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+std::set<std::string> names_of(const std::vector<Entity>& entities) {
+  std::set<std::string> names;
+  for (const Entity& entity : entities) names.insert(entity.names.begin(), entity.names.end());
+  return names;
+}
+
+TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  const ProgramResult result =
+      delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.05", "--json", folder / "record.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");  // no terminal: no progress bar
+  const Mesh mesh = read_mesh(folder / "out.msh");
+  EXPECT_EQ(mesh.quads.size(), 400u);
+  EXPECT_EQ(names_of(mesh.curves), (std::set<std::string>{"bottom", "right", "top", "left"}));
+  EXPECT_EQ(names_of(mesh.regions), std::set<std::string>{"square"});
+  for (const double eta : quad_etas(mesh)) EXPECT_NEAR(eta, 1, 1e-9);
+  const std::string record = read_text(folder / "record.json");
+  for (const char* key :
+       {"\"eta_mean\"", "\"seconds\"", "\"peak_memory_bytes\"", "\"commit\"", "\"compiler\"", "\"cgal\"",
+        "\"h_max\": 1.4", "\"rejection\"", "\"treatment\": \"paper\"", "\"status\": \"ok\""})
+    EXPECT_TRUE(contains(record, key)) << key;
+}
+
+TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare + "size = \"0.05 + 0.1*x\"\n");
+  for (const char* name : {"out.msh", "out.vtu", "out.obj"}) {
+    ASSERT_EQ(delquad({"mesh", model, "-o", folder / name}).exit_code, 0) << name;
+    EXPECT_GT(std::filesystem::file_size(folder / name), 1000u) << name;
+  }
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads, read_mesh(folder / "out.obj").quads);
+}
+
+TEST(MeshCommand, SameBytesTwice) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml",
+                                kSquare + "[[loop]]\ncircle = { centre = [0.4, 0.5], radius = 0.2 }\n");
+  for (const char* name : {"a.msh", "b.msh"})
+    ASSERT_EQ(delquad({"mesh", model, "-o", folder / name, "--size", "0.02 + 0.05*x"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
+}
+
+std::string ring(int n) {
+  std::vector<std::pair<double, double>> nodes;
+  for (int i = 0; i < n; ++i)
+    nodes.emplace_back(std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n));
+  return line_mesh(nodes, "rim of iron");
+}
+
+TEST(MeshCommand, LineMeshIsRespectedNodeForNode) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "ring.msh", ring(40));
+  const ProgramResult result = delquad({"mesh", model, "-o", folder / "out.msh"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Mesh before = read_mesh(model), after = read_mesh(folder / "out.msh");
+  EXPECT_EQ(after.triangles.size(), 0u);
+  ASSERT_EQ(after.lines.size(), 40u);
+  std::set<std::pair<double, double>> given, kept;
+  for (const Vec3& p : before.points) given.insert({p.x, p.y});
+  for (const auto& line : after.lines)
+    for (const int v : line) kept.insert({after.points[v].x, after.points[v].y});
+  EXPECT_EQ(given, kept);
+  EXPECT_EQ(names_of(after.curves), std::set<std::string>{"rim of iron"});
+}
+
+TEST(MeshCommand, OddBoundaryLeavesOneTriangleAndSaysWhere) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "ring.msh", ring(41));
+  ProgramResult result = delquad({"mesh", model, "-o", folder / "out.msh"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(contains(result.err, "'rim of iron'")) << result.err;
+  EXPECT_TRUE(contains(result.err, "41")) << result.err;
+  EXPECT_EQ(read_mesh(folder / "out.msh").triangles.size(), 1u);
+
+  result = delquad({"mesh", model, "-o", folder / "out.msh", "--allow-triangles"});
+  EXPECT_EQ(result.exit_code, 0);
+  // Triangles are what these pipelines make.
+  EXPECT_EQ(delquad({"mesh", model, "-o", folder / "out.msh", "--pipeline", "F"}).exit_code, 0);
+}
+
+TEST(MeshCommand, InclusionAndSecondComponent) {
+  const TemporaryFolder folder;
+  const auto model =
+      write_text(folder / "model.toml", kSquare +
+                                            "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.2 }\n"
+                                            "boundary = \"interface\"\nregion = \"inclusion\"\n"
+                                            "[[loop]]\nrectangle = [[2, 0], [3, 1]]\nregion = \"other\"\n");
+  const ProgramResult result = delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.06"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Mesh mesh = read_mesh(folder / "out.msh");
+  EXPECT_EQ(names_of(mesh.regions), (std::set<std::string>{"square", "inclusion", "other"}));
+  EXPECT_EQ(mesh.triangles.size(), 0u);
+  EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+}
+
+TEST(MetricsCommand, MeasuresWhatWasWritten) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.1"}).exit_code, 0);
+  ProgramResult result = delquad({"metrics", folder / "out.msh", "--json", folder / "m.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(read_text(folder / "m.json"), "\"tau\": null"));
+  for (const char* size : {"0.1", "0.1 + 0*x", "boundary"}) {
+    result = delquad({"metrics", folder / "out.msh", "--size", size, "--json", folder / "m.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_FALSE(contains(read_text(folder / "m.json"), "\"tau\": null")) << size;
+    EXPECT_TRUE(contains(read_text(folder / "m.json"), "\"n_quads\": 100")) << size;
+  }
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

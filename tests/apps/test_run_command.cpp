@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/apps/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> all_files(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder).string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+const std::string kExperiment =
+    "title = \"A square\"\npipelines = [\"D\", \"DB\"]\nreference = \"published.toml\"\n"
+    "[[case]]\nname = \"square\"\nsize = 0.1\ncompare = { DB = \"Theirs\" }\n" +
+    kSquare;
+const std::string kPublished = "source = \"Table 9\"\n[[row]]\nname = \"Theirs\"\neta_mean = 0.75\nd4 = 87\n";
+
+TEST(RunCommand, WritesCellsTablesAndPictures) {
+  const TemporaryFolder folder;
+  write_text(folder / "published.toml", kPublished);
+  const auto file = write_text(folder / "e.toml", kExperiment);
+  const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(all_files(folder / "results"),
+            (std::vector<std::string>{
+                "square/D/mesh.msh", "square/D/mesh.vtu", "square/D/picture.svg", "square/D/record.json",
+                "square/DB/mesh.msh", "square/DB/mesh.vtu", "square/DB/picture.svg", "square/DB/record.json",
+                "square/cross.svg", "square/size.svg", "table.csv", "table.json", "table.md", "table.tex"}));
+  const std::string table = read_text(folder / "results" / "table.md");
+  EXPECT_TRUE(contains(result.out, table));
+  EXPECT_TRUE(contains(table, "1.000 (0.75, +0.250)")) << table;
+  EXPECT_TRUE(contains(table, "100.0 (87, +13.0)")) << table;
+  EXPECT_TRUE(contains(table, "Table 9")) << table;
+}
+
+TEST(RunCommand, PipelinesCanBeChosen) {
+  const TemporaryFolder folder;
+  write_text(folder / "published.toml", kPublished);
+  const auto file = write_text(folder / "e.toml", kExperiment);
+  ASSERT_EQ(delquad({"run", file, "-o", folder / "results", "--pipelines", "F,FB"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "results/square/FB/record.json"));
+  EXPECT_FALSE(fs::exists(folder / "results/square/DB"));
+  EXPECT_EQ(delquad({"run", file, "-o", folder / "results", "--pipelines", "F,F"}).exit_code, 2);
+}
+
+TEST(RunCommand, SameBytesTwice) {
+  const TemporaryFolder folder;
+  write_text(folder / "published.toml", kPublished);
+  const auto file = write_text(folder / "e.toml", kExperiment);
+  for (const char* results : {"a", "b"})
+    ASSERT_EQ(delquad({"run", file, "-o", folder / results}).exit_code, 0);
+  for (const std::string& name : all_files(folder / "a"))
+    if (name.ends_with(".msh") || name.ends_with(".vtu") || name.ends_with(".svg"))
+      EXPECT_EQ(read_text(folder / "a" / name), read_text(folder / "b" / name)) << name;
+}
+
+TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {
+  const TemporaryFolder folder;
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"DB\"]\n"
+                               "[[case]]\nname = \"bad\"\nsize = \"x - 0.5\"\n" +
+                                   kSquare + "[[case]]\nname = \"good\"\nsize = 0.1\n" + kSquare);
+  const fs::path stale = folder / "results/bad/DB";
+  fs::create_directories(stale);
+  write_text(stale / "mesh.msh", "from an earlier run");
+  const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "error: bad: ")) << result.err;
+  const std::string table = read_text(folder / "results/table.md");
+  EXPECT_TRUE(contains(table, "failed")) << table;
+  EXPECT_TRUE(contains(table, "x - 0.5")) << table;
+  EXPECT_TRUE(contains(read_text(folder / "results/bad/DB/record.json"), "\"status\": \"failed\""));
+  EXPECT_FALSE(fs::exists(stale / "mesh.msh"));
+  EXPECT_TRUE(fs::exists(folder / "results/good/DB/mesh.msh"));
+}
+
+TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
+  const TemporaryFolder folder;
+  write_text(folder / "published.toml", kPublished);
+  const auto refused = [&](const std::string& text, const std::string& part) {
+    const auto file = write_text(folder / "e.toml", text);
+    const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
+    EXPECT_EQ(result.exit_code, 2) << text;
+    EXPECT_TRUE(contains(result.err, part)) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "results"));
+  };
+  refused(kExperiment + "[[case]]\nname = \"square\"\n" + kSquare, "second case 'square'");
+  refused("[[case]]\nname = \"../escape\"\nsize = 1\n" + kSquare, "names a folder");
+  refused("pipeline = [\"D\"]\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "'pipelines'");
+  refused("pipelines = [\"DQ\"]\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "'Q'");
+  refused("[[case]]\nname = \"a\"\nsize = 1\n", "no model");
+  refused("[[case]]\nname = \"a\"\nsize = 1\ninsertion = { hmax = 1 }\n" + kSquare, "'h_max'");
+  refused("[[case]]\nname = \"a\"\nsize = 1\nrecombination = { treatment = \"best\" }\n" + kSquare,
+          "\"none\" or \"paper\"");
+  refused(
+      "reference = \"published.toml\"\ncompare = { DB = \"Thiers\" }\n[[case]]\nname = \"a\"\nsize = 1\n" +
+          kSquare,
+      "'Theirs'");
+  refused("reference = \"none.toml\"\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "none.toml");
+}
+
+TEST(RunCommand, InterruptKeepsFinishedCellsWhole) {
+  const TemporaryFolder folder;
+  std::string text = "pipelines = [\"FB\", \"DB\"]\n";
+  for (const char* name : {"a", "b", "c", "d"})
+    text += std::string("[[case]]\nname = \"") + name + "\"\nsize = 0.008\n" + kSquare;
+  const auto file = write_text(folder / "e.toml", text);
+  const fs::path first = folder / "results/a/FB/record.json";
+  const ProgramResult result = run_program(
+      DELQUAD_PROGRAM, {{"run", file, "-o", folder / "results"}, 0, [&] { return fs::exists(first); }});
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_TRUE(fs::exists(first));
+  EXPECT_FALSE(fs::exists(folder / "results/d/DB/record.json"));
+  const std::vector<std::string> whole = {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"};
+  std::size_t cells = 0;
+  for (const std::string& name : all_files(folder / "results")) {
+    const fs::path path = folder / "results" / name;
+    EXPECT_TRUE(std::count(whole.begin(), whole.end(), path.filename()) || path.extension() == ".svg")
+        << name;
+    if (path.filename() != "record.json") continue;
+    ++cells;
+    for (const std::string& part : whole) EXPECT_TRUE(fs::exists(path.parent_path() / part)) << path;
+    EXPECT_TRUE(read_text(path.parent_path() / "mesh.msh").ends_with("$EndElements\n"));
+  }
+  EXPECT_GE(cells, 1u);
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

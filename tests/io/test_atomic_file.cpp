@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <stdexcept>
+
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
+using testing_support::write_text;
+using Names = std::vector<std::string>;
+
+/// No file may grow beyond so many bytes: what a full disk does to a program, without a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+void write_long(std::ostream& out) {
+  for (int i = 0; i < 100'000; ++i) out << "0123456789";
+}
+
+TEST(AtomicFile, ReplacesWhatWasThere) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "before");
+  write_file_atomically(folder / "a.txt", [](std::ostream& out) { out << "after"; });
+  EXPECT_EQ(read_text(folder / "a.txt"), "after");
+  EXPECT_EQ(folder.names(), Names{"a.txt"});
+}
+
+TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "before");
+  {
+    const FileSizeLimit limit(1000);
+    expect_input_error([&] { write_file_atomically(folder / "a.txt", write_long); }, {"a.txt", "too large"});
+    // Small enough to fail only when the stream is closed.
+    expect_input_error(
+        [&] {
+          write_file_atomically(folder / "b.txt", [](std::ostream& out) { out << std::string(1500, 'x'); });
+        },
+        {"b.txt", "too large"});
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "before");
+  EXPECT_EQ(folder.names(), Names{"a.txt"});
+}
+
+TEST(AtomicFile, LeavesNothingWhenTheWriterThrows) {
+  const TemporaryFolder folder;
+  const auto throwing = [](std::ostream& out) {
+    write_long(out);
+    throw std::runtime_error("interrupted");
+  };
+  EXPECT_THROW(write_file_atomically(folder / "a.txt", throwing), std::runtime_error);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(AtomicFile, NamesThePathAndTheReason) {
+  const TemporaryFolder folder;
+  const auto write = [](std::ostream& out) { out << "text"; };
+  write_text(folder / "file", "");
+  expect_input_error([&] { write_file_atomically(folder / "no/such/a.txt", write); },
+                     {"no/such/a.txt", "No such file or directory"});
+  expect_input_error([&] { write_file_atomically(folder / "file/a.txt", write); },
+                     {"file/a.txt", "Not a directory"});
+  expect_input_error([&] { write_file_atomically(folder.path(), write); }, {"folder"});
+  expect_input_error([&] { write_file_atomically(folder / std::string(300, 'x'), write); },
+                     {"File name too long"});
+  EXPECT_EQ(folder.names(), Names{"file"});
+}
+
+TEST(AtomicFile, WritesIntoDevicesAndThroughLinks) {
+  expect_input_error([] { write_file_atomically("/dev/full", write_long); },
+                     {"/dev/full", "No space left on device"});
+  write_file_atomically("/dev/null", write_long);
+  struct stat status {};
+  ASSERT_EQ(stat("/dev/null", &status), 0);
+  EXPECT_TRUE(S_ISCHR(status.st_mode)) << "the device is still one";
+
+  const TemporaryFolder folder;
+  write_text(folder / "target", "before");
+  std::filesystem::create_symlink("target", folder / "link");
+  write_file_atomically(folder / "link", [](std::ostream& out) { out << "after"; });
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_text(folder / "target"), "after");
+}
+
+TEST(AtomicFile, WritesIntoTheWorkingFolder) {
+  const TemporaryFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  write_file_atomically("a.txt", [](std::ostream& out) { out << "text"; });
+  std::filesystem::current_path(before);
+  EXPECT_EQ(folder.names(), Names{"a.txt"});
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+class Obj : public ::testing::Test {
+ protected:
+  Mesh read(const std::string& text) {
+    return read_obj(testing_support::write_text(folder_ / "case.obj", text));
+  }
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Obj, ReadsWhatProgramsWrite) {
+  const Mesh mesh = read(
+      "# a comment\nmtllib x.mtl\no thing\nv 9 9 9\nv 0 0 0\nv 1 0 0 1.0\nvn 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 "
+      "0\n"
+      "g plate upper\ns off\nf 2/1/1 3//1 4/1 5\nf -4 -3 -2\ng\nl 2 3 4 5\n");
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}))
+      << "unused points go";
+  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
+  ASSERT_EQ(mesh.regions.size(), 1u);
+  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"plate", "upper"}));
+  ASSERT_EQ(mesh.curves.size(), 1u);
+  EXPECT_TRUE(mesh.curves[0].names.empty());
+}
+
+TEST_F(Obj, NamesTheLineOfWhatIsWrong) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  const auto expect_error = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read(text); }, parts);
+  };
+  expect_error("v 0 0\nv 1 0 0\n", {"case.obj:1: ", "three coordinates"});
+  expect_error("v 0 x 0\n", {"case.obj:1: ", "'x'"});
+  expect_error("v 0 inf 0\n", {"case.obj:1: ", "finite"});
+  expect_error(points + "f 1 2 4\n", {"case.obj:4: ", "from 1 to 3", "'4'"});
+  expect_error(points + "f 1 2 0\n", {"case.obj:4: ", "'0'"});
+  expect_error(points + "f 1 2 -4\n", {"case.obj:4: ", "'-4'"});
+  expect_error(points + "f 1 2 3x\n", {"case.obj:4: ", "'3x'"});
+  expect_error(points + "f 1 2\n", {"case.obj:4: ", "face of 2 vertices"});
+  expect_error(points + "f 1 2 3 1 2\n", {"case.obj:4: ", "face of 5 vertices"});
+  expect_error(points + "l 1\n", {"case.obj:4: ", "two vertices"});
+  expect_error(points, {"case.obj:", "no lines and no faces"});
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/picture.h"
+#include "io/svg.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::quad_grid;
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
+using testing_support::triangle_grid;
+
+size_t count(const std::string& text, const std::string& part) {
+  size_t n = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+/// The drawing instructions of all paths.
+std::string path_data(const std::string& text) {
+  std::string data;
+  for (size_t at = text.find(" d=\""); at != std::string::npos; at = text.find(" d=\"", at + 1)) {
+    data += text.substr(at + 4, text.find('"', at + 4) - at - 4);
+  }
+  return data;
+}
+
+TEST(SvgPath, IsRelativeAndShort) {
+  svg::Path path;
+  path.polygon({{10, 20}, {15, 20}, {15, 10}, {5, 10}});
+  path.segment({0, 0}, {-1, 1});
+  EXPECT_EQ(path.data(), "m10 20 5 0 0-10-10 0zm-10-20-1 1");
+}
+
+TEST(SvgColour, EndsAndMiddleOfTheMap) {
+  EXPECT_EQ(svg::colour(0), "#440154");
+  EXPECT_EQ(svg::colour(0.5), "#21918c");
+  EXPECT_EQ(svg::colour(1), "#fde725");
+  EXPECT_EQ(svg::colour(-3), svg::colour(0));
+  EXPECT_EQ(svg::colour(3), svg::colour(1));
+}
+
+TEST(SvgPicture, PutsYUpAndKeepsTheShape) {
+  const svg::Picture picture({{-1, 2, 0}, {3, 4, 0}}, "");
+  EXPECT_EQ(picture.spot(-1, 4).x, 0);
+  EXPECT_EQ(picture.spot(-1, 4).y, 0);
+  EXPECT_EQ(picture.spot(3, 2).x, 2 * picture.spot(3, 2).y) << "4 by 2 units";
+}
+
+TEST(SvgPicture, SurvivesBoxesWithoutWidthHeightOrBoth) {
+  for (const std::vector<Vec3>& points : {std::vector<Vec3>{},
+                                          {{1, 1, 0}},
+                                          {{1, 1, 0}, {1, 5, 0}},
+                                          {{0, 0, 0}, {1e-300, 0, 0}},
+                                          {{-1e308, 0, 0}, {1e308, 1, 0}}}) {
+    const svg::Picture picture(points, "");
+    EXPECT_GT(picture.scale(), 0);
+    EXPECT_TRUE(std::isfinite(picture.scale()));
+    for (const Vec3& p : points) picture.spot(p);
+  }
+}
+
+TEST(DrawMesh, HasOnePolygonAnElementAndEscapesItsTitle) {
+  const TemporaryFolder folder;
+  draw_mesh(folder / "a.svg", quad_grid(7, 5), "<D> & B");
+  const std::string text = read_text(folder / "a.svg");
+  EXPECT_EQ(count(path_data(text), "z"), 7u * 5);
+  EXPECT_NE(text.find("&lt;D&gt; &amp; B"), std::string::npos);
+  EXPECT_EQ(count(text, "valence"), 0u) << "all vertices are regular";
+  EXPECT_NE(text.find(">eta<"), std::string::npos);
+}
+
+TEST(DrawMesh, MarksIrregularVerticesByValence) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 2);
+  mesh.quads.erase(mesh.quads.begin());
+  mesh.quad_region.pop_back();
+  mesh.triangles = {{0, 1, 4}, {0, 4, 3}};
+  mesh.triangle_region = {0, 0};
+  draw_mesh(folder / "a.svg", mesh, "");
+  const std::string text = read_text(folder / "a.svg");
+  // The dot of valence 5 in the middle, and once in the legend.
+  EXPECT_EQ(count(text, std::string(svg::mark_colour(-1))), 2u);
+  EXPECT_EQ(count(text, std::string(svg::mark_colour(1))), 1u);
+}
+
+TEST(DrawMesh, OfTrianglesHasNoColourBar) {
+  const TemporaryFolder folder;
+  draw_mesh(folder / "a.svg", triangle_grid(4, 4), "");
+  EXPECT_EQ(read_text(folder / "a.svg").find(">eta<"), std::string::npos);
+}
+
+TEST(DrawMesh, StaysSmallForManyElements) {
+  const TemporaryFolder folder;
+  constexpr int n = 250;
+  draw_mesh(folder / "a.svg", quad_grid(n, n), "");
+  EXPECT_LT(std::filesystem::file_size(folder / "a.svg"), 30.0 * n * n);
+  EXPECT_EQ(read_text(folder / "a.svg").find("#222"), std::string::npos) << "edges are not drawn";
+}
+
+TEST(DrawCrosses, HasTwoStrokesACross) {
+  const TemporaryFolder folder;
+  const Mesh square = testing_support::grid_outline(1, 1, 1, 1);
+  draw_crosses(folder / "a.svg", square, {{{0.5, 0.5}, 0, 0.2}, {{0.25, 0.5}, 0.3, 0.2}}, {{{0.5, 0.5}, -1}},
+               "");
+  const std::string text = read_text(folder / "a.svg");
+  EXPECT_EQ(count(path_data(text), "m"), 2u * 2 + 4 + 2) << "crosses, outline, the dot and its halo";
+  EXPECT_NE(text.find("index -1/4"), std::string::npos);
+}
+
+TEST(DrawScalar, CutsTrianglesAlongBands) {
+  const TemporaryFolder folder;
+  const Mesh mesh = triangle_grid(1, 1);
+  draw_scalar(folder / "one.svg", mesh, std::vector<double>(4, 2.5), "");
+  const std::string one = read_text(folder / "one.svg");
+  EXPECT_EQ(count(path_data(one), "z"), 2u) << "a constant needs no cuts";
+  EXPECT_NE(one.find(">2.5<"), std::string::npos);
+
+  draw_scalar(folder / "many.svg", mesh, {0.001, 1, 0.001, 1}, "");
+  const std::string many = read_text(folder / "many.svg");
+  EXPECT_EQ(count(path_data(many), "z"), 2u * 40) << "every band crosses both triangles";
+  for (const char* label : {">0.001<", ">0.1<", ">1<"})
+    EXPECT_NE(many.find(label), std::string::npos) << label;
+
+  draw_scalar(folder / "zero.svg", mesh, {0, 1, 0, 1}, "");
+  EXPECT_NE(read_text(folder / "zero.svg").find(">0.25<"), std::string::npos)
+      << "linear where a value is not positive";
+}
+
+TEST(Pictures, AreTheSameBytesTwice) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.svg", "b.svg"}) draw_mesh(folder / name, quad_grid(9, 9, 1, 3), "title");
+  EXPECT_EQ(read_text(folder / "a.svg"), read_text(folder / "b.svg"));
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "io/mesh_io.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::quad_grid;
+using testing_support::TemporaryFolder;
+
+/// The bytes of the DataArray of that name, decoded, after its length.
+std::string array_bytes(const std::string& xml, const std::string& name) {
+  const size_t tag = xml.find("Name=\"" + name + "\""), first = xml.find('>', tag) + 1,
+               last = xml.find('<', first);
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t held = 0;
+  int bits = 0;
+  EXPECT_EQ((last - first) % 4, 0u);
+  for (size_t i = first; i < last && xml[i] != '='; ++i) {
+    held = held << 6 | static_cast<std::uint32_t>(digits.find(xml[i]));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 255);
+  }
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes.data(), sizeof length);
+  EXPECT_EQ(length, bytes.size() - sizeof length) << name;
+  return bytes.substr(sizeof length);
+}
+
+template <class T>
+std::vector<T> array(const std::string& xml, const std::string& name) {
+  const std::string bytes = array_bytes(xml, name);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+TEST(Vtu, HoldsCellsAndTheirData) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(1, 1, 0.1, 3);
+  mesh.triangles = {{0, 1, 3}};
+  mesh.triangle_region = {0};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  write_vtu(folder / "a.vtu", mesh, {{"a < b", {1, 2, 3, 4, nan, 0.1}}});
+  const std::string xml = testing_support::read_text(folder / "a.vtu");
+  EXPECT_NE(xml.find("NumberOfPoints=\"4\" NumberOfCells=\"6\""), std::string::npos);
+  EXPECT_EQ(array<double>(xml, "Points"), (std::vector<double>{0, 0, 0, 0.1, 0, 0, 0, 3, 0, 0.1, 3, 0}));
+  EXPECT_EQ(array<std::int64_t>(xml, "connectivity"),
+            (std::vector<std::int64_t>{0, 1, 1, 3, 3, 2, 2, 0, 0, 1, 3, 0, 1, 3, 2}));
+  EXPECT_EQ(array<std::int64_t>(xml, "offsets"), (std::vector<std::int64_t>{2, 4, 6, 8, 11, 15}));
+  EXPECT_EQ(array<std::uint8_t>(xml, "types"), (std::vector<std::uint8_t>{3, 3, 3, 3, 5, 9}));
+  EXPECT_EQ(array<std::int32_t>(xml, "entity"), (std::vector<std::int32_t>{1, 2, 3, 4, 1, 1}));
+  const auto data = array<double>(xml, "a &lt; b");
+  ASSERT_EQ(data.size(), 6u);
+  EXPECT_TRUE(std::isnan(data[4]));
+  EXPECT_EQ(data[5], 0.1);
+}
+
+TEST(Vtu, NeedsOneValueForEachCell) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_vtu(folder / "a.vtu", quad_grid(1, 1), {{"short", {1}}}), std::invalid_argument);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace delquad

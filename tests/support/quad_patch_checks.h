@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/patch.h"
+
+/// What must hold for any quad mesh of a patch, whatever its geometry.
+namespace delquad::testing_support {
+
+/// Violations, one line each: indices, repeated vertices, points that nothing uses, sides used twice in one
+/// direction or by more than two elements, a boundary that is not the given one, boundary points that moved,
+/// V - E + F not `euler` (1 - holes for one component).
+inline std::vector<std::string> check_quad_patch(const QuadPatch& mesh, const PatchBoundary& boundary,
+                                                 int euler) {
+  std::vector<std::string> wrong;
+  const int n = static_cast<int>(mesh.points.size());
+  std::set<std::pair<int, int>> sides;
+  std::vector<char> used(mesh.points.size(), 0);
+  const auto add = [&](const auto& element) {
+    for (std::size_t k = 0; k < element.size(); ++k) {
+      const int a = element[k], b = element[(k + 1) % element.size()];
+      if (a < 0 || a >= n) {
+        wrong.push_back("index " + std::to_string(a) + " out of range");
+        return;
+      }
+      used[a] = 1;
+      if (std::count(element.begin(), element.end(), a) != 1)
+        wrong.push_back("repeated vertex " + std::to_string(a));
+      if (!sides.emplace(a, b).second) {
+        wrong.push_back("side " + std::to_string(a) + "-" + std::to_string(b) +
+                        " used twice in one direction");
+      }
+    }
+  };
+  for (const auto& q : mesh.quads) add(q);
+  for (const auto& t : mesh.triangles) add(t);
+  for (int i = 0; i < n; ++i) {
+    if (used[i] == 0) wrong.push_back("point " + std::to_string(i) + " is not used");
+  }
+  std::set<std::pair<int, int>> outline, expected;
+  int edges = 0;
+  for (const auto& [a, b] : sides) {
+    const bool outer = !sides.contains({b, a});
+    if (outer) outline.emplace(a, b);
+    if (outer || a < b) ++edges;
+  }
+  for (const auto& e : boundary.edges) expected.emplace(e[0], e[1]);
+  if (outline != expected) wrong.push_back("the boundary is not the given one");
+  if (mesh.n_boundary != static_cast<int>(boundary.points.size()) ||
+      !std::equal(boundary.points.begin(), boundary.points.end(), mesh.points.begin())) {
+    wrong.push_back("boundary points moved");
+  }
+  const int found = n - edges + static_cast<int>(mesh.quads.size() + mesh.triangles.size());
+  if (found != euler)
+    wrong.push_back("V - E + F is " + std::to_string(found) + ", not " + std::to_string(euler));
+  return wrong;
+}
+
+/// How many loops the boundary has.
+inline int count_loops(const PatchBoundary& boundary) {
+  std::map<int, int> next;
+  for (const auto& e : boundary.edges) next[e[0]] = e[1];
+  int loops = 0;
+  while (!next.empty()) {
+    ++loops;
+    for (auto at = next.begin(); at != next.end();) {
+      const int to = at->second;
+      next.erase(at);
+      at = next.find(to);
+    }
+  }
+  return loops;
+}
+
+}  // namespace delquad::testing_support
