@@ -6,6 +6,7 @@
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
 #include "io/mesh_io.h"
+#include "mesh/error.h"
 #include "pipeline/case_file.h"
 #include "pipeline/experiment_runner.h"
 #include "pipeline/interrupt.h"

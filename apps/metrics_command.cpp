@@ -5,6 +5,7 @@
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
 #include "io/mesh_io.h"
+#include "mesh/error.h"
 #include "pipeline/record.h"
 
 namespace delquad {

@@ -12,23 +12,27 @@
 namespace delquad {
 
 /// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then renamed.
-/// Throws InputError naming the path and the system's reason (folder missing, not writable, disk full).
-void write_file_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+/// A link stays and its target is replaced; devices and pipes are written to directly. Throws InputError
+/// naming the path and the system's reason (folder missing, not writable, disk full); what `write` throws
+/// passes through.
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(std::ostream&)>& write);
 
-/// Reads MSH 2.2 or 4.1 (text), by content. Elements of dimension 1 and 2 become lines, triangles and quads; physical
-/// names and entity tags are kept (a group without a name goes by its number); points are ignored, and so are nodes that no
-/// other element uses. Throws InputError with file and line.
+/// Reads MSH 2.2 or 4.1 (text), by content. Elements of dimension 1 and 2 become lines, triangles and quads;
+/// physical names and entity tags are kept (a group without a name goes by its number); points are ignored,
+/// and so are nodes that no other element uses. Throws InputError with file and line.
 Mesh read_msh(const std::filesystem::path& path);
-/// Reads Wavefront OBJ: v, l, f (3 or 4 vertices); g names the region of the faces and the curve of the lines after it.
+/// Reads Wavefront OBJ: v, l, f (3 or 4 vertices); g names the region of the faces and the curve of the lines
+/// after it.
 Mesh read_obj(const std::filesystem::path& path);
 /// Reads by extension: .msh, .obj. InputError for any other, naming those known.
 Mesh read_mesh(const std::filesystem::path& path);
 
-/// MSH 4.1 text with $PhysicalNames and $Entities. Coordinates read back exactly. A group whose name is a number gets that
-/// number as its tag.
+/// MSH 4.1 text with $PhysicalNames and $Entities. Coordinates read back exactly. A group whose name is a
+/// number gets that number as its tag.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh);
-/// VTK XML (base64), with the tag of its entity for each cell and one value per cell (lines, then triangles, then quads)
-/// for each field in `cell_data`; a NaN there means that the cell has no value.
+/// VTK XML (base64), with the tag of its entity for each cell and one value per cell (lines, then triangles,
+/// then quads) for each field in `cell_data`; a NaN there means that the cell has no value.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {});
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores.

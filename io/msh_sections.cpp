@@ -109,7 +109,8 @@ class SectionReader {
     } else if (version == "4.1") {
       version_ = Version::k41;
     } else {
-      in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)", in_.printable(version)));
+      in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
+                           in_.printable(version)));
     }
     if (in_.integer("the file type", 0, 1) == 1) {
       in_.fail("binary MSH file: expected text (in Gmsh: Mesh.Binary = 0)");

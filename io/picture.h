@@ -22,12 +22,13 @@ struct SingularityMark {
   int index;  ///< in quarters: +1 valence 3, -1 valence 5
 };
 
-/// The planar mesh coloured by eta (quads) or plain (triangles), irregular interior vertices marked by valence,
-/// with a legend and a title line. SVG, written whole or not at all.
+/// The planar mesh coloured by eta (quads) or plain (triangles), irregular interior vertices marked by
+/// valence, with a legend and a title line. SVG, written whole or not at all.
 void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::string& title);
 /// The cross field: glyphs inside the mesh's outline, singularities marked.
-void draw_crosses(const std::filesystem::path& path, const Mesh& outline, const std::vector<CrossGlyph>& crosses,
-                  const std::vector<SingularityMark>& singularities, const std::string& title);
+void draw_crosses(const std::filesystem::path& path, const Mesh& outline,
+                  const std::vector<CrossGlyph>& crosses, const std::vector<SingularityMark>& singularities,
+                  const std::string& title);
 /// A scalar at the points of a triangle mesh, log-coloured, with a legend.
 void draw_scalar(const std::filesystem::path& path, const Mesh& triangles, const std::vector<double>& values,
                  const std::string& title);

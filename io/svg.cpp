@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "io/mesh_io.h"
+#include "io/xml.h"
 #include "mesh/half_edges.h"
 
 namespace delquad::svg {
@@ -17,26 +18,6 @@ namespace {
 constexpr double kLargestWidth = 1000, kLargestHeight = 800, kLeastHeight = 300;  // of the drawing, pixels
 constexpr double kMargin = 20, kTitleHeight = 28, kLegendWidth = 110;
 constexpr double kBarWidth = 16, kBarHeight = 180, kLineHeight = 20;
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -196,7 +177,7 @@ void Picture::write(const std::filesystem::path& path) const {
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
         "<g font-family=\"sans-serif\" font-size=\"12\">\n"
         "<text x=\"{2}\" y=\"{3}\" font-size=\"15\">{4}</text>\n",
-        page_width, page_height, kMargin, kMargin + 8, escaped(title_));
+        page_width, page_height, kMargin, kMargin + 8, xml_escaped(title_));
     out << fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n</g>\n", width_ + 2 * kMargin,
                        kMargin + kTitleHeight, legend_);
     out << fmt::format(

@@ -4,6 +4,7 @@
 
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "io/xml.h"
 
 namespace delquad {
 
@@ -73,26 +74,6 @@ struct Cells {
   }
 };
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
                 const std::map<std::string, std::vector<double>>& cell_data) {
   constexpr bool kLittle = std::endian::native == std::endian::little;
@@ -112,7 +93,7 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
   out << "      </Cells>\n      <CellData>\n";
   write_array(out, "type=\"Int32\" Name=\"entity\"", cells.entities);
   for (const auto& [name, values] : cell_data) {
-    write_array(out, "type=\"Float64\" Name=\"" + escaped(name) + "\"", values);
+    write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
   }
   out << "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
 }

@@ -8,6 +8,7 @@
 
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesh/error.h"
 #include "pipeline/case_pictures.h"
 #include "pipeline/interrupt.h"
 #include "pipeline/linf_study.h"

@@ -33,19 +33,11 @@ Json size_json(const SizeSpec& size) {
   return json;
 }
 
-/// h_max as it was used: the strategy's own where the option leaves it.
-Json h_max_json(const MeshingOptions& options, const Word& word) {
-  if (options.frontal.h_max > 0) return options.frontal.h_max;
-  if (word.text.starts_with('F')) return make_l2_frontal()->default_h_max();
-  if (word.text.starts_with('D')) return make_linf_delquad()->default_h_max();
-  return Json();
-}
-
-Json options_json(const Case& c, const Word& word) {
+Json options_json(const Case& c) {
   const MeshingOptions& o = c.options;
   return {{"size", size_json(c.size)},
           {"cross", c.cross.text},
-          {"h_max", h_max_json(o, word)},
+          {"h_max", o.frontal.h_max > 0 ? Json(o.frontal.h_max) : Json()},
           {"rejection", o.frontal.rejection},
           {"boundary_height", o.frontal.boundary_height},
           {"max_points", o.frontal.max_points},
@@ -91,8 +83,9 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   json["valences"] = valences;
 }
 
-Json insertion_json(const FrontalSummary& s) {
-  return {{"termination", s.termination == FrontalTermination::kResolved ? "resolved" : "max_points"},
+Json insertion_json(const FrontalSummary& s, double h_max) {
+  return {{"h_max", h_max},
+          {"termination", s.termination == FrontalTermination::kResolved ? "resolved" : "max_points"},
           {"inserted", s.inserted},
           {"rejected", s.rejected},
           {"unresolved", s.unresolved},
@@ -152,12 +145,12 @@ std::string print(const Json& json) {
 std::string run_record(const Case& c, const PreparedCase& prepared, const Word& word,
                        const RunResult& result) {
   Json json = start_record(c, word, "ok");
-  json["options"] = options_json(c, word);
+  json["options"] = options_json(c);
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);
   json["warnings"] = prepared.warnings;
   const StageLog& log = result.log;
-  if (log.insertion) json["insertion"] = insertion_json(*log.insertion);
+  if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   auto seconds = prepared.seconds;
@@ -173,7 +166,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
 std::string failure_record(const Case& c, const Word& word, const std::string& reason) {
   Json json = start_record(c, word, "failed");
   json["reason"] = reason;
-  json["options"] = options_json(c, word);
+  json["options"] = options_json(c);
   add_origin(json);
   return print(json);
 }

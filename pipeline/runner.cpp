@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "mesh/error.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {

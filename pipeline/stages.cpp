@@ -50,6 +50,7 @@ void insert_points(const PointPlacement& placement, const StageInput& in, PatchM
   patch.triangles = mesh_frontal(in.boundary, placement, in.cross, in.size, in.options.frontal, &summary);
   patch.form = PatchForm::kTriangles;
   add(log.insertion, summary);
+  log.h_max = in.options.frontal.h_max > 0 ? in.options.frontal.h_max : placement.default_h_max();
   log.add_seconds("insertion", watch.seconds());
 }
 

@@ -32,6 +32,7 @@ struct StageInput {
 struct StageLog {
   std::vector<std::pair<std::string, double>> seconds;  ///< by step, in order of first use
   std::optional<FrontalSummary> insertion;
+  double h_max = 0;  ///< that insertion used: the option's or the strategy's own
   std::optional<RecombineSummary> recombination;
   std::optional<TreatmentSummary> treatment;
   void add_seconds(const std::string& step, double s);

@@ -10,6 +10,7 @@ namespace {
 
 /// Weight of the length term against the corners'.
 constexpr double kLengthWeight = 0.12;
+constexpr double kHopeless = 1;
 /// The steep term of a corner starts at this sine and has this factor.
 constexpr double kSteepSine = 0.05, kSteep = 40;
 /// A step is at most this part of the shortest edge.
@@ -24,16 +25,21 @@ Vec2 unit(Vec2 v) { return (1 / std::max(norm(v), kTiny)) * v; }
 
 }  // namespace
 
-double least_sine(const QuadTopology& mesh, int element) {
+std::array<double, 4> corner_sines(const QuadTopology& mesh, int element) {
   const int n = mesh.is_quad(element) ? 4 : 3;
   Vec2 side[4];
   for (int k = 0; k < n; ++k) {
     const int h = 4 * element + k;
     side[k] = unit(mesh.point(mesh.target(h)) - mesh.point(mesh.origin(h)));
   }
-  double least = cross(side[n - 1], side[0]);
-  for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
-  return least;
+  std::array<double, 4> sines{cross(side[n - 1], side[0]), 1, 1, 1};
+  for (int k = 1; k < n; ++k) sines[k] = cross(side[k - 1], side[k]);
+  return sines;
+}
+
+double least_sine(const QuadTopology& mesh, int element) {
+  const auto sines = corner_sines(mesh, element);
+  return std::min({sines[0], sines[1], sines[2], sines[3]});
 }
 
 QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) : mesh_(mesh), size_(size) {
@@ -82,7 +88,10 @@ void QuadRelocation::gather(int v) {
   mesh_.for_each_out(v, [&](int h) {
     const int across = mesh_.next(h);
     const Vec2 end = mesh_.point(mesh_.origin(across));
-    star_.push_back({end, unit(mesh_.point(mesh_.target(across)) - end), {}, 0.5 * (delta_[v] + delta_[mesh_.origin(across)])});
+    star_.push_back({end,
+                     unit(mesh_.point(mesh_.target(across)) - end),
+                     {},
+                     0.5 * (delta_[v] + delta_[mesh_.origin(across)])});
   });
   std::size_t i = 0;
   mesh_.for_each_out(v, [&](int h) {
@@ -125,11 +134,12 @@ QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives
     corner(cross(u, s.left), -dot(u, s.left), turn);
     corner(cross(s.right, u), -dot(s.right, u), -turn);
     const double misfit = std::log(length / s.delta);
-    value.cost += kLengthWeight * misfit * misfit;
+    const double soft = 1 + misfit * misfit / (kHopeless * kHopeless);
+    value.cost += kLengthWeight * kHopeless * kHopeless * std::log(soft);
     value.shortest = std::min(value.shortest, length);
     if constexpr (kDerivatives) {
-      derivatives->gradient += (-2 * kLengthWeight * misfit * inverse) * u;
-      const double second = 2 * kLengthWeight * inverse * inverse;
+      derivatives->gradient += (-2 * kLengthWeight / soft * misfit * inverse) * u;
+      const double second = 2 * kLengthWeight / soft * inverse * inverse;
       derivatives->hxx += second * u.x * u.x;
       derivatives->hxy += second * u.x * u.y;
       derivatives->hyy += second * u.y * u.y;
@@ -153,7 +163,8 @@ double QuadRelocation::step(int v) {
   const Value before = evaluate<true>(at, &d);
   const double determinant = d.hxx * d.hyy - d.hxy * d.hxy;
   if (!(determinant > 0)) return 0;
-  Vec2 move = (-1 / determinant) * Vec2{d.hyy * d.gradient.x - d.hxy * d.gradient.y, d.hxx * d.gradient.y - d.hxy * d.gradient.x};
+  Vec2 move = (-1 / determinant) *
+              Vec2{d.hyy * d.gradient.x - d.hxy * d.gradient.y, d.hxx * d.gradient.y - d.hxy * d.gradient.x};
   const double length = norm(move), longest = kLongestStep * before.shortest;
   if (!(length > 1e-4 * before.shortest)) return 0;
   if (length > longest) move = (longest / length) * move;
@@ -175,7 +186,7 @@ long long QuadRelocation::relax(double tolerance, int max_sweeps) {
     queue_.clear();
     for (const int v : visiting_) {
       active_[v] = 0;
-      if (!mesh_.vertex_alive(v)) continue;
+      if (v >= mesh_.vertex_slots() || !mesh_.vertex_alive(v)) continue;  // since taken back, or removed
       refresh_delta(v);
       const double moved = step(v);
       if (moved > 0) ++moves;

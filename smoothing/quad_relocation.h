@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fields/size_field.h"
@@ -10,13 +11,16 @@ namespace delquad {
 /// Moves the interior vertices of a quad mesh, one by one, towards right angles and the wanted edge lengths.
 ///
 /// Each vertex lowers
-///   sum over the corners of its elements that its place changes of  psi(1 - sin alpha),  psi(c) = c + steep term past .95
+///   sum over the corners of its elements that its place changes of  psi(1 - sin alpha),  psi(c) = c + steep
+///   term past .95
 /// + kLengthWeight * sum over its edges of (max(r, 1/r) - 1)^2,  r = length / mean of delta' at the two ends,
-/// by a damped Newton step, at most a part of its shortest edge. 1 - sin alpha grows with |alpha - 90 deg| up to 180 degrees, so
-/// that reflex and inverted corners are pulled straight. Only vertices near which something still moves are visited.
+/// by a damped Newton step, at most a part of its shortest edge. 1 - sin alpha grows with |alpha - 90 deg| up
+/// to 180 degrees, so that reflex and inverted corners are pulled straight. Only vertices near which
+/// something still moves are visited.
 class QuadRelocation {
  public:
-  /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part of delta'.
+  /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part
+  /// of delta'.
   QuadRelocation(QuadTopology& mesh, const ParametricSize& size);
 
   double delta(int v) const { return delta_[v]; }
@@ -26,11 +30,12 @@ class QuadRelocation {
   /// Marks v for the next sweeps (no effect on boundary or dead vertices).
   void activate(int v);
   void activate_all();
-  /// Visits the active vertices until no move exceeds `tolerance` (part of the vertex's shortest edge) or `max_sweeps`
-  /// are done. Returns the number of moves.
+  /// Visits the active vertices until no move exceeds `tolerance` (part of the vertex's shortest edge) or
+  /// `max_sweeps` are done. Returns the number of moves.
   long long relax(double tolerance, int max_sweeps);
-  /// Lifts the worst elements: while quads below `eta` improve, moves their vertices (and their neighbours') so that the
-  /// worst corner around the vertex gets better. Never lowers the least eta around a vertex. Returns the number of moves.
+  /// Lifts the worst elements: while quads below `eta` improve, moves their vertices (and their neighbours')
+  /// so that the worst corner around the vertex gets better. Never lowers the least eta around a vertex.
+  /// Returns the number of moves.
   long long lift_worst(double eta, int max_sweeps);
 
   /// One Newton step of v; how far it went, as a part of its shortest edge. 0 for boundary and dead vertices.
@@ -40,10 +45,11 @@ class QuadRelocation {
 
  private:
   struct Spoke {
-    Vec2 end;       ///< the neighbour
-    Vec2 left;      ///< unit vector from it along the side of the element on the spoke's left that v does not touch
-    Vec2 right;     ///< same on the right
-    double delta;   ///< wanted length
+    Vec2 end;      ///< the neighbour
+    Vec2 left;     ///< unit vector from it along the side of the element on the spoke's left that v does not
+                   ///< touch
+    Vec2 right;    ///< same on the right
+    double delta;  ///< wanted length
   };
   struct Value {
     double cost = 0;
@@ -72,7 +78,9 @@ class QuadRelocation {
   std::vector<Spoke> star_;
 };
 
-/// Least sine over the corners of an element, negative when one is reflex or inverted; eta = 2/pi asin of it, at least 0.
+/// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
+std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
+/// The least of them; eta = 2/pi asin of it, at least 0.
 double least_sine(const QuadTopology& mesh, int element);
 
 }  // namespace delquad

@@ -16,7 +16,8 @@ QuadTopology::QuadTopology(const QuadPatch& mesh) : n_boundary_(mesh.n_boundary)
     const int v = corner_[h];
     if ((h & 3) == 3 && v == -1 && h >= 4 * static_cast<int>(mesh.quads.size())) continue;
     if (v < 0 || v >= vertex_slots())
-      throw std::invalid_argument("quad mesh: element " + std::to_string(h / 4) + " has no vertex " + std::to_string(v));
+      throw std::invalid_argument("quad mesh: element " + std::to_string(h / 4) + " has no vertex " +
+                                  std::to_string(v));
     ++valence_[v];
   }
   build_twins();
@@ -42,8 +43,8 @@ void QuadTopology::build_twins() {
     for (int i = first[b]; i < first[b + 1]; ++i)
       if (target(leaving[i]) == a) twin_[h] = leaving[i];
     if (twin_[h] < 0 && (!on_boundary(a) || !on_boundary(b)))
-      throw std::invalid_argument("quad mesh: the edge from vertex " + std::to_string(a) + " to " + std::to_string(b) +
-                                  " is open though not both ends are boundary points");
+      throw std::invalid_argument("quad mesh: the edge from vertex " + std::to_string(a) + " to " +
+                                  std::to_string(b) + " is open though not both ends are boundary points");
     if (twin_[h] < 0 || out_[a] < 0) out_[a] = h;
   }
 }
@@ -78,7 +79,8 @@ std::vector<std::string> QuadTopology::check_invariants() const {
     if (!vertex_alive(corner_[h])) wrong.push_back(half_edge(h) + " leaves a dead vertex");
     const int t = twin_[h];
     if (t < 0) {
-      if (!on_boundary(origin(h)) || !on_boundary(target(h))) wrong.push_back(half_edge(h) + " is open inside");
+      if (!on_boundary(origin(h)) || !on_boundary(target(h)))
+        wrong.push_back(half_edge(h) + " is open inside");
       if (out_[origin(h)] != h) wrong.push_back(half_edge(h) + " is not its boundary vertex's first");
     } else if (twin_[t] != h || origin(t) != target(h) || target(t) != origin(h)) {
       wrong.push_back(half_edge(h) + " and its twin disagree");
@@ -203,7 +205,8 @@ void QuadTopology::remove_doublet(int v) {
 void QuadTopology::inset(int h) {
   std::array<int, 4> corner, inner, across, face;
   for (int k = 0, g = h; k < 4; ++k, g = next(g)) corner[k] = corner_[g], across[k] = twin_[g];
-  const Vec2 middle = 0.25 * (points_[corner[0]] + points_[corner[1]] + points_[corner[2]] + points_[corner[3]]);
+  const Vec2 middle =
+      0.25 * (points_[corner[0]] + points_[corner[1]] + points_[corner[2]] + points_[corner[3]]);
   for (int k = 0; k < 4; ++k) {
     inner[k] = add_vertex(0.5 * (points_[corner[k]] + middle));
     face[k] = add_element();
@@ -238,10 +241,14 @@ void QuadTopology::rollback(const Mark& mark) {
 
 std::vector<int>& QuadTopology::array(Array which) {
   switch (which) {
-    case kCorner: return corner_;
-    case kTwin: return twin_;
-    case kOut: return out_;
-    default: return valence_;
+    case kCorner:
+      return corner_;
+    case kTwin:
+      return twin_;
+    case kOut:
+      return out_;
+    default:
+      return valence_;
   }
 }
 

@@ -10,16 +10,17 @@ namespace delquad {
 
 /// A quad mesh of one patch that is edited locally, each edit revocable.
 ///
-/// Half-edge h = 4 * element + corner runs counterclockwise from its corner to the next; twin(h) lies across, -1 on the
-/// boundary. Elements and vertices that an edit removes stay behind as dead slots until to_patch() leaves them out.
-/// Leftover triangles are elements too; only remove_doublet() touches them.
+/// Half-edge h = 4 * element + corner runs counterclockwise from its corner to the next; twin(h) lies across,
+/// -1 on the boundary. Elements and vertices that an edit removes stay behind as dead slots until to_patch()
+/// leaves them out. Leftover triangles are elements too; only remove_doublet() touches them.
 class QuadTopology {
  public:
-  /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same direction, a
-  /// boundary edge ends in an interior point, or a vertex index is out of range.
+  /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same
+  /// direction, a boundary edge ends in an interior point, or a vertex index is out of range.
   explicit QuadTopology(const QuadPatch& mesh);
 
-  /// Boundary points first, then live interior ones, each in the order of their creation; live elements likewise.
+  /// Boundary points first, then live interior ones, each in the order of their creation; live elements
+  /// likewise.
   QuadPatch to_patch() const;
   /// What is wrong, one line each; empty when the mesh is sound.
   std::vector<std::string> check_invariants() const;
@@ -66,8 +67,8 @@ class QuadTopology {
   std::array<int, 6> hexagon(int h) const;
   /// Both elements are quads and the rotated edge would be a new one.
   bool can_rotate(int h, bool counterclockwise) const;
-  /// Turns edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise). Half-edges of
-  /// both quads get other places; returns the new edge's half-edge in h's element.
+  /// Turns edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise).
+  /// Half-edges of both quads get other places; returns the new edge's half-edge in h's element.
   int rotate(int h, bool counterclockwise);
 
   /// The opposite corner of h's quad can be merged into h's origin.
@@ -79,8 +80,8 @@ class QuadTopology {
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);
 
-  /// Puts a smaller quad inside h's quad, joined to it corner by corner: one quad becomes five. The four new vertices
-  /// are the last four slots, in the order of the corners from h's origin on.
+  /// Puts a smaller quad inside h's quad, joined to it corner by corner: one quad becomes five. The four new
+  /// vertices are the last four slots, in the order of the corners from h's origin on.
   void inset(int h);
 
   void move(int v, Vec2 to);
@@ -118,8 +119,8 @@ class QuadTopology {
 
   int n_boundary_ = 0;
   std::vector<Vec2> points_;
-  std::vector<int> corner_, twin_;   // by half-edge; corner -1: no such corner
-  std::vector<int> out_, valence_;   // by vertex; out -1: dead
+  std::vector<int> corner_, twin_;  // by half-edge; corner -1: no such corner
+  std::vector<int> out_, valence_;  // by vertex; out -1: dead
   std::vector<IntChange> int_log_;
   std::vector<MoveChange> move_log_;
 };

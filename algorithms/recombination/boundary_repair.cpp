@@ -1,6 +1,7 @@
 #include "algorithms/recombination/boundary_repair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>

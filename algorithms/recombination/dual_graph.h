@@ -18,9 +18,8 @@ inline constexpr long long kExtraEdgeCost = 100 * kCostUnit;
 /// Nodes are the triangles in Hilbert order, then one spare node for each connected component that has an odd
 /// number of them; a spare's mate is the triangle that is left over. Edges, in this order:
 /// 1. one for each interior side;
-/// 2. the extra ones [Remacle et al. 2011, section 4]: one for each boundary point, between the first and the
-/// last
-///    triangle of its fan, unless they are the same or share a side;
+/// 2. the extra ones [Remacle et al. 2011, section 4]: for each boundary point one between the first and the
+///    last triangle of its fan, unless they are the same or share a side;
 /// 3. for each spare, one to every triangle of its component, free of charge.
 struct DualGraph {
   MatchingGraph graph;

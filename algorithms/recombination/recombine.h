@@ -29,13 +29,14 @@ struct RecombineSummary {
 /// without bridges although a triangle on the boundary has degree four: the graph may have none (18 points on
 /// a circle suffice). Then every chord (an interior side that joins two boundary points) is cut in two, and a
 /// perfect matching exists. Proof by Tutte: no triangle has two boundary sides any more, so the extra edges
-/// link the triangles of each boundary loop to a cycle. Were there a set S of s1 triangles with a boundary
-/// side and s3 without, whose removal leaves at least s1 + s3 + 2 odd components, then let r be the number of
-/// runs into which S cuts those cycles. A component without boundary sides has at least three edges to S. The
-/// others have four a run: two along the cycle and two because a path between boundary points that is no
-/// chord has two edges; there are at most r of them. S has 4 s1 + 3 s3 edge ends, of which at least 2 (s1 -
-/// r) lie inside it. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r; but each run
-/// ends at another triangle of S, hence r <= s1.
+/// link the triangles of each boundary loop to a cycle. Let S be a set of s1 triangles with a boundary side
+/// and s3 without, whose removal leaves at least s1 + s3 + 2 odd components, and r the number of runs into
+/// which S cuts those cycles. A component without boundary sides has at least three edges to S. The others
+/// have four a run: two along the cycle, and two because a path between boundary points that is no chord has
+/// two edges; there are at most r of them. S has 4 s1 + 3 s3 edge ends, of which 2 (s1 - r) lead along a
+/// cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r; but each run
+/// ends at another triangle of S, hence r <= s1. With an odd number of triangles the same bound leaves room
+/// for one odd component too many, which is where the leftover comes from.
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr);
 
 }  // namespace delquad

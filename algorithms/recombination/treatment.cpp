@@ -13,8 +13,8 @@ namespace delquad {
 
 namespace {
 
-/// Below this eta an element is poor: moves for the valences may not add to the poorness around, and any move that
-/// takes from it is welcome.
+/// Below this eta an element is poor: moves for the valences may not add to the poorness around, and any move
+/// that takes from it is welcome.
 constexpr double kPoorEta = 0.3;
 /// Below this eta even new vertices are, once nothing else helps.
 constexpr double kBadEta = 0.15;
@@ -32,7 +32,9 @@ double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi / 2); }
 struct Candidate {
   int gain;
   TreatmentMove move;
-  bool operator<(const Candidate& other) const { return gain != other.gain ? gain < other.gain : other.move < move; }
+  bool operator<(const Candidate& other) const {
+    return gain != other.gain ? gain < other.gain : other.move < move;
+  }
 };
 
 class Treatment {
@@ -55,6 +57,7 @@ class Treatment {
   bool try_pair(const Candidate& first);
   bool find_seconds(const TouchedVertices& touched, int gain);
   bool rescue(int element);
+  bool rescue_by_inset(int element);
   double relief_of(const TreatmentMove& move);
 
   void perform(const TreatmentMove& move);
@@ -76,6 +79,7 @@ class Treatment {
   std::vector<int> region_;
   std::vector<unsigned> seen_element_, seen_vertex_;  ///< against seen_
   unsigned seen_ = 0;
+  bool revocable_ = false;  ///< accepted moves may still be taken back
   TreatmentSummary summary_;
 };
 
@@ -93,7 +97,8 @@ void Treatment::run(const TreatmentOptions& options) {
   summary_.relocated += relocation_.lift_worst(0.5, 10);
 }
 
-// --- single moves, the largest gain first ----------------------------------------------------------------------------
+// --- single moves, the largest gain first
+// ----------------------------------------------------------------------------
 
 bool Treatment::irregular(int element) const {
   for (int k = 0; k < 4; ++k)
@@ -149,7 +154,8 @@ bool Treatment::try_single(const TreatmentMove& move) {
   return true;
 }
 
-// --- pairs of moves: the first may cost energy, both together gain ---------------------------------------------------
+// --- pairs of moves: the first may cost energy, both together gain
+// ---------------------------------------------------
 
 int Treatment::paired_moves() {
   int changes = 0;
@@ -235,7 +241,8 @@ bool Treatment::find_seconds(const TouchedVertices& touched, int gain) {
   return !seconds_.empty();
 }
 
-// --- poor elements ---------------------------------------------------------------------------------------------------
+// --- poor elements
+// ---------------------------------------------------------------------------------------------------
 
 int Treatment::rescues() {
   int changes = 0;
@@ -248,15 +255,13 @@ int Treatment::rescues() {
 bool Treatment::rescue(int element) {
   double best = kLeastRelief;
   TreatmentMove choice{TreatmentMove::kInset, -1};
-  const auto weigh = [&](const TreatmentMove& move, int gain) {
+  for_each_move(mesh_, element, [&](const TreatmentMove& move) {
     if (!is_legal(mesh_, move)) return;
-    const double relief = relief_of(move) + kReliefPerEnergy * std::min(gain, 0);
+    const int loss = std::max(-energy_.gain(move), 0);
+    const double relief = relief_of(move) - kReliefPerEnergy * loss;
     if (relief > best) best = relief, choice = move;
-  };
-  for_each_move(mesh_, element, [&](const TreatmentMove& move) { weigh(move, energy_.gain(move)); });
-  if (choice.at < 0 && least_sine(mesh_, element) < sine_of_eta(kBadEta))
-    weigh({TreatmentMove::kInset, 4 * element}, 0);
-  if (choice.at < 0) return false;
+  });
+  if (choice.at < 0) return least_sine(mesh_, element) < sine_of_eta(kBadEta) && rescue_by_inset(element);
   touched_.clear();
   touch(touched_by(mesh_, choice));
   perform(choice);
@@ -280,7 +285,35 @@ double Treatment::relief_of(const TreatmentMove& move) {
   return before - after;
 }
 
-// --- trials ----------------------------------------------------------------------------------------------------------
+/// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
+bool Treatment::rescue_by_inset(int element) {
+  const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
+  const TreatmentSummary summary = summary_;
+  const auto start = mesh_.mark();
+  touched_.clear();
+  touch(touched_by(mesh_, inset));
+  const double before = poorness();
+  perform(inset);
+  relax_touched();
+  count(inset);
+  revocable_ = true;
+  accept();
+  const std::vector<int> around = touched_;
+  drain();
+  revocable_ = false;
+  touched_ = around;
+  relax_touched();
+  if (before - poorness() < kLeastRelief) {
+    mesh_.rollback(start);
+    summary_ = summary;
+    return false;
+  }
+  accept();
+  return true;
+}
+
+// --- trials
+// ----------------------------------------------------------------------------------------------------------
 
 /// Applies the move; vertices that it creates are touched, too.
 void Treatment::perform(const TreatmentMove& move) {
@@ -301,8 +334,9 @@ void Treatment::relax_touched() {
     for (const int v : touched_) relocation_.step(v);
 }
 
-/// Of the elements around the touched vertices, the sum of (what the least sine lacks, as a part of what is wanted)^3: one
-/// flat element outweighs a handful that are merely poor.
+/// Of the corners of the elements around the touched vertices, the sum of (what the sine lacks, as a part of
+/// what is wanted)^3: one flat corner outweighs a handful that are merely poor, and an element without area
+/// counts as four.
 double Treatment::poorness() {
   const double poor = sine_of_eta(kPoorEta);
   ++seen_;
@@ -314,8 +348,10 @@ double Treatment::poorness() {
       const int e = QuadTopology::element(h);
       if (seen_element_[e] == seen_) return;
       seen_element_[e] = seen_;
-      const double lack = std::max(0.0, 1 - least_sine(mesh_, e) / poor);
-      sum += lack * lack * lack;
+      for (const double sine : corner_sines(mesh_, e)) {
+        const double lack = std::max(0.0, 1 - sine / poor);
+        sum += lack * lack * lack;
+      }
     });
   }
   return sum;
@@ -330,7 +366,7 @@ bool Treatment::settles(double poorness_before) {
 }
 
 void Treatment::accept() {
-  mesh_.commit();
+  if (!revocable_) mesh_.commit();
   pending_.resize(mesh_.element_slots(), 1);
   for (const int v : touched_) {
     if (!mesh_.vertex_alive(v)) continue;
@@ -346,10 +382,17 @@ void Treatment::accept() {
 
 void Treatment::count(const TreatmentMove& move) {
   switch (move.kind) {
-    case TreatmentMove::kCollapse: ++summary_.diamonds; break;
-    case TreatmentMove::kDoublet: ++summary_.doublets; break;
-    case TreatmentMove::kInset: ++summary_.boundary_repairs; break;
-    default: ++summary_.swaps;
+    case TreatmentMove::kCollapse:
+      ++summary_.diamonds;
+      break;
+    case TreatmentMove::kDoublet:
+      ++summary_.doublets;
+      break;
+    case TreatmentMove::kInset:
+      ++summary_.boundary_repairs;
+      break;
+    default:
+      ++summary_.swaps;
   }
 }
 

@@ -15,8 +15,8 @@ struct TreatmentSummary {
 };
 
 /// The clean-up that the paper's tables include: doublets, diamonds, swaps of poor pairs, vertex relocation.
-/// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same topology
-/// type; quads stay quads.
+/// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
+/// topology type; quads stay quads.
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
 

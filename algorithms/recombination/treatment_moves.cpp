@@ -58,10 +58,14 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
   switch (move.kind) {
-    case TreatmentMove::kCollapse: return mesh.can_collapse(move.at);
-    case TreatmentMove::kDoublet: return mesh.can_remove_doublet(move.at);
-    case TreatmentMove::kInset: return mesh.is_quad(QuadTopology::element(move.at));
-    default: return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
+    case TreatmentMove::kCollapse:
+      return mesh.can_collapse(move.at);
+    case TreatmentMove::kDoublet:
+      return mesh.can_remove_doublet(move.at);
+    case TreatmentMove::kInset:
+      return mesh.is_quad(QuadTopology::element(move.at));
+    default:
+      return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
   }
 }
 
@@ -74,9 +78,14 @@ void apply(QuadTopology& mesh, const TreatmentMove& move) {
       if (!mesh.on_boundary(kept)) mesh.move(kept, middle);
       break;
     }
-    case TreatmentMove::kDoublet: mesh.remove_doublet(move.at); break;
-    case TreatmentMove::kInset: mesh.inset(move.at); break;
-    default: mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);
+    case TreatmentMove::kDoublet:
+      mesh.remove_doublet(move.at);
+      break;
+    case TreatmentMove::kInset:
+      mesh.inset(move.at);
+      break;
+    default:
+      mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);
   }
 }
 
@@ -98,7 +107,8 @@ TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move) 
       const int h = move.at;
       return {{mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))}, 4};
     }
-    default: return {mesh.hexagon(move.at), 6};
+    default:
+      return {mesh.hexagon(move.at), 6};
   }
 }
 

@@ -23,8 +23,9 @@ struct TouchedVertices {
   const int* end() const { return v.data() + n; }
 };
 
-/// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle / 90 degrees,
-/// rounded and at least 1, on the boundary; more where a valence forces an element of eta 0 (a doublet, a flat corner).
+/// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle /
+/// 90 degrees, rounded and at least 1, on the boundary; more where a valence forces an element of eta 0 (a
+/// doublet, a flat corner).
 class ValenceEnergy {
  public:
   explicit ValenceEnergy(const QuadTopology& mesh);
@@ -43,11 +44,12 @@ class ValenceEnergy {
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
 void apply(QuadTopology& mesh, const TreatmentMove& move);
-/// The vertices whose valences the move changes or whose elements it replaces, without those that it removes or creates.
+/// The vertices whose valences the move changes or whose elements it replaces, without those that it removes
+/// or creates.
 TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move);
 
-/// Calls f(move) for the moves at an element: rotations of its sides, its two collapses, its doublets. Legality is not
-/// checked, except that rotated sides lie between quads.
+/// Calls f(move) for the moves at an element: rotations of its sides, its two collapses, its doublets.
+/// Legality is not checked, except that rotated sides lie between quads.
 template <class F>
 void for_each_move(const QuadTopology& mesh, int element, F&& f) {
   if (!mesh.alive(element)) return;

@@ -22,6 +22,11 @@ inline const std::string kSquare =
     "loop = { rectangle = [[0, 0], [1, 1]], boundary = [\"bottom\", \"right\", \"top\", \"left\"], region = "
     "\"square\" }\n";
 
+/// The same, with more loops to follow.
+inline const std::string kSquareLoop =
+    "[[loop]]\nrectangle = [[0, 0], [1, 1]]\nboundary = [\"bottom\", \"right\", \"top\", \"left\"]\n"
+    "region = \"square\"\n";
+
 /// MSH 2.2 of one closed polygon of lines through these nodes, all on a curve of this name.
 inline std::string line_mesh(const std::vector<std::pair<double, double>>& nodes, const std::string& name) {
   std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 7 \"" + name +

@@ -70,15 +70,15 @@ const BadModel kModels[] = {
      "1]]\n"
      "[[loop]]\ncurves = [\"a\", \"b\"]",
      {"model.toml"}},
-    {"duplicate", kSquare + "[[loop]]\nrectangle = [[0, 0], [1, 1]]", {}},
-    {"touching", kSquare + "[[loop]]\nrectangle = [[0.25, 0], [0.75, 0.5]]", {}},
-    {"crossing_loops", kSquare + "[[loop]]\nrectangle = [[0.5, 0.25], [1.5, 0.75]]", {}},
+    {"duplicate", kSquareLoop + "[[loop]]\nrectangle = [[0, 0], [1, 1]]", {"model.toml:5", "coincide"}},
+    {"touching", kSquareLoop + "[[loop]]\nrectangle = [[0.25, 0], [0.75, 0.5]]", {"model.toml:5", "touch"}},
+    {"crossing_loops", kSquareLoop + "[[loop]]\nrectangle = [[0.5, 0.25], [1.5, 0.75]]", {"model.toml:5", "(1, 0."}},
     {"hole_outside",
-     kSquare + "[[loop]]\ncircle = { centre = [3, 0], radius = 0.5 }\nhole = true",
-     {"model.toml:2", "hole", "outside"}},
+     kSquareLoop + "[[loop]]\ncircle = { centre = [3, 0], radius = 0.5 }\nhole = true",
+     {"model.toml:5", "hole", "outside"}},
 };
 INSTANTIATE_TEST_SUITE_P(Toml, BadModels, testing::ValuesIn(kModels),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& model) { return std::string(model.param.name); });
 
 class BadSizes : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
@@ -127,7 +127,7 @@ const BadMesh kMeshes[] = {
     {"bow_tie", line_mesh({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, "rim")},
 };
 INSTANTIATE_TEST_SUITE_P(Msh, BadMeshes, testing::ValuesIn(kMeshes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& model) { return std::string(model.param.name); });
 
 TEST(BadArguments, AreRefused) {
   const TemporaryFolder folder;

@@ -50,7 +50,7 @@ TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
 TEST(MeshCommand, SameBytesTwice) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml",
-                                kSquare + "[[loop]]\ncircle = { centre = [0.4, 0.5], radius = 0.2 }\n");
+                                kSquareLoop + "[[loop]]\ncircle = { centre = [0.4, 0.5], radius = 0.2 }\n");
   for (const char* name : {"a.msh", "b.msh"})
     ASSERT_EQ(delquad({"mesh", model, "-o", folder / name, "--size", "0.02 + 0.05*x"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
@@ -97,7 +97,7 @@ TEST(MeshCommand, OddBoundaryLeavesOneTriangleAndSaysWhere) {
 TEST(MeshCommand, InclusionAndSecondComponent) {
   const TemporaryFolder folder;
   const auto model =
-      write_text(folder / "model.toml", kSquare +
+      write_text(folder / "model.toml", kSquareLoop +
                                             "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.2 }\n"
                                             "boundary = \"interface\"\nregion = \"inclusion\"\n"
                                             "[[loop]]\nrectangle = [[2, 0], [3, 1]]\nregion = \"other\"\n");

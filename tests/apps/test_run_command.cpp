@@ -57,9 +57,10 @@ TEST(RunCommand, SameBytesTwice) {
   const auto file = write_text(folder / "e.toml", kExperiment);
   for (const char* results : {"a", "b"})
     ASSERT_EQ(delquad({"run", file, "-o", folder / results}).exit_code, 0);
-  for (const std::string& name : all_files(folder / "a"))
-    if (name.ends_with(".msh") || name.ends_with(".vtu") || name.ends_with(".svg"))
-      EXPECT_EQ(read_text(folder / "a" / name), read_text(folder / "b" / name)) << name;
+  for (const std::string& name : all_files(folder / "a")) {
+    if (!name.ends_with(".msh") && !name.ends_with(".vtu") && !name.ends_with(".svg")) continue;
+    EXPECT_EQ(read_text(folder / "a" / name), read_text(folder / "b" / name)) << name;
+  }
 }
 
 TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {

@@ -1,0 +1,199 @@
+#include "smoothing/quad_topology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/quad_patches.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::check_quad_patch;
+using testing_support::grid_patch;
+
+/// The half-edge from a to b; -1: none.
+int half_edge(const QuadTopology& mesh, int a, int b) {
+  int found = -1;
+  mesh.for_each_out(a, [&](int h) {
+    if (mesh.target(h) == b) found = h;
+  });
+  return found;
+}
+
+/// Quads as a set: each turned to start at its smallest vertex, sorted.
+std::vector<std::array<int, 4>> canonical(std::vector<std::array<int, 4>> quads) {
+  for (auto& q : quads) std::rotate(q.begin(), std::min_element(q.begin(), q.end()), q.end());
+  std::sort(quads.begin(), quads.end());
+  return quads;
+}
+
+void expect_same(const QuadPatch& a, const QuadPatch& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.quads, b.quads);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.n_boundary, b.n_boundary);
+}
+
+TEST(QuadTopology, GridAndBack) {
+  const QuadPatch grid = grid_patch(4, 3);
+  const QuadTopology mesh(grid);
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  expect_same(mesh.to_patch(), grid);
+  for (int v = 0; v < mesh.vertex_slots(); ++v) {
+    const bool corner = v == 0 || v == 4 || v == 7 || v == 11;
+    EXPECT_EQ(mesh.valence(v), corner ? 1 : mesh.on_boundary(v) ? 2 : 4);
+    EXPECT_EQ(mesh.on_boundary(v), mesh.twin(mesh.out(v)) < 0);
+  }
+}
+
+TEST(QuadTopology, RefusesWhatIsNoMesh) {
+  QuadPatch mesh = grid_patch(2, 2);
+  mesh.quads.push_back(mesh.quads[0]);
+  EXPECT_THROW(QuadTopology{mesh}, std::invalid_argument);
+  mesh = grid_patch(3, 3);
+  mesh.quads.erase(mesh.quads.begin() + 4);  // a hole inside that is no boundary
+  EXPECT_THROW(QuadTopology{mesh}, std::invalid_argument);
+  mesh = grid_patch(2, 2);
+  mesh.quads[1][2] = 99;
+  EXPECT_THROW(QuadTopology{mesh}, std::invalid_argument);
+  mesh.quads[1][2] = -1;
+  EXPECT_THROW(QuadTopology{mesh}, std::invalid_argument);
+}
+
+TEST(QuadTopology, RotationTurnsBothWays) {
+  const QuadPatch grid = grid_patch(3, 3);
+  QuadTopology mesh(grid);
+  const int a = 12, b = 13;  // two interior points
+  const int h = half_edge(mesh, a, b);
+  ASSERT_TRUE(mesh.can_rotate(h, true));
+  const auto hexagon = mesh.hexagon(h);
+  EXPECT_EQ(hexagon[0], b);
+  EXPECT_EQ(hexagon[3], a);
+  const int turned = mesh.rotate(h, true);
+  EXPECT_EQ(mesh.valence(a), 3);
+  EXPECT_EQ(mesh.valence(b), 3);
+  EXPECT_EQ(std::minmax(mesh.origin(turned), mesh.target(turned)), std::minmax(hexagon[1], hexagon[4]));
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  ASSERT_TRUE(mesh.can_rotate(turned, false));
+  mesh.rotate(turned, false);
+  EXPECT_EQ(canonical(mesh.to_patch().quads), canonical(grid.quads));
+}
+
+TEST(QuadTopology, NoRotationOfBoundaryOrDoubletSides) {
+  QuadTopology mesh(grid_patch(2, 1));
+  EXPECT_FALSE(mesh.can_rotate(half_edge(mesh, 0, 1), true));
+  // Two squares side by side: the middle side may turn to either diagonal of the rectangle.
+  EXPECT_TRUE(mesh.can_rotate(half_edge(mesh, 1, 4), true));
+  // A doublet's two quads share two sides; their union is no hexagon.
+  QuadPatch doublet;
+  doublet.points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  doublet.quads = {{0, 1, 2, 4}, {0, 4, 2, 3}};
+  doublet.n_boundary = 4;
+  QuadTopology two(doublet);
+  EXPECT_FALSE(two.can_rotate(half_edge(two, 0, 4), true));
+  EXPECT_FALSE(two.can_rotate(half_edge(two, 0, 4), false));
+  ASSERT_TRUE(two.can_remove_doublet(4));
+  two.remove_doublet(4);
+  EXPECT_TRUE(two.check_invariants().empty());
+  EXPECT_EQ(canonical(two.to_patch().quads), canonical({{0, 1, 2, 3}}));
+}
+
+TEST(QuadTopology, DoubletOfATriangleAndAQuad) {
+  QuadPatch mesh;
+  mesh.points = {{0, 0}, {2, 0}, {1, 2}, {1, 0.5}};
+  mesh.quads = {{3, 1, 2, 0}};
+  mesh.triangles = {{0, 1, 3}};
+  mesh.n_boundary = 3;
+  QuadTopology topology(mesh);
+  ASSERT_TRUE(topology.can_remove_doublet(3));
+  topology.remove_doublet(3);
+  EXPECT_TRUE(topology.check_invariants().empty());
+  EXPECT_EQ(topology.to_patch().triangles.size(), 1u);
+  EXPECT_EQ(topology.to_patch().quads.size(), 0u);
+}
+
+TEST(QuadTopology, CollapseKeepsTheBoundaryPoint) {
+  const QuadPatch grid = grid_patch(3, 3);
+  QuadTopology mesh(grid);
+  const int h = half_edge(mesh, 0, 1);  // the corner's quad; interior point 12 is opposite
+  ASSERT_TRUE(mesh.can_collapse(h));
+  mesh.collapse(h);
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  EXPECT_FALSE(mesh.vertex_alive(12));
+  EXPECT_EQ(mesh.valence(0), 1 + 4 - 2);
+  EXPECT_EQ(mesh.valence(1), 1);
+  const auto wrong = check_quad_patch(mesh.to_patch(), shapes::rectangle(3, 3, 3, 3), 1);
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  EXPECT_FALSE(mesh.can_collapse(half_edge(mesh, 15, 5))) << "the opposite corner is on the boundary";
+}
+
+TEST(QuadTopology, NoCollapseIntoADoubleEdge) {
+  QuadPatch patch;
+  patch.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}, {1.5, 1}, {2, 0.6}};
+  patch.quads = {{0, 1, 6, 5}, {1, 4, 5, 6}, {0, 5, 4, 3}, {1, 2, 3, 4}};
+  patch.n_boundary = 4;
+  const QuadTopology mesh(patch);
+  // 0 and 4 are opposite corners of a quad, but both have an edge to 1, which is no corner of it.
+  ASSERT_EQ(mesh.valence(5), 3);
+  ASSERT_TRUE(mesh.adjacent(0, 1) && mesh.adjacent(4, 1));
+  EXPECT_FALSE(mesh.can_collapse(half_edge(mesh, 0, 5)));
+}
+
+TEST(QuadTopology, InsetMakesFiveOfOne) {
+  QuadTopology mesh(grid_patch(1, 1));
+  mesh.inset(0);
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  EXPECT_EQ(mesh.to_patch().quads.size(), 5u);
+  for (int v = 0; v < 4; ++v) EXPECT_EQ(mesh.valence(v), 2);
+  for (int v = 4; v < 8; ++v) EXPECT_EQ(mesh.valence(v), 3);
+}
+
+TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
+  const PatchBoundary boundary = shapes::rectangle(6, 5, 6, 5);
+  std::mt19937_64 random(7);
+  QuadTopology mesh(grid_patch(6, 5));
+  int rotations = 0, collapses = 0, doublets = 0, insets = 0, rollbacks = 0;
+  QuadPatch kept = mesh.to_patch();
+  auto mark = mesh.mark();
+  for (int step = 0; step < 4000; ++step) {
+    const int h = static_cast<int>(random() % (4 * mesh.element_slots()));
+    const int v = static_cast<int>(random() % mesh.vertex_slots());
+    const auto kind = random() % 16;
+    if (kind < 9 && mesh.can_rotate(h, kind % 2 == 0)) {
+      mesh.rotate(h, kind % 2 == 0);
+      ++rotations;
+    } else if (kind < 12 && mesh.can_collapse(h)) {
+      mesh.collapse(h);
+      ++collapses;
+    } else if (kind == 13 && mesh.is_quad(QuadTopology::element(h)) && mesh.to_patch().quads.size() < 60) {
+      mesh.inset(h);
+      ++insets;
+    } else if (kind >= 14 && mesh.can_remove_doublet(v)) {
+      mesh.remove_doublet(v);
+      ++doublets;
+    } else {
+      continue;
+    }
+    if (mesh.vertex_alive(v) && !mesh.on_boundary(v)) mesh.move(v, {double(step), 0});
+    ASSERT_TRUE(mesh.check_invariants().empty()) << step << ": " << mesh.check_invariants().front();
+    const auto wrong = check_quad_patch(mesh.to_patch(), boundary, 1);
+    ASSERT_TRUE(wrong.empty()) << step << ": " << wrong.front();
+    if (random() % 4 == 0) {
+      mesh.rollback(mark);
+      ++rollbacks;
+      expect_same(mesh.to_patch(), kept);
+      ASSERT_TRUE(mesh.check_invariants().empty());
+    } else if (random() % 4 == 0) {
+      mesh.commit();
+      mark = mesh.mark();
+      kept = mesh.to_patch();
+    }
+  }
+  EXPECT_GT(std::min({rotations, collapses, doublets, insets, rollbacks}), 20);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "metrics/metrics.h"
+#include "pipeline/experiment.h"
+#include "pipeline/experiment_runner.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Experiments, EveryFileOfTheProjectReads) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(DELQUAD_EXPERIMENTS)) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    EXPECT_NO_THROW(read_experiment(entry.path())) << entry.path();
+  }
+  EXPECT_GE(files, 8);
+}
+
+TEST(Experiments, LewisHasThePublishedRows) {
+  const Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  ASSERT_EQ(e.published.size(), 3u);
+  const auto& delquad = e.published[2].values;
+  EXPECT_EQ(e.published[2].name, "Delquad");
+  EXPECT_EQ(delquad.at("eta_worst"), 0.25);
+  EXPECT_EQ(delquad.at("tau"), 88);
+  EXPECT_FALSE(e.published[1].values.contains("d4"));
+  ASSERT_EQ(e.cases.size(), 2u);
+  EXPECT_EQ(e.cases[0].compare.at("DB"), "Delquad");
+}
+
+/// The targets of the rotated square, end to end.
+TEST(Experiments, RotatedSquareIsExact) {
+  Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "rotated_square.toml");
+  e.words = {parse_word("DB")};
+  const testing_support::TemporaryFolder folder;
+  Progress progress;
+  const ExperimentOutcome outcome = run_experiment(e, folder / "out", progress);
+  ASSERT_EQ(outcome.table.rows.size(), 3u);
+  for (const TableRow& row : outcome.table.rows) {
+    EXPECT_EQ(row.values.at("n_quads"), 400) << row.group;
+    EXPECT_EQ(row.values.at("percent_quads"), 100) << row.group;
+    EXPECT_NEAR(row.values.at("eta_worst"), 1, 1e-9) << row.group;
+    EXPECT_EQ(row.values.at("d4"), 100) << row.group;
+  }
+}
+
+TEST(Experiments, LewisReachesThePublishedRow) {
+  Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  e.words = {parse_word("DB")};
+  const testing_support::TemporaryFolder folder;
+  Progress progress;
+  const ExperimentOutcome outcome = run_experiment(e, folder / "out", progress);
+  for (const TableRow& row : outcome.table.rows) {
+    if (row.published.empty()) continue;
+    for (const char* metric : {"eta_worst", "eta_mean", "d4", "d_min", "tau", "percent_quads"})
+      EXPECT_GE(row.values.at(metric), row.published.at(metric)) << row.group << " " << metric;
+    EXPECT_LE(row.values.at("d_max"), row.published.at("d_max")) << row.group;
+  }
+}
+
+TEST(Experiments, LinfStudyIsDeterministicAndNotesThePaper) {
+  const testing_support::TemporaryFolder folder;
+  const auto file =
+      testing_support::write_text(folder / "e.toml", "[linf_delaunay]\npoints = [50]\nseeds = [4]\n");
+  Progress progress;
+  std::string tables[2];
+  for (int k = 0; k < 2; ++k) {
+    const fs::path results = folder / ("out" + std::to_string(k));
+    run_experiment(read_experiment(file), results, progress);
+    tables[k] = testing_support::read_text(results / "table.csv");
+    EXPECT_TRUE(fs::exists(results / "50-even-4.svg"));
+  }
+  EXPECT_EQ(tables[0], tables[1]);
+  EXPECT_GT(std::count(tables[0].begin(), tables[0].end(), '\n'), 2);
+}
+
+TEST(Experiments, RatiosAreNoted) {
+  const testing_support::TemporaryFolder folder;
+  const auto file = testing_support::write_text(
+      folder / "e.toml",
+      "pipelines = [\"F\", \"D\"]\nratio = { metric = \"n_vertices\", numerator = \"F\", denominator = "
+      "\"D\", expected = "
+      "1.1547 }\n[[case]]\nname = \"a\"\nsize = 0.05\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  Progress progress;
+  const ExperimentOutcome outcome = run_experiment(read_experiment(file), folder / "out", progress);
+  ASSERT_EQ(outcome.table.notes.size(), 1u);
+  EXPECT_NE(outcome.table.notes[0].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[0];
+  expect_input_error(
+      [&] {
+        read_experiment(testing_support::write_text(
+            folder / "e.toml",
+            "[ratio]\nmetric = \"n_vertex\"\nnumerator = \"F\"\ndenominator = \"D\"\nexpected = 1\n"));
+      },
+      {"e.toml:2", "'n_vertices'"});
+}
+
+}  // namespace
+}  // namespace delquad

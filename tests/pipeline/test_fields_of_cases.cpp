@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include "pipeline/case_file.h"
+#include "pipeline/prepare.h"
+#include "pipeline/runner.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+class Cases : public testing::Test {
+ protected:
+  Case read(const std::string& text) {
+    return read_model_case(testing_support::write_text(folder_ / "c.toml", text));
+  }
+  static double size_at(const PreparedCase& p, double x, double y) {
+    int hint = -1;
+    return p.size->at({x, y, 0}, hint);
+  }
+  const std::string square_ = "loop = { rectangle = [[0, 0], [1, 1]] }\n";
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Cases, SourcesAndGradationShapeTheSize) {
+  const PreparedCase p = prepare_case(
+      read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "
+                     "0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.05), 0.05);
+  EXPECT_NEAR(size_at(p, 0.5, 0.25), 0.125, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.9), 0.2);
+
+  const std::string step = square_ + "[size]\nbase = \"x < 0.5 ? 0.02 : 0.2\"\n";
+  EXPECT_DOUBLE_EQ(size_at(prepare_case(read(step)), 0.6, 0.5), 0.2);
+  EXPECT_LT(size_at(prepare_case(read(step + "gradation = 0.2\n")), 0.6, 0.5), 0.07);
+}
+
+TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
+  const PreparedCase disk =
+      prepare_case(read("loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.1\n"));
+  ASSERT_TRUE(disk.index_sum_and_expected);
+  EXPECT_EQ(disk.index_sum_and_expected->first, 4);
+  EXPECT_EQ(disk.index_sum_and_expected->second, 4);
+  EXPECT_EQ(disk.singularities.size(), 4u);
+  EXPECT_TRUE(disk.warnings.empty());
+}
+
+TEST_F(Cases, AnalyticCrosses) {
+  int hint = -1;
+  const PreparedCase angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
+  EXPECT_NEAR(angle.cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
+  const PreparedCase gradient =
+      prepare_case(read(square_ + "size = \"0.1 + 0.01*x + 0.02*y\"\ncross = \"gradient\"\n"));
+  hint = -1;
+  EXPECT_NEAR(gradient.cross->at({0.5, 0.5}, hint).angle(), std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
+  expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\ncross = \"atan(x\"\n")); },
+                     {"c.toml:3", "atan(x"});
+}
+
+TEST_F(Cases, OptionsReachTheStages) {
+  const Case c = read(
+      square_ +
+      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, boundary_height = 0.4, lower_clamp = true "
+      "}\nrecombination = { treatment = \"none\", max_rounds = 3 }\n");
+  EXPECT_EQ(c.options.frontal.h_max, 1.2);
+  EXPECT_EQ(c.options.frontal.rejection, 0.6);
+  EXPECT_EQ(c.options.frontal.boundary_height, 0.4);
+  EXPECT_TRUE(c.options.linf.lower_clamp);
+  EXPECT_EQ(c.options.treatment, Treatment::kNone);
+  EXPECT_EQ(c.options.treatment_options.max_rounds, 3);
+  Progress progress;
+  const RunResult result = run_word(c, prepare_case(c), parse_word("FB"), progress);
+  EXPECT_TRUE(result.log.recombination);
+  EXPECT_FALSE(result.log.treatment);
+}
+
+TEST_F(Cases, MistakesAreLocated) {
+  expect_input_error([&] { read(square_ + "size = { base = 1, sources = [] }"); }, {"c.toml:2", "'source'"});
+  expect_input_error(
+      [&] {
+        read(square_ +
+             "[size]\nsource = { at = [0, 0], near = 1, far = 2, radius_near = 3, "
+             "radius_far = 2 }");
+      },
+      {"c.toml:3", "larger than 'radius_near'"});
+  expect_input_error([&] { read(square_ + "size = [1]"); }, {"c.toml:2", "number or an expression"});
+  expect_input_error([&] { read(square_ + "mesh = \"a.msh\""); }, {"c.toml:2", "exclude"});
+  expect_input_error([&] { read("mesh = \"a.vtu\""); }, {"c.toml:1", "not a .msh file"});
+  expect_input_error([&] { read("model = \"c.toml\""); }, {"c.toml:1", "another"});
+  expect_input_error([&] { prepare_case(read(square_)); }, {"c.toml", "expected a size"});
+}
+
+TEST_F(Cases, HopelessSizesAreRefusedEarly) {
+  Case c = read(square_ +
+                "pattern = { circle = { centre = [0.1, 0.1], radius = 0.001 }, count = [5, 5], step = [0.2, "
+                "0.2] }\nsize = 1e-6\n");
+  expect_input_error([&] { prepare_case(c); }, {"c.toml:3", "1e+12 quads", "50000000"});
+  c = read(square_ + "size = 0.1\n");
+  c.options.max_elements = 99;
+  expect_input_error([&] { prepare_case(c); }, {"about 100 quads", "99"});
+}
+
+TEST_F(Cases, PatchesShareTheirInterface) {
+  const Case c = read(
+      "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"
+      "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = \"inside\"\n");
+  Progress progress;
+  for (const char* word : {"F", "D", "FB", "DB"}) {
+    const RunResult result = run_word(c, prepare_case(c), parse_word(word), progress);
+    EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{}) << word;
+    EXPECT_EQ(result.mesh.regions.size(), 2u);
+  }
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "pipeline/stages.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+TEST(Words, AreReadFromLeftToRight) {
+  const Word d = parse_word("D");
+  ASSERT_EQ(d.stages.size(), 1u);
+  EXPECT_EQ(d.stages[0]->letter, 'D');
+  EXPECT_EQ(d.result, PatchForm::kTriangles);
+  const Word fb = parse_word("FB");
+  ASSERT_EQ(fb.stages.size(), 2u);
+  EXPECT_EQ(fb.stages[0]->letter, 'F');
+  EXPECT_EQ(fb.stages[1]->letter, 'B');
+  EXPECT_EQ(fb.result, PatchForm::kQuads);
+}
+
+TEST(Words, MistakesNameTheLetter) {
+  expect_input_error([] { parse_word(""); }, {"F (", "D (", "B ("});
+  expect_input_error([] { parse_word("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});
+  expect_input_error([] { parse_word("db"); }, {"'d'"});
+  expect_input_error([] { parse_word("B"); }, {"'B' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_word("FD"); }, {"'D' starts from a boundary", "leaves triangles"});
+  expect_input_error([] { parse_word("DBB"); }, {"'B' starts from triangles", "leaves quads"});
+  expect_input_error([] { parse_words({"F", "DB", "F"}); }, {"'F'", "twice"});
+  expect_input_error([] { parse_words({}); }, {"no pipeline"});
+}
+
+TEST(Words, LettersDiffer) {
+  std::string letters;
+  for (const Stage& stage : stage_registry()) {
+    EXPECT_EQ(letters.find(stage.letter), std::string::npos) << stage.letter;
+    letters += stage.letter;
+  }
+}
+
+TEST(StageLogs, SumEachStep) {
+  StageLog log;
+  log.add_seconds("insertion", 1);
+  log.add_seconds("matching", 2);
+  log.add_seconds("insertion", 3);
+  EXPECT_EQ(log.seconds, (std::vector<std::pair<std::string, double>>{{"insertion", 4}, {"matching", 2}}));
+}
+
+}  // namespace
+}  // namespace delquad
