@@ -1,6 +1,7 @@
 #include "fields/background_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fields/refine_patch.h"
 #include "fields/triangle_tree.h"
@@ -58,6 +59,20 @@ BackgroundMesh::BackgroundMesh(std::span<const PatchBoundary> patches) {
     boundary_.insert(boundary_.end(), boundary.begin(), boundary.end());
     append(tri_, part);
     patch_.resize(tri_.triangles.size(), static_cast<int>(p));
+  }
+  tree_ = std::make_shared<const TriangleTree>(tri_);
+}
+
+BackgroundMesh::BackgroundMesh(TriPatch triangulation) : tri_(std::move(triangulation)) {
+  patch_.resize(tri_.triangles.size(), 0);
+  boundary_.resize(tri_.points.size());
+  for (std::size_t t = 0; t < tri_.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (tri_.neighbours[t][k] >= 0) continue;
+      const int from = tri_.triangles[t][(k + 1) % 3], to = tri_.triangles[t][(k + 2) % 3];
+      const Vec2 side = tri_.points[to] - tri_.points[from];
+      boundary_[from] = {from, to, 0, (1 / norm(side)) * side};
+    }
   }
   tree_ = std::make_shared<const TriangleTree>(tri_);
 }

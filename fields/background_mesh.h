@@ -17,6 +17,9 @@ class BackgroundMesh {
  public:
   /// Each patch's boundary edges are kept, maybe split. Throws InputError where a boundary crosses itself.
   explicit BackgroundMesh(std::span<const PatchBoundary> patches);
+  /// Takes a triangulation that is there already, counterclockwise, as one patch; its vertices serve as
+  /// boundary nodes.
+  explicit BackgroundMesh(TriPatch triangulation);
 
   const TriPatch& triangles() const { return tri_; }
   /// Patch that each triangle lies in.

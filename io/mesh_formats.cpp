@@ -27,7 +27,9 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const std::string kind = extension(path);
   if (kind == ".msh") return read_msh(path);
   if (kind == ".obj") return read_obj(path);
-  unknown(path, ".msh or .obj");
+  if (kind == ".off") return read_off(path);
+  if (kind == ".stl") return read_stl(path);
+  unknown(path, ".msh, .obj, .off or .stl");
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {

@@ -25,7 +25,20 @@ Mesh read_msh(const std::filesystem::path& path);
 /// Reads Wavefront OBJ: v, l, f (3 or 4 vertices); g names the region of the faces and the curve of the lines
 /// after it.
 Mesh read_obj(const std::filesystem::path& path);
-/// Reads by extension: .msh, .obj. InputError for any other, naming those known.
+/// Reads Object File Format text, with or without colours and normals, which are ignored: faces of 3 or 4
+/// vertices.
+Mesh read_off(const std::filesystem::path& path);
+
+struct StlOptions {
+  /// Ends of open edges that are no further apart become one point; a part of the bounding box's diagonal,
+  /// from 0.
+  double weld_tolerance = 1e-9;
+};
+/// Reads STL, text or binary, by content. Points with the same coordinates become one, then those at open
+/// edges within the tolerance. Each solid of a text file is a region with its name.
+Mesh read_stl(const std::filesystem::path& path, const StlOptions& options = {});
+
+/// Reads by extension: .msh, .obj, .off, .stl. InputError for any other, naming those known.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// MSH 4.1 text with $PhysicalNames and $Entities. Coordinates read back exactly. A group whose name is a

@@ -7,6 +7,7 @@
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
+#include "mesh/drop_unused_points.h"
 
 namespace delquad {
 
@@ -35,7 +36,7 @@ class ObjReader {
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty()) {
       in_.fail("the file holds no lines and no faces");
     }
-    drop_unused_points();
+    drop_unused_points(mesh_);
     return std::move(mesh_);
   }
 
@@ -93,24 +94,6 @@ class ObjReader {
     const auto [it, is_new] = index.emplace(names_, static_cast<int>(entities.size()));
     if (is_new) entities.push_back({it->second + 1, names_});
     return it->second;
-  }
-
-  void drop_unused_points() {
-    std::vector<int> index(mesh_.points.size(), -1);
-    const auto each_vertex = [&](auto&& visit) {
-      for (auto& e : mesh_.lines) std::for_each(e.begin(), e.end(), visit);
-      for (auto& e : mesh_.triangles) std::for_each(e.begin(), e.end(), visit);
-      for (auto& e : mesh_.quads) std::for_each(e.begin(), e.end(), visit);
-    };
-    each_vertex([&](int v) { index[v] = 0; });
-    int kept = 0;
-    for (size_t i = 0; i < index.size(); ++i) {
-      if (index[i] < 0) continue;
-      mesh_.points[kept] = mesh_.points[i];
-      index[i] = kept++;
-    }
-    mesh_.points.resize(kept);
-    each_vertex([&](int& v) { v = index[v]; });
   }
 
   TextScanner in_;

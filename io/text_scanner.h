@@ -17,6 +17,8 @@ class TextScanner {
   bool at_end();
   /// Whether only white space is left on the line.
   bool at_end_of_line();
+  /// Whether the next token begins with c.
+  bool next_is(char c) { return !at_end() && text_[at_] == c; }
   /// The next token; `what` names it in errors.
   std::string_view token(std::string_view what);
   long long integer(std::string_view what, long long low, long long high);
@@ -28,6 +30,8 @@ class TextScanner {
   std::string_view rest_of_line();
 
   int line() const { return line_; }
+  /// The whole file.
+  std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }
   [[noreturn]] void fail(std::string_view message) const { fail(message, line_); }
   [[noreturn]] void fail(std::string_view message, int line) const;

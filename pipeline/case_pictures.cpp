@@ -12,7 +12,7 @@
 namespace delquad {
 namespace {
 
-constexpr int kCrossesAcross = 44;  // along the longer side of the domain
+constexpr int kFewestAcross = 44, kMostAcross = 160;  // crosses along the longer side of the domain
 constexpr int kSamplesAcross = 120;
 
 Vec2 position(const BackgroundMesh& background, const BackgroundMesh::Location& at) {
@@ -29,16 +29,17 @@ std::vector<CrossGlyph> sample_crosses(const PreparedCase& p) {
     low = {std::min(low.x, x.x), std::min(low.y, x.y)};
     high = {std::max(high.x, x.x), std::max(high.y, x.y)};
   }
-  const double step = std::max(high.x - low.x, high.y - low.y) / kCrossesAcross;
+  const double detail = std::sqrt(static_cast<double>(p.domain.boundary.points.size()));
+  const int across = std::clamp(static_cast<int>(detail), kFewestAcross, kMostAcross);
+  const double step = std::max(high.x - low.x, high.y - low.y) / across;
   std::vector<CrossGlyph> glyphs;
   int where = -1, hint = -1;
-  for (int j = 0; j < kCrossesAcross; ++j)
-    for (int i = 0; i < kCrossesAcross; ++i) {
+  for (int j = 0; j < across; ++j)
+    for (int i = 0; i < across; ++i) {
       const Vec2 u = low + Vec2{(i + 0.5) * step, (j + 0.5) * step};
       if (u.x > high.x || u.y > high.y) continue;
       const Vec2 inside = position(*p.background, p.background->locate(u, where));
-      if (norm(inside - u) > 1e-9 * step * kCrossesAcross)
-        continue;  // outside: the location is the nearest one
+      if (norm(inside - u) > 1e-9 * step * across) continue;  // outside: the location is the nearest one
       glyphs.push_back({u, p.cross->at(u, hint).angle(), 0.8 * step});
     }
   return glyphs;

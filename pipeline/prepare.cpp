@@ -22,7 +22,7 @@ constexpr double kGradientStep = 1e-6;
 /// known.
 constexpr double kCheapEdges = 2e5;
 /// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
-constexpr double kCoarseEdges = 2e4;
+constexpr double kCoarseEdges = 4e3;
 
 /// A number or an expression as a field.
 std::shared_ptr<const SizeField> make_base(const std::string& text) {

@@ -103,15 +103,15 @@ void StageLog::add_seconds(const std::string& step, double s) {
 
 std::span<const Stage> stage_registry() {
   static const std::vector<Stage> stages = {
-      {'F', "frontal insertion in the L2 norm", PatchForm::kBoundary, PatchForm::kTriangles,
+      {'F', "L2 insertion", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
          insert_points(*make_l2_frontal(), in, patch, log);
        }},
-      {'D', "frontal insertion in the L-infinity norm", PatchForm::kBoundary, PatchForm::kTriangles,
+      {'D', "L-infinity insertion", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
          insert_points(*make_linf_delquad(in.options.linf), in, patch, log);
        }},
-      {'B', "recombination by matching", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+      {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
   };
   return stages;
 }

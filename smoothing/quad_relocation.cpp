@@ -10,9 +10,10 @@ namespace {
 
 /// Weight of the length term against the corners'.
 constexpr double kLengthWeight = 0.12;
-constexpr double kHopeless = 1;
 /// The steep term of a corner starts at this sine and has this factor.
 constexpr double kSteepSine = 0.05, kSteep = 40;
+/// Square of the misfit (logarithm of length / delta) past which the length term levels off.
+constexpr double kHopeless = 2;
 /// A step is at most this part of the shortest edge.
 constexpr double kLongestStep = 0.4;
 /// delta' is evaluated anew after a move of this part of it.
@@ -125,21 +126,20 @@ QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives
   double length = std::max(norm(previous), kTiny);
   previous = (1 / length) * previous;
   Vec2 previous_turn = (-1 / length) * perp(previous);
-  for (const Spoke& s : star_) {
-    const Vec2 along = s.end - at;
+  for (const Spoke& spoke : star_) {
+    const Vec2 along = spoke.end - at;
     length = std::max(norm(along), kTiny);
     const double inverse = 1 / length;
     const Vec2 u = inverse * along, turn = (-inverse) * perp(u);
     corner(cross(previous, u), dot(previous, u), turn - previous_turn);
-    corner(cross(u, s.left), -dot(u, s.left), turn);
-    corner(cross(s.right, u), -dot(s.right, u), -turn);
-    const double misfit = std::log(length / s.delta);
-    const double soft = 1 + misfit * misfit / (kHopeless * kHopeless);
-    value.cost += kLengthWeight * kHopeless * kHopeless * std::log(soft);
+    corner(cross(u, spoke.left), -dot(u, spoke.left), turn);
+    corner(cross(spoke.right, u), -dot(spoke.right, u), -turn);
+    const double misfit = std::log(length / spoke.delta), soft = 1 / (1 + misfit * misfit / kHopeless);
+    value.cost += kLengthWeight * misfit * misfit * soft;
     value.shortest = std::min(value.shortest, length);
     if constexpr (kDerivatives) {
-      derivatives->gradient += (-2 * kLengthWeight / soft * misfit * inverse) * u;
-      const double second = 2 * kLengthWeight / soft * inverse * inverse;
+      derivatives->gradient += (-2 * kLengthWeight * misfit * soft * soft * inverse) * u;
+      const double second = 2 * kLengthWeight * soft * soft * soft * inverse * inverse;
       derivatives->hxx += second * u.x * u.x;
       derivatives->hxy += second * u.x * u.y;
       derivatives->hyy += second * u.y * u.y;

@@ -11,12 +11,12 @@ namespace delquad {
 /// Moves the interior vertices of a quad mesh, one by one, towards right angles and the wanted edge lengths.
 ///
 /// Each vertex lowers
-///   sum over the corners of its elements that its place changes of  psi(1 - sin alpha),  psi(c) = c + steep
-///   term past .95
-/// + kLengthWeight * sum over its edges of (max(r, 1/r) - 1)^2,  r = length / mean of delta' at the two ends,
-/// by a damped Newton step, at most a part of its shortest edge. 1 - sin alpha grows with |alpha - 90 deg| up
-/// to 180 degrees, so that reflex and inverted corners are pulled straight. Only vertices near which
-/// something still moves are visited.
+///   sum over the corners that its place changes of  c + 40 max(0, c - 0.95)^2,  c = 1 - sin alpha
+/// + 0.12 * sum over its edges of  m^2 / (1 + m^2 / 2),  m = log(l/d),  l the length, d the mean of delta' at
+/// both ends, by a damped Newton step, at most a part of its shortest edge. c grows with |alpha - 90 degrees|
+/// up to 180 degrees, so that reflex and inverted corners are pulled straight. An edge's term is bounded, so
+/// that lengths which cannot be had (the boundary's edges are given) do not outweigh shapes. Only vertices
+/// near which something still moves are visited.
 class QuadRelocation {
  public:
   /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part

@@ -93,12 +93,11 @@ void Treatment::run(const TreatmentOptions& options) {
     changes += rescues();
   }
   relocation_.activate_all();
-  summary_.relocated += relocation_.relax(0.01, 20);
+  summary_.relocated += relocation_.relax(0.01, 30);
   summary_.relocated += relocation_.lift_worst(0.5, 10);
 }
 
 // --- single moves, the largest gain first
-// ----------------------------------------------------------------------------
 
 bool Treatment::irregular(int element) const {
   for (int k = 0; k < 4; ++k)
@@ -155,7 +154,6 @@ bool Treatment::try_single(const TreatmentMove& move) {
 }
 
 // --- pairs of moves: the first may cost energy, both together gain
-// ---------------------------------------------------
 
 int Treatment::paired_moves() {
   int changes = 0;
@@ -242,7 +240,6 @@ bool Treatment::find_seconds(const TouchedVertices& touched, int gain) {
 }
 
 // --- poor elements
-// ---------------------------------------------------------------------------------------------------
 
 int Treatment::rescues() {
   int changes = 0;
@@ -313,7 +310,6 @@ bool Treatment::rescue_by_inset(int element) {
 }
 
 // --- trials
-// ----------------------------------------------------------------------------------------------------------
 
 /// Applies the move; vertices that it creates are touched, too.
 void Treatment::perform(const TreatmentMove& move) {

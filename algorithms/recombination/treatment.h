@@ -10,13 +10,30 @@ struct TreatmentOptions {
 };
 
 struct TreatmentSummary {
-  int rounds = 0, doublets = 0, diamonds = 0, swaps = 0, boundary_repairs = 0, relocated = 0;
+  int rounds = 0;
+  int doublets = 0;          ///< interior vertices between two quads, removed
+  int diamonds = 0;          ///< quads removed by merging two opposite corners
+  int swaps = 0;             ///< edges rotated within the hexagon of their two quads
+  int boundary_repairs = 0;  ///< bad quads given four new vertices: one becomes five
+  int relocated = 0;         ///< moves of vertices
   double seconds = 0;
 };
 
-/// The clean-up that the paper's tables include: doublets, diamonds, swaps of poor pairs, vertex relocation.
+/// The treatment after matching that the paper's tables include [Remacle et al. 2012, section 7; its
+/// Blossom-Quad]: doublets, diamonds, swaps of poor pairs, vertex relocation.
+///
+/// Differs from the paper:
+/// - an edit is chosen by what it takes off the sum of (valence - ideal)^2, largest first, boundary vertices
+/// with their own
+///   ideal; two edits may be tried together where the first alone gains nothing;
+/// - it is kept only if, after local relocation, the elements around are not poorer (eta below 0.3) than
+/// before;
+/// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) new vertices;
+/// - relocation weighs angles and edge lengths, and a last pass lifts the worst quads.
+///
 /// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
-/// topology type; quads stay quads.
+/// topology type; quads stay quads and leftover triangles triangles. Throws std::invalid_argument where the
+/// input is not conforming.
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
 

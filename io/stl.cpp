@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "io/mesh_io.h"
+#include "io/text_scanner.h"
+#include "io/weld.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr size_t kHeader = 80, kFirstFacet = kHeader + 4, kFacet = 50;  // bytes of a binary file
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char c, char d) { return lower(c) == lower(d); });
+}
+
+std::uint32_t little_endian(std::string_view bytes, size_t at) {
+  std::uint32_t value = 0;
+  for (size_t k = 0; k < 4; ++k) {
+    value |= std::uint32_t{static_cast<unsigned char>(bytes[at + k])} << (8 * k);
+  }
+  return value;
+}
+
+/// Triangles that the binary file announces; none when it is a text. A binary header may begin with "solid"
+/// too.
+std::optional<std::uint32_t> binary_facets(std::string_view bytes) {
+  if (bytes.size() >= kFirstFacet) {
+    const std::uint32_t n = little_endian(bytes, kHeader);
+    if (bytes.size() == kFirstFacet + n * kFacet) return n;
+  }
+  const size_t word = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const bool is_text = same_word(bytes.substr(word, 5), "solid") &&
+                       bytes.substr(0, kFirstFacet).find('\0') == std::string_view::npos;
+  if (is_text) return std::nullopt;
+  return bytes.size() < kFirstFacet ? 0 : little_endian(bytes, kHeader);
+}
+
+void add_triangle(Mesh& mesh, const std::array<Vec3, 3>& corners) {
+  const int first = static_cast<int>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), corners.begin(), corners.end());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangle_region.push_back(static_cast<int>(mesh.regions.size()) - 1);
+}
+
+Mesh read_binary(const std::string& path, std::string_view bytes, std::uint32_t n) {
+  if (bytes.size() < kFirstFacet) {
+    throw InputError(
+        fmt::format("{}: {} bytes: expected an STL file, which begins with \"solid\" or has {} bytes before "
+                    "its triangles",
+                    path, bytes.size(), kFirstFacet));
+  }
+  const size_t expected = kFirstFacet + n * kFacet;
+  if (bytes.size() != expected) {
+    throw InputError(
+        fmt::format("{}: {} bytes, but its {} triangles (byte {}) take {}: expected a whole STL file", path,
+                    bytes.size(), n, kHeader, expected));
+  }
+  Mesh mesh;
+  mesh.regions = {{1, {}}};
+  mesh.points.reserve(3 * size_t{n});
+  for (size_t at = kFirstFacet; at < expected; at += kFacet) {
+    constexpr size_t kNormal = 12;
+    const auto number = [&](size_t k) {
+      const size_t byte = at + kNormal + 4 * k;
+      const float value = std::bit_cast<float>(little_endian(bytes, byte));
+      if (!std::isfinite(value)) {
+        throw InputError(
+            fmt::format("{}: byte {}: coordinate {}: expected a finite number", path, byte, value));
+      }
+      return double{value};
+    };
+    std::array<Vec3, 3> corners;
+    for (size_t k = 0; k < 3; ++k) corners[k] = {number(3 * k), number(3 * k + 1), number(3 * k + 2)};
+    add_triangle(mesh, corners);
+  }
+  return mesh;
+}
+
+class TextReader {
+ public:
+  explicit TextReader(TextScanner& in) : in_(in) {}
+
+  Mesh read() {
+    while (!in_.at_end()) {
+      expect("solid");
+      const std::string name = rest_of_line();
+      mesh_.regions.push_back({static_cast<int>(mesh_.regions.size()) + 1, {}});
+      if (!name.empty()) mesh_.regions.back().names.push_back(name);
+      while (read_facet()) continue;
+      rest_of_line();
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void expect(std::string_view word) {
+    const std::string_view found = in_.token(fmt::format("'{}'", word));
+    if (!same_word(found, word)) {
+      in_.fail(fmt::format("expected '{}', found {}", word, TextScanner::printable(found)));
+    }
+  }
+
+  std::string rest_of_line() {
+    const std::string_view rest = in_.rest_of_line();
+    const size_t first = rest.find_first_not_of(" \t\r"), last = rest.find_last_not_of(" \t\r");
+    return first == std::string_view::npos ? "" : std::string(rest.substr(first, last - first + 1));
+  }
+
+  /// False at the end of the solid.
+  bool read_facet() {
+    const std::string_view word = in_.token("'facet' or 'endsolid'");
+    if (same_word(word, "endsolid")) return false;
+    if (!same_word(word, "facet")) {
+      in_.fail(fmt::format("expected 'facet' or 'endsolid', found {}", TextScanner::printable(word)));
+    }
+    expect("normal");
+    for (int k = 0; k < 3; ++k) in_.token("a normal");  // some programs write nan; it is not needed
+    expect("outer");
+    expect("loop");
+    std::array<Vec3, 3> corners;
+    for (Vec3& p : corners) {
+      expect("vertex");
+      p.x = in_.real("a coordinate");
+      p.y = in_.real("a coordinate");
+      p.z = in_.real("a coordinate");
+    }
+    expect("endloop");
+    expect("endfacet");
+    add_triangle(mesh_, corners);
+    return true;
+  }
+
+  TextScanner& in_;
+  Mesh mesh_;
+};
+
+double diagonal(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+}  // namespace
+
+Mesh read_stl(const std::filesystem::path& path, const StlOptions& options) {
+  TextScanner scanner(path);
+  const std::optional<std::uint32_t> n = binary_facets(scanner.text());
+  Mesh mesh = n ? read_binary(path.string(), scanner.text(), *n) : TextReader(scanner).read();
+  if (mesh.triangles.empty()) throw InputError(path.string() + ": the file holds no triangles");
+  weld(mesh, options.weld_tolerance * diagonal(mesh.points));
+  drop_unused_points(mesh);
+  return mesh;
+}
+
+}  // namespace delquad
