@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "mesh/vec.h"
 
 namespace delquad {
@@ -20,14 +23,15 @@ class ParametricSize {
   virtual double at(Vec2 u, int& hint) const = 0;
 };
 
-/// delta' of a planar patch, whose parameter plane is the plane z = 0 itself.
+/// delta' of a planar patch, whose parameter plane is the plane z = constant itself.
 class PlanarSize final : public ParametricSize {
  public:
-  explicit PlanarSize(const SizeField& size) : size_(size) {}
-  double at(Vec2 u, int& hint) const override { return size_.at({u.x, u.y, 0}, hint); }
+  explicit PlanarSize(std::shared_ptr<const SizeField> size, double z = 0) : size_(std::move(size)), z_(z) {}
+  double at(Vec2 u, int& hint) const override { return size_->at({u.x, u.y, z_}, hint); }
 
  private:
-  const SizeField& size_;
+  std::shared_ptr<const SizeField> size_;
+  double z_;
 };
 
 }  // namespace delquad

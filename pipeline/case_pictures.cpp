@@ -25,11 +25,11 @@ Vec2 position(const BackgroundMesh& background, const BackgroundMesh::Location& 
 /// The field at the nodes of a regular grid that lie inside the domain.
 std::vector<CrossGlyph> sample_crosses(const PreparedCase& p) {
   Vec2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
-  for (const Vec3& x : p.domain.boundary.points) {
+  for (const Vec3& x : p.boundary.points) {
     low = {std::min(low.x, x.x), std::min(low.y, x.y)};
     high = {std::max(high.x, x.x), std::max(high.y, x.y)};
   }
-  const double detail = std::sqrt(static_cast<double>(p.domain.boundary.points.size()));
+  const double detail = std::sqrt(static_cast<double>(p.boundary.points.size()));
   const int across = std::clamp(static_cast<int>(detail), kFewestAcross, kMostAcross);
   const double step = std::max(high.x - low.x, high.y - low.y) / across;
   std::vector<CrossGlyph> glyphs;
@@ -40,7 +40,7 @@ std::vector<CrossGlyph> sample_crosses(const PreparedCase& p) {
       if (u.x > high.x || u.y > high.y) continue;
       const Vec2 inside = position(*p.background, p.background->locate(u, where));
       if (norm(inside - u) > 1e-9 * step * across) continue;  // outside: the location is the nearest one
-      glyphs.push_back({u, p.cross->at(u, hint).angle(), 0.8 * step});
+      glyphs.push_back({u, p.patches[0].cross->at(u, hint).angle(), 0.8 * step});
     }
   return glyphs;
 }
@@ -86,10 +86,10 @@ void refine(std::vector<Vec2>& points, std::vector<std::array<int, 3>>& triangle
 void draw_case(const PreparedCase& prepared, const std::string& name, const std::filesystem::path& folder) {
   std::vector<SingularityMark> marks;
   for (const Singularity& s : prepared.singularities) marks.push_back({s.at, s.index});
-  draw_crosses(folder / "cross.svg", prepared.domain.boundary, sample_crosses(prepared), marks,
+  draw_crosses(folder / "cross.svg", prepared.boundary, sample_crosses(prepared), marks,
                name + ": cross field");
   TriPatch tri = prepared.background->triangles();
-  refine(tri.points, tri.triangles, diagonal(prepared.domain.boundary) / kSamplesAcross);
+  refine(tri.points, tri.triangles, diagonal(prepared.boundary) / kSamplesAcross);
   Mesh samples;
   samples.triangles = std::move(tri.triangles);
   samples.triangle_region.assign(samples.triangles.size(), 0);

@@ -93,7 +93,7 @@ PlanarDomain mesh_model(const Case& c, const std::shared_ptr<const SizeField>& s
   return make_domain(*c.model, as_function(size), options);
 }
 
-void prepare_model(const Case& c, PreparedCase& p) {
+PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
   const SizeSpec& spec = c.size;
   p.size = make_size(spec, [&]() -> std::shared_ptr<const SizeField> {
     throw InputError(
@@ -101,14 +101,15 @@ void prepare_model(const Case& c, PreparedCase& p) {
         ": curves have no edge lengths of their own: expected a size (a number or an expression)");
   });
   check_count_early(c, p.size);
-  p.domain = mesh_model(c, p.size);
-  p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
+  PlanarDomain domain = mesh_model(c, p.size);
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
   if (spec.gradation > 0) {
     p.size = limit_gradation(p.size, p.background, spec.gradation);
     check_count_early(c, p.size);
-    p.domain = mesh_model(c, p.size);
-    p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
+    domain = mesh_model(c, p.size);
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
+  return domain;
 }
 
 Mesh read_lines(const Case& c, PreparedCase& p) {
@@ -129,51 +130,54 @@ Mesh read_lines(const Case& c, PreparedCase& p) {
   return mesh;
 }
 
-void prepare_mesh(const Case& c, PreparedCase& p) {
+PlanarDomain prepare_mesh(const Case& c, PreparedCase& p) {
   const SizeSpec& spec = c.size;
-  p.domain = make_domain(read_lines(c, p), {c.mesh_file.string(), {}});
-  p.background = std::make_shared<BackgroundMesh>(p.domain.patches);
-  p.size = make_size(spec, [&] { return make_boundary_size(p.background, p.domain.boundary); });
+  PlanarDomain domain = make_domain(read_lines(c, p), {c.mesh_file.string(), {}});
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size = make_size(spec, [&] { return make_boundary_size(p.background, domain.boundary); });
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
-  for (const std::string& warning : odd_boundaries(p.domain)) p.warnings.push_back(warning);
+  for (const std::string& warning : odd_boundaries(domain)) p.warnings.push_back(warning);
+  return domain;
 }
 
-void make_cross(const Case& c, PreparedCase& p) {
+std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
   const std::string& text = c.cross.text;
-  if (text == kFromGradient) {
-    p.cross = make_gradient_cross(p.size, kGradientStep * diagonal(p.domain.boundary));
-  } else if (text != kFromBoundary) {
-    p.cross = located(c.cross.where, [&] { return make_expression_cross(text); });
-  } else {
-    const auto field = std::make_shared<HarmonicCrossField>(p.background);
-    p.singularities = field->singularities();
-    const int expected = 4 * field->euler_characteristic();
-    p.index_sum_and_expected = {field->index_sum(), expected};
-    if (field->index_sum() != expected)
-      p.warnings.push_back(
-          fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
-                      "characteristic is {}/4",
-                      c.name, field->index_sum(), expected));
-    p.cross = field;
-  }
+  if (text == kFromGradient) return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
+  if (text != kFromBoundary) return located(c.cross.where, [&] { return make_expression_cross(text); });
+  auto field = std::make_shared<HarmonicCrossField>(p.background);
+  p.singularities = field->singularities();
+  const int expected = 4 * field->euler_characteristic();
+  p.index_sum_and_expected = {field->index_sum(), expected};
+  if (field->index_sum() != expected)
+    p.warnings.push_back(
+        fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
+                    "characteristic is {}/4",
+                    c.name, field->index_sum(), expected));
+  return field;
 }
 
 }  // namespace
 
 PreparedCase prepare_case(const Case& c) {
   PreparedCase p;
-  const Stopwatch domain;
-  if (c.model)
-    prepare_model(c, p);
-  else
-    prepare_mesh(c, p);
+  const Stopwatch watch;
+  PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, p);
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
-  check_holes(c.holes, p.domain);
-  p.seconds.emplace_back("domain", domain.seconds());
-  const Stopwatch cross;
-  make_cross(c, p);
-  p.seconds.emplace_back("cross field", cross.seconds());
+  check_holes(c.holes, domain);
+  p.boundary = std::move(domain.boundary);
+  p.seconds.emplace_back("domain", watch.seconds());
+
+  const Stopwatch fields;
+  const auto cross = make_cross(c, p);
+  const double z = p.boundary.points[0].z;
+  const auto size = std::make_shared<PlanarSize>(p.size, z);
+  for (std::size_t i = 0; i < domain.patches.size(); ++i)
+    p.patches.push_back(
+        {std::move(domain.patches[i]), domain.patch_region[i], cross, size, [z](Vec2 u, int&) {
+           return Vec3{u.x, u.y, z};
+         }});
+  p.seconds.emplace_back("cross field", fields.seconds());
   return p;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,13 +13,22 @@
 
 namespace delquad {
 
+/// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
+struct PreparedPatch {
+  PatchBoundary boundary;
+  int region = 0;  ///< index into PreparedCase::boundary.regions
+  std::shared_ptr<const CrossField> cross;
+  std::shared_ptr<const ParametricSize> size;
+  std::function<Vec3(Vec2, int& hint)> lift;
+};
+
 /// What every pipeline on a case starts from.
 struct PreparedCase {
-  PlanarDomain domain;
-  std::shared_ptr<const BackgroundMesh> background;
+  Mesh boundary;  ///< nodes on curves, lines, curves and regions; no elements
+  std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
-  std::shared_ptr<const CrossField> cross;
-  std::vector<Singularity> singularities;  ///< of the boundary-aligned cross field
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches
+  std::vector<Singularity> singularities;            ///< of the boundary-aligned cross field
   /// Sum of the indices of the boundary-aligned field, and what the domain's Euler characteristic makes of
   /// it, in quarters.
   std::optional<std::pair<int, int>> index_sum_and_expected;

@@ -49,8 +49,8 @@ Json options_json(const Case& c) {
 
 Json domain_json(const PreparedCase& p) {
   std::size_t edges = 0;
-  for (const PatchBoundary& patch : p.domain.patches) edges += patch.edges.size();
-  Json json = {{"patches", p.domain.patches.size()},
+  for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
+  Json json = {{"patches", p.patches.size()},
                {"boundary_edges", edges},
                {"background_triangles", p.background->triangles().triangles.size()},
                {"expected_quads", p.expected_quads}};

@@ -19,13 +19,14 @@ long long peak_memory() {
 }
 
 /// Mesh node of each point of a patch; nodes are made for the points inside.
-std::vector<int> add_points(const std::vector<Vec2>& points, int n_boundary, const PatchBoundary& boundary,
-                            Mesh& mesh) {
-  std::vector<int> node(boundary.point_node.begin(), boundary.point_node.begin() + n_boundary);
+std::vector<int> add_points(const std::vector<Vec2>& points, const PreparedPatch& patch, Mesh& mesh) {
+  std::vector<int> node = patch.boundary.point_node;
+  const std::size_t n_boundary = node.size();
   node.reserve(points.size());
+  int hint = -1;
   for (std::size_t i = n_boundary; i < points.size(); ++i) {
     node.push_back(static_cast<int>(mesh.points.size()));
-    mesh.points.push_back({points[i].x, points[i].y, 0});
+    mesh.points.push_back(patch.lift(points[i], hint));
   }
   return node;
 }
@@ -52,17 +53,16 @@ void check_sound(const Mesh& mesh) {
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
 
-Mesh assemble(const PlanarDomain& domain, const std::vector<PatchMesh>& patches) {
-  Mesh mesh = domain.boundary;
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches) {
+  Mesh mesh = prepared.boundary;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
-    const PatchBoundary& boundary = domain.patches[i];
-    const int region = domain.patch_region[i];
+    const int region = prepared.patches[i].region;
     if (patch.form == PatchForm::kTriangles) {
-      const auto node = add_points(patch.triangles.points, patch.triangles.n_boundary, boundary, mesh);
+      const auto node = add_points(patch.triangles.points, prepared.patches[i], mesh);
       add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
     } else {
-      const auto node = add_points(patch.quads.points, patch.quads.n_boundary, boundary, mesh);
+      const auto node = add_points(patch.quads.points, prepared.patches[i], mesh);
       add_elements(patch.quads.triangles, node, region, mesh.triangles, mesh.triangle_region);
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
@@ -72,18 +72,19 @@ Mesh assemble(const PlanarDomain& domain, const std::vector<PatchMesh>& patches)
 
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
   const Stopwatch watch;
-  const PlanarSize size(*prepared.size);
-  std::vector<PatchMesh> patches(prepared.domain.patches.size());
+  std::vector<PatchMesh> patches(prepared.patches.size());
   RunResult result;
   for (const Stage* stage : word.stages) {
     progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      stage->run({prepared.domain.patches[i], *prepared.cross, size, c.options}, patches[i], result.log);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const PreparedPatch& patch = prepared.patches[i];
+      stage->run({patch.boundary, *patch.cross, *patch.size, c.options}, patches[i], result.log);
+    }
     if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
       throw InputError(fmt::format("{}: insertion stopped at {} points, the most allowed", c.where,
                                    result.log.insertion->inserted));
   }
-  result.mesh = assemble(prepared.domain, patches);
+  result.mesh = assemble(prepared, patches);
   patches.clear();
   result.seconds = watch.seconds();
   progress.step(fmt::format("{} {}: metrics", c.name, word.text));

@@ -27,6 +27,6 @@ int run_steps(const Word& word);
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
 
 /// The patches as one mesh: boundary nodes stand once, the points inside each patch follow.
-Mesh assemble(const PlanarDomain& domain, const std::vector<PatchMesh>& patches);
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches);
 
 }  // namespace delquad

@@ -48,11 +48,12 @@ TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
 TEST_F(Cases, AnalyticCrosses) {
   int hint = -1;
   const PreparedCase angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
-  EXPECT_NEAR(angle.cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
+  EXPECT_NEAR(angle.patches[0].cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
   const PreparedCase gradient =
       prepare_case(read(square_ + "size = \"0.1 + 0.01*x + 0.02*y\"\ncross = \"gradient\"\n"));
   hint = -1;
-  EXPECT_NEAR(gradient.cross->at({0.5, 0.5}, hint).angle(), std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
+  EXPECT_NEAR(gradient.patches[0].cross->at({0.5, 0.5}, hint).angle(),
+              std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
   expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\ncross = \"atan(x\"\n")); },
                      {"c.toml:3", "atan(x"});
 }
