@@ -3,7 +3,8 @@
 #include "benchmarks/square_case.h"
 #include "fields/fields.h"
 
-// The background mesh, the harmonic cross field on it, and queries of that field, by the number of boundary edges.
+// The background mesh, the harmonic cross field on it, and queries of that field, by the number of boundary
+// edges.
 
 namespace delquad::benchmarks {
 namespace {
@@ -12,7 +13,8 @@ SquareCase with_boundary_edges(double edges) { return {Grading::kGraded, edges *
 
 void background(benchmark::State& state) {
   const SquareCase domain = with_boundary_edges(static_cast<double>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(BackgroundMesh(domain.domain.patches).triangles().points.data());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(BackgroundMesh(domain.domain.patches).triangles().points.data());
   state.SetComplexityN(static_cast<benchmark::IterationCount>(domain.boundary().points.size()));
 }
 
@@ -36,7 +38,11 @@ void query(benchmark::State& state) {
 }
 
 BENCHMARK(background)->RangeMultiplier(4)->Range(64, 16384)->Unit(benchmark::kMillisecond)->Complexity();
-BENCHMARK(harmonic_cross_field)->RangeMultiplier(4)->Range(64, 16384)->Unit(benchmark::kMillisecond)->Complexity();
+BENCHMARK(harmonic_cross_field)
+    ->RangeMultiplier(4)
+    ->Range(64, 16384)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
 BENCHMARK(query)->RangeMultiplier(16)->Range(64, 16384);
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include "algorithms/recombination/treatment.h"
 #include "benchmarks/square_case.h"
 
-// Recombination (dual graph, matching, merge) and treatment of the meshes of F and D, with the insertion of the same mesh
-// as the yardstick.
+// Recombination (dual graph, matching, merge) and treatment of the meshes of F and D, with the insertion of
+// the same mesh as the yardstick.
 
 namespace delquad::benchmarks {
 namespace {
@@ -28,8 +28,8 @@ void recombination(benchmark::State& state, char letter, Grading grading) {
   const auto solver = make_lemon_solver();
   RecombineSummary summary;
   for (auto _ : state) benchmark::DoNotOptimize(recombine(tri, *solver, &summary).quads.data());
-  state.counters["matching_share"] = summary.matching_seconds /
-                                     (summary.graph_seconds + summary.matching_seconds + summary.merge_seconds);
+  state.counters["matching_share"] =
+      summary.matching_seconds / (summary.graph_seconds + summary.matching_seconds + summary.merge_seconds);
   state.SetComplexityN(static_cast<benchmark::IterationCount>(tri.triangles.size()));
 }
 

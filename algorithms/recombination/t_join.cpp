@@ -57,7 +57,8 @@ std::vector<int> leave_odd_ones(std::vector<int>& terminals, std::vector<Paths>&
 
 }  // namespace
 
-TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals, const MatchingSolver& solver) {
+TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals,
+                     const MatchingSolver& solver) {
   std::vector<std::vector<int>> incident(graph.n_nodes);
   for (size_t e = 0; e < graph.edges.size(); ++e) {
     incident[graph.edges[e].a].push_back(static_cast<int>(e));

@@ -21,8 +21,9 @@ struct TJoin {
   std::vector<int> unmatched;  ///< a terminal of each component that has an odd number of them; left as it is
 };
 
-/// The cheapest set of edges in which exactly the terminals have odd degree [edmonds1973]: shortest paths between
-/// terminals, matched at minimum cost. `terminals` are distinct nodes.
-TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals, const MatchingSolver& solver);
+/// The cheapest set of edges in which exactly the terminals have odd degree [edmonds1973]: shortest paths
+/// between terminals, matched at minimum cost. `terminals` are distinct nodes.
+TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals,
+                     const MatchingSolver& solver);
 
 }  // namespace delquad

@@ -32,8 +32,8 @@ TEST(TJoin, CheapestOfAllSubsetsOnRandomGraphs) {
     WeightedGraph graph{3 + static_cast<int>(random() % 5), {}};
     const int n_edges = static_cast<int>(random() % 11);
     for (int e = 0; e < n_edges; ++e) {  // loops and parallel edges happen
-      graph.edges.push_back({static_cast<int>(random() % graph.n_nodes), static_cast<int>(random() % graph.n_nodes),
-                             shapes::uniform(random)});
+      graph.edges.push_back({static_cast<int>(random() % graph.n_nodes),
+                             static_cast<int>(random() % graph.n_nodes), shapes::uniform(random)});
     }
     std::vector<int> terminals;
     for (int i = 0; i < graph.n_nodes; ++i) {

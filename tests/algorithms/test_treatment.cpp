@@ -158,7 +158,7 @@ TEST(Treatment, StrongGrading) {
   PatchBoundary boundary = shapes::rectangle(1, 1, 20, 24);
   const QuadPatch result =
       treated(meshed(boundary, *make_linf_delquad(), FunctionCross(0), size), boundary, size);
-  // The boundary does not follow the size, which goes from a fifth to twelve times its edges.
+  // The boundary does not follow the size, which goes from half to fifteen times its edges.
   EXPECT_GT(worst(result), std::sin(0.1 * std::numbers::pi / 2));
 }
 
