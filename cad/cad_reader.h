@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+struct CadOptions {
+  /// Largest distance between the fine triangulation and the model, as a fraction of the diagonal of the
+  /// model's bounding box, > 0.
+  double deflection = 1.0 / 2000;
+  /// Largest angle between neighbouring sides of a curve, and normals of a face across an inner side,
+  /// radians.
+  double angle = 0.15;
+};
+
+/// Reads a STEP or BREP file (told apart by content) through OpenCASCADE. Lengths are millimetres in STEP,
+/// whatever the file's unit, and as given in BREP. Each face and each edge stands once, as region and curve;
+/// their tags are their numbers in the file's order, so that gaps stay where degenerate edges and seams were:
+/// these are no curves, the triangulation is connected across them. A region's names are those of its face,
+/// solids and products in STEP and its colour ("colour #rrggbb"). Normals of a solid point outwards. Invalid
+/// shapes are healed and coincident free edges sewn, and a warning says so; warnings also tell free and
+/// non-manifold curves. Throws InputError naming the file for files that cannot be read or hold no face, and
+/// naming the faces that are unbounded, have no area, cross their own boundary or cannot be triangulated.
+SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
+
+}  // namespace delquad

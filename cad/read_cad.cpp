@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <new>
+#include <utility>
+
+#include "cad/agree_faces.h"
+#include "cad/cad_reader.h"
+#include "cad/heal_shape.h"
+#include "cad/shape_file.h"
+#include "cad/shape_projector.h"
+#include "cad/tessellate.h"
+#include "cad/weld_faces.h"
+#include "mesh/error.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+
+namespace cad {
+
+namespace {
+
+/// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
+constexpr double kSewing = 1e-6;
+/// Accuracy of projected points, as a fraction of the diagonal.
+constexpr double kProjection = 1e-10;
+
+TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map;
+}
+
+double diagonal_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  // The geometry's own box: an old triangulation may lie.
+  BRepBndLib::Add(shape, box, /*useTriangulation=*/false);
+  if (box.IsVoid() || box.IsOpen()) throw InputError("the model has no extent, or an infinite one");
+  const double diagonal = std::sqrt(box.SquareExtent());
+  if (!(diagonal > 0) || Precision::IsInfinite(diagonal)) {
+    throw InputError("the model has no extent, or an infinite one");
+  }
+  return diagonal;
+}
+
+/// A face needs a surface, and a boundary unless its surface ends by itself.
+void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
+  if (faces.IsEmpty()) throw InputError("the model holds no face");
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(f)));
+    const std::string title = face_title(f, cad.names.of(faces(f)));
+    if (surface.IsNull()) throw InputError(title + " has no surface");
+    double u0, u1, v0, v1;
+    surface->Bounds(u0, u1, v0, v1);
+    if (TopExp_Explorer(faces(f), TopAbs_EDGE).More()) continue;
+    if (Precision::IsInfinite(u0) || Precision::IsInfinite(u1) || Precision::IsInfinite(v0) ||
+        Precision::IsInfinite(v1)) {
+      throw InputError(title + " has no boundary and its surface is infinite");
+    }
+  }
+}
+
+/// Every edge must have a curve in space; those that have one on a surface only get it computed.
+void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges) {
+  BRepLib::BuildCurves3d(shape);
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
+    double first, last;
+    if (!BRep_Tool::Degenerated(edge) && BRep_Tool::Curve(edge, first, last).IsNull()) {
+      throw InputError(fmt::format("edge {} has no curve", e));
+    }
+  }
+}
+
+/// Faces of each solid, and of each shell outside solids.
+std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
+  std::vector<std::vector<int>> all;
+  const auto add = [&](const TopoDS_Shape& body) {
+    std::vector<int>& of = all.emplace_back();
+    const TopTools_IndexedMapOfShape own = parts(body, TopAbs_FACE);
+    for (int f = 1; f <= own.Extent(); ++f) of.push_back(faces.FindIndex(own(f)) - 1);
+  };
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) add(solid.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    add(shell.Current());
+  return all;
+}
+
+void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
+  const Agreement agreement = agree_faces(model.fine);
+  if (!agreement.orientable) model.warnings.push_back("the faces cannot be oriented alike");
+  if (agreement.n_turned > 0) {
+    model.warnings.push_back(
+        fmt::format("{} faces disagreed with their neighbours and were turned over", agreement.n_turned));
+  }
+  if (const int n = turn_outwards(model.fine, groups); n > 0) {
+    model.warnings.push_back(fmt::format("{} bodies were inside out and were turned over", n));
+  }
+}
+
+std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
+  constexpr int kMostNamed = 10;
+  std::string text;
+  int n = 0;
+  for (std::size_t c = 0; c < listed.size(); ++c) {
+    if (!listed[c]) continue;
+    if (++n <= kMostNamed) text += fmt::format("{}{}", n > 1 ? ", " : "", mesh.curves[c].tag);
+  }
+  if (n > kMostNamed) text += ", ...";
+  return fmt::format("{} ({})", n, text);
+}
+
+void report_edges(SurfaceModel& model) {
+  const Mesh& mesh = model.fine;
+  std::vector<std::pair<std::array<int, 2>, int>> curve_of;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto& [a, b] = mesh.lines[l];
+    curve_of.push_back({{std::min(a, b), std::max(a, b)}, mesh.line_curve[l]});
+  }
+  std::ranges::sort(curve_of);
+  std::vector<char> free(mesh.curves.size(), 0), crowded(mesh.curves.size(), 0);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 2) return;
+    const std::array<int, 2> ends{edge[0].lo, edge[0].hi};
+    const auto at = std::ranges::lower_bound(curve_of, std::pair(ends, 0));
+    if (at == curve_of.end() || at->first != ends) return;
+    (edge.size() == 1 ? free : crowded)[at->second] = 1;
+  });
+  if (std::ranges::count(free, 1) > 0)
+    model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free));
+  if (std::ranges::count(crowded, 1) > 0)
+    model.warnings.push_back("more than two faces meet on curves: " + list_curves(mesh, crowded));
+}
+
+SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) {
+  CadShape cad = read_shape(path);
+  check_faces(cad, parts(cad.shape, TopAbs_FACE));
+  const double diagonal = diagonal_of(cad.shape);
+  heal_shape(cad, kSewing * diagonal);
+
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
+                                   edges = parts(cad.shape, TopAbs_EDGE);
+  check_faces(cad, faces);
+  complete_edges(cad.shape, edges);
+  std::vector<FaceMesh> meshes = tessellate(cad, faces, diagonal, options);
+  WeldedFaces welded = weld_faces(meshes, edges, options.deflection * diagonal);
+  if (!welded.bad_faces.empty()) {
+    std::string list;
+    for (const int f : welded.bad_faces)
+      list += (list.empty() ? "" : ", ") + face_title(f + 1, cad.names.of(faces(f + 1)));
+    throw InputError("cannot be triangulated up to the boundary (does it cross itself?): " + list);
+  }
+
+  SurfaceModel model;
+  model.source = path.string();
+  model.warnings = std::move(cad.warnings);
+  model.fine = std::move(welded.mesh);
+  model.corners = std::move(welded.corners);
+  for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
+  orient(model, bodies(cad.shape, faces));
+  report_edges(model);
+  model.projector = make_projector(std::move(meshes), welded.curves, kProjection * diagonal);
+  return model;
+}
+
+}  // namespace
+
+}  // namespace cad
+
+SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
+  try {
+    return cad::read(path, options);
+  } catch (const Standard_Failure& failure) {
+    throw InputError(fmt::format("{}: damaged: the CAD kernel gave up: {} {}", path.string(),
+                                 failure.DynamicType()->Name(), failure.GetMessageString()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: damaged, or too large for the memory", path.string()));
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.starts_with(path.string())) throw;
+    throw InputError(fmt::format("{}: {}", path.string(), message));
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,128 @@
+#include "cad/shape_projector.h"
+
+#include <fmt/format.h>
+
+#include <BRep_Tool.hxx>
+#include <ElSLib.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "cad/nearest_point.h"
+#include "cad/nearest_triangle.h"
+#include "mesh/error.h"
+
+namespace delquad::cad {
+
+namespace {
+
+using Elementary = std::variant<gp_Pln, gp_Cylinder, gp_Cone, gp_Sphere, gp_Torus>;
+
+std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
+  if (const auto s = Handle(Geom_Plane)::DownCast(surface); !s.IsNull()) return s->Pln();
+  if (const auto s = Handle(Geom_CylindricalSurface)::DownCast(surface); !s.IsNull()) return s->Cylinder();
+  if (const auto s = Handle(Geom_ConicalSurface)::DownCast(surface); !s.IsNull()) return s->Cone();
+  if (const auto s = Handle(Geom_SphericalSurface)::DownCast(surface); !s.IsNull()) return s->Sphere();
+  if (const auto s = Handle(Geom_ToroidalSurface)::DownCast(surface); !s.IsNull()) return s->Torus();
+  return std::nullopt;
+}
+
+Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+gp_Pnt to_pnt(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+class FaceProjector {
+ public:
+  explicit FaceProjector(FaceMesh face) : surface_(BRep_Tool::Surface(face.face)) {
+    while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface_))
+      surface_ = trimmed->BasisSurface();
+    elementary_ = as_elementary(surface_);
+    if (elementary_) return;
+    uv_ = std::move(face.uv);
+    triangles_.emplace(std::move(face.points), std::move(face.triangles));
+  }
+
+  Vec3 nearest(const Vec3& x, double tolerance) const {
+    if (elementary_) {
+      return std::visit(
+          [&](const auto& surface) {
+            double u, v;
+            ElSLib::Parameters(surface, to_pnt(x), u, v);
+            return to_vec(ElSLib::Value(u, v, surface));
+          },
+          *elementary_);
+    }
+    const NearestTriangle::Found found = triangles_->find(x);
+    Vec2 uv{0, 0};
+    for (int k = 0; k < 3; ++k) uv += found.weights[k] * uv_[found.vertices[k]];
+    return to_vec(nearest_point(*surface_, to_pnt(x), uv.x, uv.y, tolerance));
+  }
+
+ private:
+  Handle(Geom_Surface) surface_;
+  std::optional<Elementary> elementary_;
+  std::vector<Vec2> uv_;  ///< of the triangles' points
+  std::optional<NearestTriangle> triangles_;
+};
+
+class CurveProjector {
+ public:
+  explicit CurveProjector(const CurveMesh& mesh) : parameters_(mesh.parameters) {
+    curve_ = BRep_Tool::Curve(mesh.edge, first_, last_);
+    while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve_)) curve_ = trimmed->BasisCurve();
+    for (const double t : parameters_) points_.push_back(to_vec(curve_->Value(t)));
+  }
+
+  Vec3 nearest(const Vec3& x, double tolerance) const {
+    double best2 = std::numeric_limits<double>::infinity(), best = first_;
+    for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
+      const Vec3 d = points_[k + 1] - points_[k];
+      const double length2 = dot(d, d);
+      const double t = length2 > 0 ? std::clamp(dot(x - points_[k], d) / length2, 0.0, 1.0) : 0;
+      const Vec3 away = points_[k] + t * d - x;
+      if (dot(away, away) >= best2) continue;
+      best2 = dot(away, away);
+      best = parameters_[k] + t * (parameters_[k + 1] - parameters_[k]);
+    }
+    return to_vec(nearest_point(*curve_, first_, last_, to_pnt(x), best, tolerance));
+  }
+
+ private:
+  Handle(Geom_Curve) curve_;
+  double first_ = 0, last_ = 0;
+  std::vector<double> parameters_;
+  std::vector<Vec3> points_;
+};
+
+class ShapeProjector : public SurfaceProjector {
+ public:
+  ShapeProjector(std::vector<FaceMesh> faces, const std::vector<CurveMesh>& curves, double tolerance)
+      : tolerance_(tolerance) {
+    for (FaceMesh& face : faces) faces_.emplace_back(std::move(face));
+    for (const CurveMesh& curve : curves) curves_.emplace_back(curve);
+  }
+  Vec3 to_face(int face, const Vec3& x) const override { return faces_[face].nearest(x, tolerance_); }
+  Vec3 to_curve(int curve, const Vec3& x) const override { return curves_[curve].nearest(x, tolerance_); }
+
+ private:
+  double tolerance_;
+  std::vector<FaceProjector> faces_;
+  std::vector<CurveProjector> curves_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SurfaceProjector> make_projector(std::vector<FaceMesh> faces,
+                                                       const std::vector<CurveMesh>& curves,
+                                                       double tolerance) {
+  return std::make_shared<ShapeProjector>(std::move(faces), curves, tolerance);
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,84 @@
+#include "cad/tessellate.h"
+
+#include <fmt/format.h>
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopoDS.hxx>
+#include <utility>
+
+#include "mesh/error.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Area of a face that counts as none, as a fraction of the square of the diagonal.
+constexpr double kNoArea = 1e-14;
+
+FaceMesh take_triangulation(const TopoDS_Face& face) {
+  FaceMesh mesh;
+  mesh.face = face;
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(face, place);
+  if (triangulation.IsNull() || !triangulation->HasUVNodes()) return mesh;
+  const gp_Trsf placed = place.Transformation();
+  for (int i = 1; i <= triangulation->NbNodes(); ++i) {
+    const gp_Pnt p = triangulation->Node(i).Transformed(placed);
+    const gp_Pnt2d uv = triangulation->UVNode(i);
+    mesh.points.push_back({p.X(), p.Y(), p.Z()});
+    mesh.uv.push_back({uv.X(), uv.Y()});
+  }
+  mesh.is_reversed = (face.Orientation() == TopAbs_REVERSED) != placed.IsNegative();
+  for (int t = 1; t <= triangulation->NbTriangles(); ++t) {
+    int a, b, c;
+    triangulation->Triangle(t).Get(a, b, c);
+    if (mesh.is_reversed) std::swap(b, c);
+    mesh.triangles.push_back({a - 1, b - 1, c - 1});
+  }
+  return mesh;
+}
+
+double area(const FaceMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+  return sum;
+}
+
+void append(std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; }
+
+}  // namespace
+
+std::string face_title(int number, const std::vector<std::string>& names) {
+  return names.empty() ? fmt::format("face {}", number) : fmt::format("face {} ({})", number, names.front());
+}
+
+std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                 double diagonal, const CadOptions& options) {
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = options.deflection * diagonal;
+  parameters.Angle = options.angle;
+  // The smallest sides follow the deflection, or a small edge's own length.
+  parameters.AdjustMinSize = true;
+  BRepMesh_IncrementalMesh(cad.shape, parameters);
+
+  std::vector<FaceMesh> meshes;
+  std::string unmeshed, flat;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    meshes.push_back(take_triangulation(TopoDS::Face(faces(f))));
+    const std::string title = face_title(f, cad.names.of(faces(f)));
+    if (meshes.back().triangles.empty()) {
+      append(unmeshed, title);
+    } else if (!(area(meshes.back()) > kNoArea * diagonal * diagonal)) {
+      append(flat, title);
+    }
+  }
+  if (!unmeshed.empty()) throw InputError("cannot be triangulated: " + unmeshed);
+  if (!flat.empty()) throw InputError("without area: " + flat);
+  return meshes;
+}
+
+}  // namespace delquad::cad

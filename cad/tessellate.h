@@ -1,0 +1,33 @@
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Face.hxx>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "cad/cad_reader.h"
+#include "cad/cad_shape.h"
+#include "mesh/vec.h"
+
+namespace delquad::cad {
+
+/// The triangulation of one face, with nodes of its own.
+struct FaceMesh {
+  TopoDS_Face face;
+  bool is_reversed = false;  ///< the triangles run clockwise in (u, v)
+  std::vector<Vec3> points;
+  std::vector<Vec2> uv;  ///< parameters of the points
+  std::vector<std::array<int, 3>>
+      triangles;  ///< counterclockwise about the face's normal as its shell sees it
+};
+
+/// "face 12 (lid)", by its number and first name.
+std::string face_title(int number, const std::vector<std::string>& names);
+
+/// Triangulates the faces, in the map's order; neighbours have the same nodes along their edges. Throws
+/// InputError naming the faces that cannot be triangulated or have no area.
+std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                 double diagonal, const CadOptions& options);
+
+}  // namespace delquad::cad

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <string>
+#include <vector>
+
+#include "cad/tessellate.h"
+#include "mesh/mesh.h"
+
+namespace delquad::cad {
+
+/// An edge that is a curve of the model.
+struct CurveMesh {
+  TopoDS_Edge edge;
+  std::vector<double> parameters;  ///< of the points of its chain of lines
+};
+
+struct WeldedFaces {
+  Mesh mesh;  ///< regions are the faces, without names
+  std::vector<CurveMesh> curves;
+  std::vector<int> corners;
+  std::vector<int> bad_faces;  ///< whose triangles missed their boundary by more than `gap`
+};
+
+/// Makes one node of those of all faces that stand for the same point: of an edge by their order along it
+/// (both sides of a seam too), of a vertex, of a degenerate edge. Edges that are degenerate, or seams of one
+/// face, are no curves. `gap`: a length, see repair_face().
+WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
+                       double gap);
+
+}  // namespace delquad::cad

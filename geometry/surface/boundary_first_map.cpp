@@ -1,0 +1,69 @@
+#include <cmath>
+
+#include "geometry/surface/conformal_maps.h"
+#include "geometry/surface/laplacian.h"
+
+namespace delquad {
+
+namespace {
+
+/// The closed polygon with the given turns at its vertices and sides as near as possible to `lengths`.
+std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vector<double>& lengths) {
+  const std::size_t n = turns.size();
+  std::vector<Vec2> direction(n);
+  double phi = 0, a = 0, b = 0, d = 0;
+  Vec2 gap;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0) phi += turns[i];
+    const Vec2 t = direction[i] = {std::cos(phi), std::sin(phi)};
+    gap += lengths[i] * t;
+    // sum of length t t^T: sides change in proportion to their lengths
+    a += lengths[i] * t.x * t.x;
+    b += lengths[i] * t.x * t.y;
+    d += lengths[i] * t.y * t.y;
+  }
+  const double det = a * d - b * b;
+  const Vec2 w = {(d * gap.x - b * gap.y) / det, (a * gap.y - b * gap.x) / det};
+  std::vector<Vec2> polygon;
+  Vec2 at;
+  for (std::size_t i = 0; i < n; ++i) {
+    polygon.push_back(at);
+    at += lengths[i] * (1 - dot(w, direction[i])) * direction[i];
+  }
+  return polygon;
+}
+
+}  // namespace
+
+std::vector<Vec2> boundary_first_map(const Chart& chart) {
+  const std::size_t n = chart.points.size(), n_boundary = static_cast<std::size_t>(chart.n_boundary);
+  std::vector<char> fixed(n, 0);
+  std::fill_n(fixed.begin(), n_boundary, 1);
+  const LaplaceSolver solver(chart, fixed);
+
+  const std::vector<double> defects = angle_defects(chart);
+  std::vector<double> load(n, 0.0);
+  for (std::size_t v = n_boundary; v < n; ++v) load[v] = -defects[v];
+  const std::vector<double> log_scale = solver.solve(std::vector<double>(n, 0.0), load);
+  const std::vector<double> flux = solver.apply(log_scale);
+
+  std::vector<double> turns, lengths;
+  for (std::size_t i = 0; i < n_boundary; ++i) {
+    turns.push_back(defects[i] + flux[i]);
+    lengths.push_back(norm(chart.points[(i + 1) % n_boundary] - chart.points[i]));
+  }
+  const std::vector<Vec2> polygon = close_polygon(turns, lengths);
+  std::vector<double> x(n, 0.0), y(n, 0.0);
+  for (std::size_t i = 0; i < n_boundary; ++i) {
+    x[i] = polygon[i].x;
+    y[i] = polygon[i].y;
+  }
+  const std::vector<double> none(n, 0.0);
+  x = solver.solve(x, none);
+  y = solver.solve(y, none);
+  std::vector<Vec2> flat(n);
+  for (std::size_t v = 0; v < n; ++v) flat[v] = {x[v], y[v]};
+  return flat;
+}
+
+}  // namespace delquad

@@ -1,0 +1,207 @@
+#include "geometry/surface/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "mesh/error.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+
+namespace {
+
+using Side = std::pair<int, int>;  ///< triangle, and which vertex it is opposite to
+
+int find_root(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+void join(std::vector<int>& parent, int i, int j) {
+  i = find_root(parent, i);
+  j = find_root(parent, j);
+  parent[std::max(i, j)] = std::min(i, j);
+}
+
+/// Finds which triangles continue each other and which corners of theirs are one vertex.
+class Gluing {
+ public:
+  Gluing(const Mesh& fine, const std::vector<char>& wanted)
+      : fine_(fine),
+        wanted_(wanted),
+        across_(3 * fine.triangles.size(), -1),
+        chart_(fine.triangles.size()),
+        vertex_(3 * fine.triangles.size()) {
+    std::iota(chart_.begin(), chart_.end(), 0);
+    std::iota(vertex_.begin(), vertex_.end(), 0);
+    std::vector<std::pair<int, int>> lines;
+    for (const auto& [a, b] : fine.lines) lines.push_back(std::minmax(a, b));
+    std::ranges::sort(lines);
+    const std::vector<HalfEdge> sides = sorted_half_edges(fine);
+    for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
+      if (std::ranges::none_of(edge, [&](const HalfEdge& e) { return wanted_[e.element] != 0; })) return;
+      if (!std::ranges::binary_search(lines, std::pair(edge[0].lo, edge[0].hi))) glue(edge);
+    });
+  }
+
+  int across(int corner) const { return across_[corner]; }
+  int chart_of(int triangle) { return find_root(chart_, triangle); }
+  int vertex_of(int corner) { return find_root(vertex_, corner); }
+
+ private:
+  int corner(int triangle, int node) const {
+    const auto& v = fine_.triangles[triangle];
+    return 3 * triangle + static_cast<int>(std::ranges::find(v, node) - v.begin());
+  }
+
+  void glue(std::span<const HalfEdge> edge) {
+    const HalfEdge& e = edge[0];
+    const bool sound = edge.size() == 2 && wanted_[edge[1].element] && wanted_[e.element] &&
+                       e.forward != edge[1].forward &&
+                       fine_.triangle_region[e.element] == fine_.triangle_region[edge[1].element];
+    if (!sound) {
+      const int face = fine_.triangle_region[e.element];
+      throw InputError(
+          fmt::format("face {}: the side between nodes {} and {} is on no curve, but is not shared by two "
+                      "triangles of one face with one orientation",
+                      fine_.regions[face].tag, e.lo + 1, e.hi + 1));
+    }
+    const int t = e.element, s = edge[1].element;
+    join(chart_, t, s);
+    int inner[2] = {3, 3};
+    for (int node : {e.lo, e.hi}) {
+      const int ct = corner(t, node), cs = corner(s, node);
+      join(vertex_, ct, cs);
+      inner[0] -= ct % 3;
+      inner[1] -= cs % 3;
+    }
+    across_[3 * t + inner[0]] = s;
+    across_[3 * s + inner[1]] = t;
+  }
+
+  const Mesh& fine_;
+  const std::vector<char>& wanted_;
+  std::vector<int> across_, chart_, vertex_;
+};
+
+double length(const Mesh& fine, const std::vector<Side>& loop) {
+  double sum = 0;
+  for (const auto& [t, k] : loop) {
+    const auto& v = fine.triangles[t];
+    sum += norm(fine.points[v[(k + 1) % 3]] - fine.points[v[(k + 2) % 3]]);
+  }
+  return sum;
+}
+
+/// The boundary of a chart as closed chains of sides.
+std::vector<std::vector<Side>> boundary_loops(const Mesh& fine, Gluing& gluing,
+                                              const std::vector<int>& members) {
+  std::vector<std::pair<int, Side>> leaving;  // the boundary side that leaves each boundary vertex
+  for (int t : members)
+    for (int k = 0; k < 3; ++k)
+      if (gluing.across(3 * t + k) < 0) leaving.push_back({gluing.vertex_of(3 * t + (k + 1) % 3), {t, k}});
+  std::ranges::sort(leaving);
+  std::vector<char> used(leaving.size(), 0);
+  std::vector<std::vector<Side>> loops;
+  for (std::size_t first = 0; first < leaving.size(); ++first) {
+    std::vector<Side> loop;
+    for (std::size_t i = first; !used[i];) {
+      used[i] = 1;
+      loop.push_back(leaving[i].second);
+      const auto [t, k] = leaving[i].second;
+      const int head = gluing.vertex_of(3 * t + (k + 2) % 3);
+      i = static_cast<std::size_t>(std::ranges::lower_bound(leaving, head, {}, &std::pair<int, Side>::first) -
+                                   leaving.begin());
+    }
+    if (!loop.empty()) loops.push_back(std::move(loop));
+  }
+  std::ranges::stable_sort(loops,
+                           [&](const auto& a, const auto& b) { return length(fine, a) > length(fine, b); });
+  return loops;
+}
+
+/// Fills one chart; `number` holds -1 for all corners of its triangles that are not numbered yet.
+Chart build_chart(const Mesh& fine, Gluing& gluing, const std::vector<int>& members, std::vector<int>& number,
+                  std::vector<int>& position) {
+  Chart chart;
+  chart.face = fine.triangle_region[members.front()];
+  auto vertex = [&](int t, int k) {
+    int& n = number[gluing.vertex_of(3 * t + k)];
+    if (n < 0) {
+      n = static_cast<int>(chart.fine_node.size());
+      chart.fine_node.push_back(fine.triangles[t][k]);
+      chart.points.push_back(fine.points[chart.fine_node.back()]);
+    }
+    return n;
+  };
+  for (const auto& loop : boundary_loops(fine, gluing, members)) {
+    auto& out = chart.loops.emplace_back();
+    for (const auto& [t, k] : loop) out.push_back(vertex(t, (k + 1) % 3));
+  }
+  chart.n_boundary = static_cast<int>(chart.points.size());
+  for (std::size_t i = 0; i < members.size(); ++i) position[members[i]] = static_cast<int>(i);
+  for (int t : members) {
+    chart.fine_triangle.push_back(t);
+    chart.triangles.push_back({vertex(t, 0), vertex(t, 1), vertex(t, 2)});
+    auto& n = chart.neighbours.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const int s = gluing.across(3 * t + k);
+      n[k] = s < 0 ? -1 : position[s];
+    }
+  }
+  return chart;
+}
+
+double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+  return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
+}
+
+}  // namespace
+
+std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted) {
+  Gluing gluing(fine, wanted);
+  std::vector<std::vector<int>> members(fine.triangles.size());
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+    if (wanted[t]) members[gluing.chart_of(static_cast<int>(t))].push_back(static_cast<int>(t));
+  std::vector<int> number(3 * fine.triangles.size(), -1), position(fine.triangles.size());
+  std::vector<Chart> charts;
+  for (const auto& m : members)
+    if (!m.empty()) charts.push_back(build_chart(fine, gluing, m, number, position));
+  return charts;
+}
+
+int genus(const Chart& chart) {
+  const int faces = static_cast<int>(chart.triangles.size());
+  const int edges = (3 * faces + chart.n_boundary) / 2;
+  const int euler = static_cast<int>(chart.points.size()) - edges + faces;
+  return (2 - static_cast<int>(chart.loops.size()) - euler) / 2;
+}
+
+std::vector<double> triangle_areas(const Chart& chart) {
+  std::vector<double> areas;
+  for (const auto& [a, b, c] : chart.triangles)
+    areas.push_back(norm(cross(chart.points[b] - chart.points[a], chart.points[c] - chart.points[a])) / 2);
+  return areas;
+}
+
+std::vector<std::vector<int>> triangles_around(const Chart& chart) {
+  std::vector<std::vector<int>> around(chart.points.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+    for (int v : chart.triangles[t]) around[v].push_back(static_cast<int>(t));
+  return around;
+}
+
+std::vector<double> angle_defects(const Chart& chart) {
+  std::vector<double> defect(chart.points.size(), 2 * std::numbers::pi);
+  std::fill_n(defect.begin(), chart.n_boundary, std::numbers::pi);
+  for (const auto& v : chart.triangles)
+    for (int k = 0; k < 3; ++k)
+      defect[v[k]] -= angle(chart.points[v[k]], chart.points[v[(k + 1) % 3]], chart.points[v[(k + 2) % 3]]);
+  return defect;
+}
+
+}  // namespace delquad

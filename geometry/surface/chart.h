@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace delquad {
+
+/// A connected piece of one face of a fine triangulation, bounded by lines on all sides. A point that lines
+/// divide is several vertices, one for each sector of triangles around it.
+struct Chart {
+  int face = -1;  ///< index into Mesh::regions
+  std::vector<Vec3> points;
+  std::vector<int> fine_node;  ///< of each vertex; the loops' vertices come first, in their order
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 3>> neighbours;  ///< across the side opposite to vertex k; -1: boundary
+  std::vector<int> fine_triangle;              ///< of each triangle
+  std::vector<std::vector<int>> loops;         ///< vertices, the chart on the left; the longest loop first
+  int n_boundary = 0;                          ///< how many vertices lie on loops
+};
+
+/// The charts that the wanted triangles form, in the order of their first triangles. Throws InputError where
+/// a side is neither a line nor shared by two triangles of one face that agree in orientation.
+std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted);
+
+/// Number of handles: 0 for a disk, an annulus, a sphere.
+int genus(const Chart& chart);
+
+/// Area of each triangle.
+std::vector<double> triangle_areas(const Chart& chart);
+
+/// Triangles around each vertex, ascending.
+std::vector<std::vector<int>> triangles_around(const Chart& chart);
+
+/// 2 pi minus the angles around each inner vertex; pi minus them on the boundary.
+std::vector<double> angle_defects(const Chart& chart);
+
+}  // namespace delquad

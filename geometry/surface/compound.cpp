@@ -1,0 +1,319 @@
+#include "geometry/surface/compound.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "geometry/surface/curve_chains.h"
+#include "geometry/surface/triangle_sides.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+using Groups = std::vector<std::vector<int>>;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Projects to the nearest of the faces or curves that became one.
+class CompoundProjector final : public SurfaceProjector {
+ public:
+  CompoundProjector(std::shared_ptr<const SurfaceProjector> base, Groups faces, Groups curves)
+      : base_(std::move(base)), faces_(std::move(faces)), curves_(std::move(curves)) {}
+
+  Vec3 to_face(int face, const Vec3& x) const override {
+    return nearest(faces_[face], x, [&](int member) { return base_->to_face(member, x); });
+  }
+  Vec3 to_curve(int curve, const Vec3& x) const override {
+    return nearest(curves_[curve], x, [&](int member) { return base_->to_curve(member, x); });
+  }
+
+ private:
+  template <class Project>
+  static Vec3 nearest(const std::vector<int>& members, const Vec3& x, Project project) {
+    Vec3 best = project(members[0]);
+    for (size_t i = 1; i < members.size(); ++i) {
+      const Vec3 other = project(members[i]);
+      if (norm(other - x) < norm(best - x)) best = other;
+    }
+    return best;
+  }
+
+  std::shared_ptr<const SurfaceProjector> base_;
+  Groups faces_, curves_;  // members of each
+};
+
+/// Sets of faces that grow together; each is known by its least face.
+class FaceSets {
+ public:
+  explicit FaceSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int face) {
+    while (parent_[face] != face) face = parent_[face] = parent_[parent_[face]];
+    return face;
+  }
+  void join(int a, int b) {
+    const std::pair<int, int> ends = std::minmax({find(a), find(b)});
+    parent_[ends.second] = ends.first;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// For each line the faces of its two triangles; -1, -1 where it has not two.
+std::vector<std::array<int, 2>> faces_of_lines(const Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<std::array<int, 2>> faces(mesh.lines.size(), {-1, -1});
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const auto edge = sides_of_edge(sides, mesh.lines[i][0], mesh.lines[i][1]);
+    if (edge.size() != 2) continue;
+    faces[i] = {mesh.triangle_region[edge[0].element], mesh.triangle_region[edge[1].element]};
+  }
+  return faces;
+}
+
+/// The group of each face; -1: none.
+std::vector<int> check_groups(const SurfaceModel& model, const Groups& groups) {
+  const Mesh& mesh = model.fine;
+  std::vector<int> group_of(mesh.regions.size(), -1);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    for (const int face : groups[g]) {
+      if (face < 0 || face >= static_cast<int>(group_of.size())) {
+        throw InputError(fmt::format("{}: compound {}: no face has index {}: expected 0 to {}", model.source,
+                                     g + 1, face, int(group_of.size()) - 1));
+      }
+      if (group_of[face] >= 0) {
+        throw InputError(fmt::format("{}: face {} is named twice in compounds: expected once", model.source,
+                                     mesh.regions[face].tag));
+      }
+      group_of[face] = static_cast<int>(g);
+    }
+  }
+  FaceSets sets(group_of.size());
+  for (const auto& [f, g] : faces_of_lines(mesh)) {
+    if (f >= 0 && group_of[f] >= 0 && group_of[f] == group_of[g]) sets.join(f, g);
+  }
+  for (size_t g = 0; g < groups.size(); ++g) {
+    for (const int face : groups[g]) {
+      if (sets.find(face) == sets.find(groups[g][0])) continue;
+      throw InputError(
+          fmt::format("{}: compound {}: face {} does not reach face {} along the curves between its "
+                      "faces: expected faces that hang together",
+                      model.source, g + 1, mesh.regions[face].tag, mesh.regions[groups[g][0]].tag));
+    }
+  }
+  return group_of;
+}
+
+/// One entity of several: the least tag, all names once.
+Entity merged(const std::vector<Entity>& entities, const std::vector<int>& members) {
+  Entity all = entities[members[0]];
+  for (const int i : members) {
+    all.tag = std::min(all.tag, entities[i].tag);
+    for (const std::string& name : entities[i].names) {
+      if (std::find(all.names.begin(), all.names.end(), name) == all.names.end()) all.names.push_back(name);
+    }
+  }
+  return all;
+}
+
+std::vector<Entity> merged(const std::vector<Entity>& entities, const Groups& members) {
+  std::vector<Entity> all;
+  for (const auto& some : members) all.push_back(merged(entities, some));
+  return all;
+}
+
+/// Curves with the same names are of one kind.
+std::vector<int> kinds_of_lines(const Mesh& mesh) {
+  std::map<std::vector<std::string>, int> kind_of;
+  std::vector<int> kinds;
+  for (const int curve : mesh.line_curve) {
+    kinds.push_back(
+        kind_of.emplace(mesh.curves[curve].names, static_cast<int>(kind_of.size())).first->second);
+  }
+  return kinds;
+}
+
+/// Joins the lines anew. Returns the former curves of each curve.
+Groups rechain(SurfaceModel& model, const std::vector<char>& corner) {
+  const std::vector<int> old_curve = model.fine.line_curve;
+  Groups members;
+  for (const auto& chain : chain_lines(model, kinds_of_lines(model.fine), corner)) {
+    std::vector<int> curves;
+    for (const int line : chain) curves.push_back(old_curve[line]);
+    std::sort(curves.begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    members.push_back(std::move(curves));
+  }
+  model.fine.curves = merged(model.fine.curves, members);
+  return members;
+}
+
+std::vector<char> marked_corners(const SurfaceModel& model) {
+  std::vector<char> corner(model.fine.points.size(), 0);
+  for (const int p : model.corners) corner[p] = 1;
+  return corner;
+}
+
+/// Sorts the lines out that lie inside a group; their ends are marked.
+std::vector<char> drop_inner_lines(Mesh& mesh, const std::vector<int>& group_of) {
+  std::vector<char> ends(mesh.points.size(), 0);
+  const auto faces = faces_of_lines(mesh);
+  size_t kept = 0;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const auto [f, g] = faces[i];
+    if (f >= 0 && group_of[f] >= 0 && group_of[f] == group_of[g]) {
+      for (const int p : mesh.lines[i]) ends[p] = 1;
+      continue;
+    }
+    mesh.lines[kept] = mesh.lines[i];
+    mesh.line_curve[kept++] = mesh.line_curve[i];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  return ends;
+}
+
+/// Faces of a group become one, in the place of the first. Returns the former faces of each.
+Groups join_faces(Mesh& mesh, const std::vector<int>& group_of) {
+  Groups members;
+  std::map<int, int> face_of_group;
+  std::vector<int> new_face;
+  for (int face = 0; face < static_cast<int>(group_of.size()); ++face) {
+    int number = static_cast<int>(members.size());
+    if (group_of[face] >= 0) number = face_of_group.emplace(group_of[face], number).first->second;
+    if (number == static_cast<int>(members.size())) members.emplace_back();
+    members[number].push_back(face);
+    new_face.push_back(number);
+  }
+  for (int& face : mesh.triangle_region) face = new_face[face];
+  mesh.regions = merged(mesh.regions, members);
+  return members;
+}
+
+Groups each_alone(size_t n) {
+  Groups groups;
+  for (size_t i = 0; i < n; ++i) groups.push_back({static_cast<int>(i)});
+  return groups;
+}
+
+void wrap_projector(SurfaceModel& model, Groups faces, Groups curves) {
+  if (!model.projector) return;
+  model.projector = std::make_shared<CompoundProjector>(model.projector, std::move(faces), std::move(curves));
+}
+
+/// Directions of each face at points of its curves: area vectors of its triangles there, summed.
+std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
+  std::vector<char> on_curve(mesh.points.size(), 0);
+  for (const auto& [a, b] : mesh.lines) on_curve[a] = on_curve[b] = 1;
+  std::map<std::array<int, 2>, Vec3> direction;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const Vec3 area = cross(mesh.points[v[1]] - mesh.points[v[0]], mesh.points[v[2]] - mesh.points[v[0]]);
+    for (const int p : v) {
+      if (!on_curve[p]) continue;
+      Vec3& sum = direction[{mesh.triangle_region[t], p}];
+      sum = sum + area;
+    }
+  }
+  return direction;
+}
+
+}  // namespace
+
+SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const CompoundOptions& options) {
+  const std::vector<int> group_of = check_groups(model, groups);
+  std::vector<char> corner = marked_corners(model);
+  const std::vector<char> changed = drop_inner_lines(model.fine, group_of);
+  for (size_t p = 0; p < corner.size(); ++p) corner[p] = corner[p] && !changed[p];
+  mark_turns(model.fine, radians(options.feature_angle), changed, corner);
+  Groups faces = join_faces(model.fine, group_of);
+  Groups curves = rechain(model, corner);
+  wrap_projector(model, std::move(faces), std::move(curves));
+  return model;
+}
+
+Groups tangent_groups(const SurfaceModel& model, double angle) {
+  const Mesh& mesh = model.fine;
+  const auto faces = faces_of_lines(mesh);
+  const auto directions = directions_at_curves(mesh);
+  std::map<int, std::array<int, 2>> smooth;  // curves, with the two faces that they join
+  std::vector<char> sharp(mesh.curves.size(), 0);
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const auto [f, g] = faces[i];
+    const int curve = mesh.line_curve[i];
+    if (f < 0) {
+      sharp[curve] = 1;
+      continue;
+    }
+    const auto [a, b] = mesh.lines[i];
+    const Vec3 m = directions.at({f, a}) + directions.at({f, b}),
+               n = directions.at({g, a}) + directions.at({g, b});
+    // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
+    if (angle < 180 && !(std::atan2(norm(cross(m, n)), dot(m, n)) < radians(angle))) sharp[curve] = 1;
+    smooth[curve] = faces[i];
+  }
+  FaceSets sets(mesh.regions.size());
+  for (const auto& [curve, pair] : smooth) {
+    if (!sharp[curve]) sets.join(pair[0], pair[1]);
+  }
+  std::map<int, std::vector<int>> of_first;
+  for (int face = 0; face < static_cast<int>(mesh.regions.size()); ++face)
+    of_first[sets.find(face)].push_back(face);
+  Groups groups;
+  for (auto& [first, members] : of_first) {
+    if (members.size() > 1) groups.push_back(std::move(members));
+  }
+  return groups;
+}
+
+SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options) {
+  const Mesh& mesh = model.fine;
+  struct End {
+    int line, from, at;  ///< the line runs from the inner point to the end
+  };
+  std::vector<double> lengths(mesh.curves.size(), 0);
+  std::vector<std::array<End, 2>> ends(mesh.curves.size());
+  std::vector<std::vector<End>> ends_at(mesh.points.size());
+  for (int i = 0; i < static_cast<int>(mesh.lines.size()); ++i) {
+    const auto [a, b] = mesh.lines[i];
+    const int curve = mesh.line_curve[i];
+    if (lengths[curve] == 0) ends[curve][0] = {i, b, a};
+    ends[curve][1] = {i, a, b};
+    lengths[curve] += norm(mesh.points[b] - mesh.points[a]);
+  }
+  for (const auto& [first, last] : ends) {
+    ends_at[first.at].push_back(first);
+    ends_at[last.at].push_back(last);
+  }
+  const std::vector<int> kinds = kinds_of_lines(mesh);
+  std::vector<char> corner = marked_corners(model);
+  for (size_t curve = 0; curve < ends.size(); ++curve) {
+    if (!(lengths[curve] < length)) continue;
+    int straightest = -1;
+    double least = radians(options.feature_angle);
+    for (const End& end : ends[curve]) {
+      const auto& here = ends_at[end.at];
+      if (!corner[end.at] || here.size() != 2) continue;
+      const End& other = here[0].line == end.line ? here[1] : here[0];
+      const bool is_own = mesh.line_curve[other.line] == static_cast<int>(curve);
+      if (is_own || kinds[other.line] != kinds[end.line]) continue;
+      const double turn = turn_angle(mesh.points[end.from], mesh.points[end.at], mesh.points[other.from]);
+      if (!(turn < least)) continue;
+      least = turn;
+      straightest = end.at;
+    }
+    if (straightest >= 0) corner[straightest] = 0;
+  }
+  Groups curves = rechain(model, corner);
+  wrap_projector(model, each_alone(model.fine.regions.size()), std::move(curves));
+  return model;
+}
+
+}  // namespace delquad

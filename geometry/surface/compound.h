@@ -1,0 +1,30 @@
+#pragma once
+
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+struct CompoundOptions {
+  /// Degrees: where two curves meet after others are gone, they become one when they turn by less.
+  double feature_angle = 40;
+};
+
+/// The model with the faces of each group (indices into fine.regions) made one face, which has the least tag
+/// of them and all their names. Curves with one group on both sides vanish. Where they ended, two curves that
+/// are left over, with the same names and without a sharp turn, become one, which has the lesser tag. Faces
+/// and curves keep their order otherwise. The projector goes to the nearest of the faces or curves that
+/// became one. Throws InputError for a face that does not exist or is in two groups and for a group whose
+/// faces do not hang together along curves.
+SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int>>& groups,
+                           const CompoundOptions& options = {});
+
+/// Groups of two faces or more that join smoothly: all along a common curve the normals of both, averaged
+/// over the triangles at each line, differ by less than `angle` (degrees). With 180 all faces that hang
+/// together are a group.
+std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double angle = 5);
+
+/// Makes each curve shorter than `length` one with a neighbour that it continues: where only these two curves
+/// meet, with the same names, and turn by less than the feature angle; the straighter of both ends is taken.
+SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {});
+
+}  // namespace delquad

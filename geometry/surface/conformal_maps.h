@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/surface/chart.h"
+
+namespace delquad {
+
+/// The chart as it lies in its plane; none when a point is further than `tolerance` (length) from the plane
+/// or triangles look to different sides.
+std::optional<std::vector<Vec2>> planar_map(const Chart& chart, double tolerance);
+
+/// Boundary-first flattening of a disk with the boundary's lengths kept: the Poisson problem for the
+/// logarithm of the scale tells how much each boundary vertex turns, the curve so defined is closed by the
+/// least change of lengths, and extended inwards by harmonic coordinates [sawhney2017].
+/// Exact on developable charts.
+std::vector<Vec2> boundary_first_map(const Chart& chart);
+
+/// The map of least conformal energy for a given extent of the boundary: an eigenvector, so no vertex is
+/// pinned [mullen2008]. Any number of loops, at least one.
+std::vector<Vec2> spectral_map(const Chart& chart);
+
+}  // namespace delquad

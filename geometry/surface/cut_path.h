@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/surface/chart.h"
+
+namespace delquad {
+
+/// A point on a vertex (b < 0) or inside an edge of a triangulation: (1 - t) a + t b.
+struct EdgePoint {
+  int a = -1, b = -1;
+  double t = 0;
+  friend bool operator==(const EdgePoint&, const EdgePoint&) = default;
+};
+
+/// A path across a chart, straight in each triangle: consecutive points lie on one triangle, and no vertex or
+/// edge is visited twice. Open paths begin and end on the boundary or at an inner vertex.
+struct CutPath {
+  std::vector<EdgePoint> points;
+  bool closed = false;
+  double length = 0;
+};
+
+Vec3 position(const Chart& chart, const EdgePoint& point);
+
+/// The connected pieces of the curve u = level, each as one path. Pieces that touch the boundary other than
+/// with their ends, or themselves, are left out.
+std::vector<CutPath> level_curves(const Chart& chart, const std::vector<double>& u, double level);
+
+/// The path of steepest descent of u, linear on triangles, from a vertex to the first vertex or boundary side
+/// that is reached. A target may also be an inner vertex. None when it ends in a minimum elsewhere.
+std::optional<CutPath> descend(const Chart& chart, const std::vector<std::vector<int>>& around,
+                               const std::vector<double>& u, int start, const std::vector<char>& target);
+
+}  // namespace delquad

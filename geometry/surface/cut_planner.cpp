@@ -1,0 +1,217 @@
+#include "geometry/surface/cut_planner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "geometry/surface/laplacian.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr int kMaxStarts = 16;  ///< paths tried from one loop
+/// What a path costs more, in parts of its length, for an end that becomes a corner only because of it.
+constexpr double kNewCorner = 0.15;
+/// The same for a path that runs into a third loop.
+constexpr double kWrongLoop = 2;
+
+class PathChoice {
+ public:
+  PathChoice(const Chart& chart, const std::vector<CutEnd>& ends)
+      : chart_(chart), ends_(ends), around_(triangles_around(chart)) {}
+
+  // `down` falls towards `target`.
+  void try_from(const std::vector<int>& starts, const std::vector<double>& down,
+                const std::vector<char>& target) {
+    for (int start : starts) {
+      std::optional<CutPath> path = descend(chart_, around_, down, start, target);
+      if (!path) continue;
+      const EdgePoint& last = path->points.back();
+      double factor = 1;
+      if (end_of(start) != CutEnd::kCorner) factor += kNewCorner;
+      if (last.b >= 0 || end_of(last.a) != CutEnd::kCorner) factor += kNewCorner;
+      if (!target[last.a]) factor += kWrongLoop;
+      if (factor * path->length < cost_) {
+        cost_ = factor * path->length;
+        best_ = std::move(path);
+      }
+    }
+  }
+
+  /// The loop's corners, else where its curves begin, else points spread along it.
+  std::vector<int> starts(const std::vector<int>& loop) const {
+    for (CutEnd wanted : {CutEnd::kCorner, CutEnd::kCurveStart}) {
+      std::vector<int> found;
+      for (int v : loop)
+        if (end_of(v) == wanted) found.push_back(v);
+      if (!found.empty()) return spread(found);
+    }
+    return spread(loop);
+  }
+
+  std::optional<CutPath> best() && { return std::move(best_); }
+
+ private:
+  CutEnd end_of(int v) const { return ends_[chart_.fine_node[v]]; }
+
+  static std::vector<int> spread(const std::vector<int>& all) {
+    const std::size_t n = std::min<std::size_t>(all.size(), kMaxStarts);
+    std::vector<int> some;
+    for (std::size_t i = 0; i < n; ++i) some.push_back(all[i * all.size() / n]);
+    return some;
+  }
+
+  const Chart& chart_;
+  const std::vector<CutEnd>& ends_;
+  std::vector<std::vector<int>> around_;
+  double cost_ = std::numeric_limits<double>::infinity();
+  std::optional<CutPath> best_;
+};
+
+std::vector<double> negated(std::vector<double> u) {
+  for (double& value : u) value = -value;
+  return u;
+}
+
+/// Areas on both sides of a path; nothing on one side when the path separates nothing.
+class Separation {
+ public:
+  explicit Separation(const Chart& chart) : chart_(chart), areas_(triangle_areas(chart)) {}
+
+  double smaller_side(const CutPath& crossings) const {
+    std::set<std::pair<int, int>> cut;
+    for (const EdgePoint& p : crossings.points) cut.insert(std::minmax({p.a, p.b}));
+    std::vector<char> reached(areas_.size(), 0);
+    double area = 0;
+    std::vector<int> stack = {first_beside(cut)};
+    while (!stack.empty()) {
+      const int t = stack.back();
+      stack.pop_back();
+      if (reached[t]) continue;
+      reached[t] = 1;
+      area += areas_[t];
+      for (int k = 0; k < 3; ++k)
+        if (const int s = chart_.neighbours[t][k]; s >= 0 && !reached[s] && !cut.contains(side(t, k)))
+          stack.push_back(s);
+    }
+    return std::min(area, total() - area);
+  }
+  double total() const { return std::accumulate(areas_.begin(), areas_.end(), 0.0); }
+
+ private:
+  std::pair<int, int> side(int t, int k) const {
+    return std::minmax({chart_.triangles[t][(k + 1) % 3], chart_.triangles[t][(k + 2) % 3]});
+  }
+  int first_beside(const std::set<std::pair<int, int>>& cut) const {
+    for (std::size_t t = 0; t < areas_.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (cut.contains(side(static_cast<int>(t), k))) return static_cast<int>(t);
+    return 0;
+  }
+
+  const Chart& chart_;
+  std::vector<double> areas_;
+};
+
+/// Levels below which 1/16, 2/16, ... of the chart's area lie.
+std::vector<double> levels(const std::vector<double>& u, const std::vector<double>& areas) {
+  constexpr int kParts = 16;
+  std::vector<std::pair<double, double>> sorted;
+  for (std::size_t v = 0; v < u.size(); ++v) sorted.push_back({u[v], areas[v]});
+  std::ranges::sort(sorted);
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<double> found;
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < sorted.size() && found.size() + 1 < kParts; ++i) {
+    sum += sorted[i].second;
+    if (sum * kParts >= static_cast<double>(found.size() + 1) * total &&
+        sorted[i].first < sorted[i + 1].first)
+      found.push_back((sorted[i].first + sorted[i + 1].first) / 2);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& ends) {
+  const std::size_t n = chart.points.size();
+  std::vector<char> on_first(n, 0), on_second(n, 0), fixed(n, 0);
+  std::vector<double> u(n, 0.0);
+  for (int v : chart.loops[0]) on_first[v] = fixed[v] = 1;
+  for (int v : chart.loops[1]) {
+    on_second[v] = fixed[v] = 1;
+    u[v] = 1;
+  }
+  u = LaplaceSolver(chart, fixed).solve(u, std::vector<double>(n, 0.0));
+  PathChoice choice(chart, ends);
+  choice.try_from(choice.starts(chart.loops[1]), u, on_first);
+  choice.try_from(choice.starts(chart.loops[0]), negated(u), on_second);
+  return std::move(choice).best();
+}
+
+std::vector<int> sharp_tips(const Chart& chart) {
+  constexpr double kSharp = 0.5;  // radians missing around the tip
+  constexpr std::size_t kMaxTips = 8;
+  const std::vector<double> defects = angle_defects(chart);
+  std::vector<int> tips;
+  double in_tips = 0, all = 0;
+  for (std::size_t v = static_cast<std::size_t>(chart.n_boundary); v < defects.size(); ++v) {
+    all += std::abs(defects[v]);
+    if (defects[v] > kSharp) {
+      tips.push_back(static_cast<int>(v));
+      in_tips += defects[v];
+    }
+  }
+  if (tips.size() > kMaxTips || in_tips < all / 2) tips.clear();
+  return tips;
+}
+
+std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vector<CutEnd>& ends) {
+  const std::size_t n = chart.points.size();
+  std::vector<char> boundary(n, 0), fixed(n, 0), at_tip(n, 0);
+  std::fill_n(boundary.begin(), chart.n_boundary, 1);
+  fixed = boundary;
+  fixed[tip] = at_tip[tip] = 1;
+  std::vector<double> u(n, 0.0);
+  u[tip] = 1;
+  u = LaplaceSolver(chart, fixed).solve(u, std::vector<double>(n, 0.0));
+  PathChoice choice(chart, ends);
+  choice.try_from({tip}, u, boundary);
+  for (const auto& loop : chart.loops) choice.try_from(choice.starts(loop), negated(u), at_tip);
+  return std::move(choice).best();
+}
+
+std::optional<CutPath> plan_division(const Chart& chart) {
+  constexpr std::size_t kMaxPieces = 6;  // longest pieces of one level looked at
+  constexpr double kSmallestPart = 0.02;
+  const std::vector<double> u = fiedler_function(chart);
+  const Separation separation(chart);
+  const double total = separation.total();
+  const bool handles = genus(chart) > 0;
+  std::optional<CutPath> best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (double level : levels(u, vertex_areas(chart))) {
+    std::vector<CutPath> pieces = level_curves(chart, u, level);
+    std::ranges::stable_sort(pieces, std::greater{}, &CutPath::length);
+    if (pieces.size() > kMaxPieces) pieces.resize(kMaxPieces);
+    for (CutPath& piece : pieces) {
+      const double side = separation.smaller_side(piece);
+      const bool separates = side > 0;
+      if (separates && side < kSmallestPart * total) continue;
+      // A cut that removes a handle is worth far more than one that does not.
+      const double cost = separates ? piece.length / side * (handles ? 4 : 1) : piece.length / total;
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = std::move(piece);
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace delquad

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/surface/cut_path.h"
+
+namespace delquad {
+
+/// How good a place each fine node is for a cut to end.
+enum class CutEnd : char { kAnywhere, kCurveStart, kCorner };
+
+/// A path between the two longest loops of a chart, along which a harmonic function falls from one to the
+/// other: it meets both at right angles. It begins at a corner of either where there is one, and the shortest
+/// is taken.
+std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& ends);
+
+/// Sharp tips (of cones) inside the chart, when they hold most of its curvature; none when they do not.
+std::vector<int> sharp_tips(const Chart& chart);
+
+/// A path between a tip and the boundary, of the same kind.
+std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vector<CutEnd>& ends);
+
+/// A level curve of the chart's slowest vibration, short for the areas that it separates; on a chart with
+/// handles, rather one that separates nothing.
+std::optional<CutPath> plan_division(const Chart& chart);
+
+}  // namespace delquad

@@ -1,0 +1,278 @@
+#include "geometry/surface/flatten.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "geometry/surface/conformal_maps.h"
+#include "geometry/surface/cut_planner.h"
+#include "geometry/surface/improve_triangulation.h"
+#include "geometry/surface/surface_editor.h"
+
+namespace delquad {
+
+namespace {
+
+/// Part of the model's diagonal within which a face counts as plane.
+constexpr double kPlane = 1e-9;
+/// A map this good is taken without trying another.
+constexpr double kGoodSigma = 1.05, kGoodAreaRatio = 4;
+/// Above these a seam is cut through an annulus and a chart with more holes, instead of mapping it uncut.
+constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
+/// Below this a cut to a tip is not worth it.
+constexpr double kMinTipRatio = 2;
+/// After so many rounds of cuts a map is taken when it is one-to-one: first whatever its angles, which cuts
+/// seldom improve, then whatever its areas.
+constexpr int kAnyAngles = 4, kAnyAreas = 12, kMaxRounds = 30;
+
+struct Map {
+  std::vector<Vec2> flat;
+  FlatQuality quality;
+  std::string method;
+};
+
+/// Scales to the chart's area; none when the map is not one-to-one.
+std::optional<Map> checked(const Chart& chart, std::vector<Vec2> flat, const char* method) {
+  double flat_area = 0;
+  for (const auto& [a, b, c] : chart.triangles) flat_area += cross(flat[b] - flat[a], flat[c] - flat[a]) / 2;
+  const std::vector<double> areas = triangle_areas(chart);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(flat_area > 0) || !(area > 0)) return std::nullopt;
+  const double scale = std::sqrt(area / flat_area);
+  if (!std::isfinite(scale)) return std::nullopt;
+  for (Vec2& p : flat) p = scale * p;
+  if (!is_one_to_one(chart, flat)) return std::nullopt;
+  const FlatQuality quality = measure_flat(chart, flat);
+  return Map{std::move(flat), quality, method};
+}
+
+/// What became of a chart: a map, or the cut it needs, or neither.
+struct Outcome {
+  std::optional<Map> map;
+  std::optional<CutPath> cut;
+  bool divides = false;
+};
+
+class ChartWork {
+ public:
+  ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
+            double tolerance, int round)
+      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), round_(round) {}
+
+  Outcome run() const {
+    if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
+    if (auto flat = planar_map(chart_, tolerance_))
+      if (auto map = checked(chart_, std::move(*flat), "plane")) return {std::move(map), {}, false};
+    return chart_.loops.size() > 1 ? flatten_with_holes() : flatten_disk();
+  }
+
+ private:
+  bool acceptable(const FlatQuality& q, double max_area_ratio) const {
+    return (q.area_ratio <= max_area_ratio || round_ >= kAnyAreas) &&
+           (q.sigma_95 <= options_.max_sigma || round_ >= kAnyAngles);
+  }
+
+  Outcome flatten_with_holes() const {
+    const double limit = chart_.loops.size() == 2 ? kMaxUncutAnnulus : kMaxUncutHoles;
+    std::optional<Map> map = checked(chart_, spectral_map(chart_), "spectral");
+    if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
+      return {std::move(map), {}, false};
+    if (auto seam = plan_seam(chart_, ends_)) return {std::move(map), std::move(seam), false};
+    return divide(std::move(map));
+  }
+
+  Outcome flatten_disk() const {
+    std::optional<Map> map = checked(chart_, boundary_first_map(chart_), "boundary-first");
+    const bool good = map && map->quality.sigma_95 <= kGoodSigma && map->quality.area_ratio <= kGoodAreaRatio;
+    if (!good) {
+      std::optional<Map> other = checked(chart_, spectral_map(chart_), "spectral");
+      if (other && (!map || better(other->quality, map->quality))) map = std::move(other);
+    }
+    if (!map || map->quality.area_ratio > kMinTipRatio) {
+      for (int tip : sharp_tips(chart_))
+        if (auto cut = plan_tip_cut(chart_, tip, ends_)) return {std::move(map), std::move(cut), false};
+    }
+    if (map && acceptable(map->quality, options_.max_area_ratio)) return {std::move(map), {}, false};
+    return divide(std::move(map));
+  }
+
+  bool better(const FlatQuality& a, const FlatQuality& b) const {
+    const bool fits_a = a.area_ratio <= options_.max_area_ratio,
+               fits_b = b.area_ratio <= options_.max_area_ratio;
+    return fits_a != fits_b ? fits_a : a.sigma_mean < b.sigma_mean;
+  }
+
+  Outcome divide(std::optional<Map> map) const { return {std::move(map), plan_division(chart_), true}; }
+
+  const Chart& chart_;
+  const std::vector<CutEnd>& ends_;
+  const FlattenOptions& options_;
+  double tolerance_;
+  int round_;
+};
+
+FlatPatch to_patch(const Chart& chart, Map map) {
+  FlatPatch patch;
+  patch.face = chart.face;
+  patch.flat = {std::move(map.flat), chart.triangles, chart.neighbours, chart.n_boundary};
+  patch.fine_node = chart.fine_node;
+  patch.fine_triangle = chart.fine_triangle;
+  patch.loops = chart.loops;
+  patch.quality = map.quality;
+  patch.method = std::move(map.method);
+  return patch;
+}
+
+/// Rounds of: flatten what is not flat yet, then cut what would not go.
+class Flattener {
+ public:
+  Flattener(SurfaceModel& model, const FlattenOptions& options)
+      : model_(model),
+        mesh_(model.fine),
+        options_(options),
+        tolerance_(kPlane * diagonal(mesh_)),
+        open_(mesh_.triangles.size(), 1),
+        failed_(mesh_.regions.size(), 0) {}
+
+  Flattening run() {
+    for (int round = 0; std::ranges::find(open_, 1) != open_.end(); ++round) flatten_open(round);
+    std::erase_if(patches_, [&](const FlatPatch& p) { return failed_[p.face] != 0; });
+    std::ranges::sort(patches_, {},
+                      [](const FlatPatch& p) { return std::pair(p.face, p.fine_triangle.front()); });
+    Flattening result;
+    result.patches = std::move(patches_);
+    result.cuts = std::move(cuts_);
+    for (std::size_t f = 0; f < failed_.size(); ++f)
+      if (failed_[f]) result.failed.push_back(static_cast<int>(f));
+    report(result);
+    return result;
+  }
+
+ private:
+  struct Planned {
+    Chart chart;
+    Outcome outcome;
+  };
+
+  void flatten_open(int round) {
+    const std::vector<CutEnd> ends = cut_ends();
+    std::vector<Planned> planned;
+    for (Chart& chart : extract_charts(mesh_, open_)) {
+      Outcome outcome = ChartWork(chart, ends, options_, tolerance_, round).run();
+      if (outcome.cut && round < kMaxRounds) {
+        planned.push_back({std::move(chart), std::move(outcome)});
+        continue;
+      }
+      for (int t : chart.fine_triangle) open_[t] = 0;
+      if (outcome.map)
+        patches_.push_back(to_patch(chart, std::move(*outcome.map)));
+      else
+        failed_[chart.face] = 1;
+    }
+    if (!planned.empty()) cut(planned);
+  }
+
+  std::vector<CutEnd> cut_ends() const {
+    std::vector<CutEnd> ends(mesh_.points.size(), CutEnd::kAnywhere);
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      if (l == 0 || mesh_.line_curve[l] != mesh_.line_curve[l - 1])
+        ends[mesh_.lines[l][0]] = CutEnd::kCurveStart;
+    for (int v : model_.corners) ends[v] = CutEnd::kCorner;
+    return ends;
+  }
+
+  void cut(const std::vector<Planned>& planned) {
+    SurfaceEditor editor(model_);
+    for (const auto& [chart, outcome] : planned) apply(editor, chart, outcome);
+    editor.finish();
+    // Triangles that cuts of neighbours split are no longer those of their patch.
+    open_.resize(mesh_.triangles.size(), 0);
+    std::set<int> stale;
+    for (const auto& [t, half] : editor.splits()) {
+      open_[half] = open_[t];
+      stale.insert(t);
+    }
+    std::erase_if(patches_, [&](const FlatPatch& p) {
+      if (std::ranges::none_of(p.fine_triangle, [&](int t) { return stale.contains(t); })) return false;
+      for (int t : p.fine_triangle) open_[t] = 1;
+      return true;
+    });
+    for (const auto& [t, half] : editor.splits()) open_[half] = open_[t];
+    std::ranges::sort(model_.corners);
+    const auto [first, last] = std::ranges::unique(model_.corners);
+    model_.corners.erase(first, last);
+  }
+
+  void apply(SurfaceEditor& editor, const Chart& chart, const Outcome& outcome) {
+    std::vector<int> chain;
+    const CutPath& path = *outcome.cut;
+    for (const EdgePoint& p : path.points) {
+      if (p.b < 0) {
+        chain.push_back(chart.fine_node[p.a]);
+        continue;
+      }
+      const int a = chart.fine_node[p.a], b = chart.fine_node[p.b];
+      // Split in this round by the cut of a neighbour: the next round makes another plan.
+      if (editor.triangles_on(a, b).empty()) return;
+      chain.push_back(editor.split_edge(a, b, on_surface(editor, chart, p, a, b)));
+    }
+    if (path.closed) chain.push_back(chain.front());
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      if (editor.triangles_on(chain[i], chain[i + 1]).empty() || editor.line_on(chain[i], chain[i + 1]) >= 0)
+        return;
+    cuts_.push_back({editor.add_curve(chain), chart.face, path.length, outcome.divides});
+    if (!path.closed) {
+      model_.corners.push_back(chain.front());
+      model_.corners.push_back(chain.back());
+    }
+  }
+
+  Vec3 on_surface(const SurfaceEditor& editor, const Chart& chart, const EdgePoint& p, int a, int b) const {
+    const Vec3 x = position(chart, p);
+    if (!model_.projector) return x;
+    const int line = editor.line_on(a, b);
+    const int curve = line < 0 ? -1 : mesh_.line_curve[line];
+    const bool is_cut = std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
+    const Vec3 y =
+        curve < 0 || is_cut ? model_.projector->to_face(chart.face, x) : model_.projector->to_curve(curve, x);
+    // A projection that jumps elsewhere is no use.
+    constexpr double kMaxMove = 0.1;
+    return norm(y - x) <= kMaxMove * norm(mesh_.points[b] - mesh_.points[a]) ? y : x;
+  }
+
+  void report(const Flattening& result) {
+    for (const SurfaceCut& c : result.cuts)
+      model_.warnings.push_back(fmt::format("face {}: {} along a new curve {} of length {:.4g}",
+                                            mesh_.regions[c.face].tag, c.divides ? "divided" : "cut open",
+                                            mesh_.curves[c.curve].tag, c.length));
+    for (const FlatPatch& p : result.patches)
+      if (p.quality.area_ratio > options_.max_area_ratio || p.quality.sigma_95 > options_.max_sigma)
+        model_.warnings.push_back(
+            fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
+                        mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95));
+    for (int f : result.failed)
+      model_.warnings.push_back(fmt::format("face {}: could not be flattened", mesh_.regions[f].tag));
+  }
+
+  SurfaceModel& model_;
+  Mesh& mesh_;
+  const FlattenOptions& options_;
+  double tolerance_;
+  std::vector<char> open_;  ///< triangles that are in no finished patch
+  std::vector<char> failed_;
+  std::vector<FlatPatch> patches_;
+  std::vector<SurfaceCut> cuts_;
+};
+
+}  // namespace
+
+Flattening flatten(SurfaceModel& model, const FlattenOptions& options) {
+  return Flattener(model, options).run();
+}
+
+}  // namespace delquad

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/surface/flat_check.h"
+#include "geometry/surface/surface_model.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// A piece of a face laid flat, one-to-one and positively oriented; its area is that of the piece.
+struct FlatPatch {
+  int face = -1;                   ///< index into Mesh::regions
+  TriPatch flat;                   ///< boundary points first; two of them may be one point of the fine mesh
+  std::vector<int> fine_node;      ///< of each flat point
+  std::vector<int> fine_triangle;  ///< of each flat triangle
+  /// Indices of flat points, the patch on the left; the longest loop first.
+  std::vector<std::vector<int>> loops;
+  FlatQuality quality;
+  std::string method;  ///< "plane", "boundary-first" or "spectral"
+};
+
+/// A curve that was added so that faces could be flattened.
+struct SurfaceCut {
+  int curve = -1;  ///< index into Mesh::curves
+  int face = -1;
+  double length = 0;
+  bool divides = false;  ///< made to divide a patch, else to open it
+};
+
+struct Flattening {
+  std::vector<FlatPatch> patches;  ///< by face, then by first triangle; a face may have several
+  std::vector<SurfaceCut> cuts;
+  std::vector<int> failed;  ///< faces of which some piece could not be flattened; they have no patches
+};
+
+struct FlattenOptions {
+  double max_area_ratio = 10;  ///< patches with a larger FlatQuality::area_ratio are divided
+  double max_sigma = 1.3;      ///< the same for sigma_95
+};
+
+/// Flattens all faces conformally. Faces that cannot be flattened as they are, or only with much distortion,
+/// are cut: cuts are added to the model as curves, which refines the fine triangulation along them, and their
+/// ends as corners. The fine triangulation should have been improved before. Cuts and failures are reported
+/// in the model's warnings. Throws InputError where sides of triangles are on no curve but should be.
+Flattening flatten(SurfaceModel& model, const FlattenOptions& options = {});
+
+}  // namespace delquad

@@ -1,0 +1,190 @@
+#include "geometry/surface/improve_triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "geometry/surface/surface_editor.h"
+
+namespace delquad {
+
+namespace {
+
+/// How far flips may turn normals: where points lie on a smooth surface behind, any diagonal is as good as
+/// the other; else the triangles are the surface.
+const double kTurnSmooth = std::cos(25 * std::numbers::pi / 180);
+const double kTurnExact = std::cos(3 * std::numbers::pi / 180);
+/// Height over longest side below which a triangle has no normal.
+constexpr double kFlat = 1e-7;
+/// A new point moves at most this part of the side it splits.
+constexpr double kMaxMove = 0.25;
+
+class Improver {
+ public:
+  Improver(SurfaceModel& model, const ImproveOptions& options)
+      : model_(model), mesh_(model.fine), editor_(model), options_(options), diagonal_(diagonal(mesh_)) {
+    find_curved_faces();
+  }
+
+  void run() {
+    flip_all();
+    for (int pass = 0; pass < 2; ++pass) {
+      split_all();
+      flip_all();
+    }
+    editor_.finish();
+  }
+
+ private:
+  using Edge = std::pair<int, int>;
+
+  const Vec3& point(int v) const { return mesh_.points[v]; }
+  double length(const Edge& e) const { return norm(point(e.second) - point(e.first)); }
+  static Edge edge(int a, int b) { return std::minmax({a, b}); }
+  Edge side(int t, int k) const {
+    return edge(mesh_.triangles[t][(k + 1) % 3], mesh_.triangles[t][(k + 2) % 3]);
+  }
+  Vec3 double_area(int a, int b, int c) const { return cross(point(b) - point(a), point(c) - point(a)); }
+
+  void find_curved_faces() {
+    std::vector<Vec3> sum(mesh_.regions.size());
+    std::vector<int> any(mesh_.regions.size(), -1);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      sum[mesh_.triangle_region[t]] = sum[mesh_.triangle_region[t]] + double_area(a, b, c);
+      any[mesh_.triangle_region[t]] = a;
+    }
+    curved_.assign(mesh_.regions.size(), 0);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const int face = mesh_.triangle_region[t];
+      const double scale = norm(sum[face]);
+      for (int v : mesh_.triangles[t])
+        if (scale == 0 || std::abs(dot(point(v) - point(any[face]), sum[face])) > 1e-9 * diagonal_ * scale)
+          curved_[face] = 1;
+    }
+  }
+
+  /// The unit normal, zero for a triangle that is too flat to have one.
+  Vec3 normal(int a, int b, int c) const {
+    const Vec3 n = double_area(a, b, c);
+    const double longest = std::max({length({a, b}), length({b, c}), length({c, a})});
+    return norm(n) > kFlat * longest * longest ? (1 / norm(n)) * n : Vec3{};
+  }
+
+  double cotangent(int at, int b, int c) const {
+    const Vec3 u = point(b) - point(at), v = point(c) - point(at);
+    return dot(u, v) / std::max(norm(cross(u, v)), std::numeric_limits<double>::min());
+  }
+
+  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) share?
+  bool should_flip(int a, int b, int c, int d) const {
+    constexpr double kTie = 1e-6;  // cocircular points stay as they are
+    if (cotangent(c, a, b) + cotangent(d, a, b) > -kTie) return false;
+    const Vec3 old_normals[] = {normal(a, b, c), normal(b, a, d)};
+    const Vec3 new_normals[] = {normal(a, d, c), normal(b, c, d)};
+    const double limit = model_.projector ? kTurnSmooth : kTurnExact;
+    for (const Vec3& n : new_normals) {
+      if (dot(n, n) == 0) return false;
+      for (const Vec3& o : old_normals)
+        if (dot(o, o) > 0 && dot(n, o) < limit) return false;
+    }
+    return true;
+  }
+
+  void flip_all() {
+    std::set<Edge> queue;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) queue.insert(side(static_cast<int>(t), k));
+    std::size_t budget = 10 * queue.size();  // flips in space have no energy that falls
+    while (!queue.empty() && budget > 0) {
+      const Edge e = *queue.begin();
+      queue.erase(queue.begin());
+      if (editor_.line_on(e.first, e.second) >= 0) continue;
+      const std::vector<int> on_edge = editor_.triangles_on(e.first, e.second);
+      if (on_edge.size() != 2) continue;
+      const auto [a, b, c] = seen_from(on_edge[0], e);
+      const int d = seen_from(on_edge[1], e)[2];
+      if (!should_flip(a, b, c, d) || !editor_.flip_edge(a, b)) continue;
+      --budget;
+      for (const Edge& next : {edge(a, c), edge(a, d), edge(b, c), edge(b, d)}) queue.insert(next);
+    }
+  }
+
+  /// The triangle as (a, b, c) with a-b the edge.
+  std::array<int, 3> seen_from(int t, const Edge& e) const {
+    const auto& v = mesh_.triangles[t];
+    for (int k = 0; k < 3; ++k)
+      if (v[k] != e.first && v[k] != e.second) return {v[(k + 1) % 3], v[(k + 2) % 3], v[k]};
+    return v;
+  }
+
+  /// Longest first; ties by nodes.
+  using Candidate = std::tuple<double, int, int>;
+
+  void consider(int t) {
+    if (!curved_[mesh_.triangle_region[t]]) return;
+    Edge longest = side(t, 0);
+    for (int k = 1; k < 3; ++k)
+      if (length(side(t, k)) > length(longest)) longest = side(t, k);
+    const double l = length(longest);
+    const auto [a, b, c] = mesh_.triangles[t];
+    const double height = norm(double_area(a, b, c)) / l;
+    const bool thin = l > options_.max_aspect * height && l > 2 * options_.min_length * diagonal_;
+    if (thin || l > options_.max_length * diagonal_) candidates_.push({l, longest.first, longest.second});
+  }
+
+  void split_all() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
+    std::size_t budget = 100000 + 20 * mesh_.triangles.size();
+    while (!candidates_.empty() && budget-- > 0) {
+      const auto [l, a, b] = candidates_.top();
+      candidates_.pop();
+      const std::vector<int> on_edge = editor_.triangles_on(a, b);
+      if (on_edge.empty()) continue;  // split already
+      const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
+      for (int t : std::vector(editor_.triangles_at(node).begin(), editor_.triangles_at(node).end()))
+        consider(t);
+    }
+    candidates_ = {};
+  }
+
+  Vec3 midpoint(int a, int b, int triangle) const {
+    const Vec3 middle = 0.5 * (point(a) + point(b));
+    if (!model_.projector) return middle;
+    const int line = editor_.line_on(a, b);
+    const Vec3 x = line >= 0 ? model_.projector->to_curve(mesh_.line_curve[line], middle)
+                             : model_.projector->to_face(mesh_.triangle_region[triangle], middle);
+    return norm(x - middle) <= kMaxMove * length({a, b}) ? x : middle;
+  }
+
+  SurfaceModel& model_;
+  Mesh& mesh_;
+  SurfaceEditor editor_;
+  const ImproveOptions& options_;
+  double diagonal_;
+  std::vector<char> curved_;  ///< of each face
+  std::priority_queue<Candidate> candidates_;
+};
+
+}  // namespace
+
+double diagonal(const Mesh& mesh) {
+  if (mesh.points.empty()) return 0;
+  Vec3 lo = mesh.points[0], hi = lo;
+  for (const Vec3& p : mesh.points) {
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  return norm(hi - lo);
+}
+
+void improve_triangulation(SurfaceModel& model, const ImproveOptions& options) {
+  Improver(model, options).run();
+}
+
+}  // namespace delquad

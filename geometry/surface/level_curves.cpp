@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <map>
+
+#include "geometry/surface/cut_path.h"
+
+namespace delquad {
+
+namespace {
+
+/// Crossings closer to a vertex than this part of an edge are moved into it, so that no slivers are made.
+constexpr double kSnapInner = 0.15;
+constexpr double kSnapEnd = 0.3;
+/// Crossings this close to a boundary vertex touch the boundary.
+constexpr double kTouch = 0.01;
+
+class LevelWalk {
+ public:
+  LevelWalk(const Chart& chart, const std::vector<double>& u, double level)
+      : chart_(chart), u_(u), level_(level), visited_(chart.triangles.size(), 0) {}
+
+  std::vector<CutPath> run() {
+    std::vector<CutPath> paths;
+    auto add = [&](int t, int side) {
+      std::optional<CutPath> path = tidy(walk(t, side));
+      if (path) paths.push_back(std::move(*path));
+    };
+    const int n = static_cast<int>(chart_.triangles.size());
+    for (int t = 0; t < n; ++t)
+      for (int k = 0; k < 3; ++k)
+        if (!visited_[t] && chart_.neighbours[t][k] < 0 && crosses(t, k)) add(t, k);
+    for (int t = 0; t < n; ++t)
+      for (int k = 0; k < 3; ++k)
+        if (!visited_[t] && crosses(t, k)) add(t, k);
+    return paths;
+  }
+
+ private:
+  bool above(int v) const { return u_[v] >= level_; }
+  int end(int t, int side, int which) const { return chart_.triangles[t][(side + 1 + which) % 3]; }
+  bool crosses(int t, int side) const { return above(end(t, side, 0)) != above(end(t, side, 1)); }
+
+  std::pair<int, int> ends(int t, int side) const { return std::minmax({end(t, side, 0), end(t, side, 1)}); }
+
+  EdgePoint crossing(int t, int side) const {
+    const auto [a, b] = ends(t, side);
+    return {a, b, std::clamp((level_ - u_[a]) / (u_[b] - u_[a]), 0.0, 1.0)};
+  }
+
+  // Enters triangle t through a side and follows the curve until it leaves the chart or closes.
+  CutPath walk(int t, int side) {
+    CutPath path;
+    path.closed = true;
+    while (!visited_[t]) {
+      visited_[t] = 1;
+      path.points.push_back(crossing(t, side));
+      const int out = crosses(t, (side + 1) % 3) ? (side + 1) % 3 : (side + 2) % 3;
+      const int next = chart_.neighbours[t][out];
+      if (next < 0) {
+        path.points.push_back(crossing(t, out));
+        path.closed = false;
+        break;
+      }
+      const auto key = ends(t, out);
+      for (int k = 0; k < 3; ++k)
+        if (ends(next, k) == key) side = k;
+      t = next;
+    }
+    return path;
+  }
+
+  bool on_boundary(int v) const { return v < chart_.n_boundary; }
+
+  // Moves crossings into near vertices; none when the path then touches itself or the boundary.
+  std::optional<CutPath> tidy(const CutPath& path) const {
+    CutPath out;
+    out.closed = path.closed;
+    const std::size_t n = path.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      EdgePoint p = path.points[i];
+      const bool is_end = !path.closed && (i == 0 || i + 1 == n);
+      const double snap = is_end ? kSnapEnd : kSnapInner;
+      const int near = p.t < 0.5 ? p.a : p.b;
+      if (std::min(p.t, 1 - p.t) < snap && (is_end || !on_boundary(near))) p = {near, -1, 0};
+      if (!is_end && p.b >= 0 && std::min(p.t, 1 - p.t) < kTouch) return std::nullopt;
+      if (out.points.empty() || !(out.points.back() == p)) out.points.push_back(p);
+    }
+    if (out.closed && out.points.size() > 1 && out.points.front() == out.points.back()) out.points.pop_back();
+    if (out.points.size() < (out.closed ? 3 : 2)) return std::nullopt;
+    std::map<std::pair<int, int>, int> seen;
+    for (const EdgePoint& p : out.points)
+      if (seen[{p.a, p.b}]++ > 0) return std::nullopt;
+    for (std::size_t i = 0; i + (out.closed ? 0 : 1) < out.points.size(); ++i)
+      out.length +=
+          norm(position(chart_, out.points[(i + 1) % out.points.size()]) - position(chart_, out.points[i]));
+    return out;
+  }
+
+  const Chart& chart_;
+  const std::vector<double>& u_;
+  double level_;
+  std::vector<char> visited_;
+};
+
+}  // namespace
+
+Vec3 position(const Chart& chart, const EdgePoint& p) {
+  if (p.b < 0) return chart.points[p.a];
+  return (1 - p.t) * chart.points[p.a] + p.t * chart.points[p.b];
+}
+
+std::vector<CutPath> level_curves(const Chart& chart, const std::vector<double>& u, double level) {
+  return LevelWalk(chart, u, level).run();
+}
+
+}  // namespace delquad

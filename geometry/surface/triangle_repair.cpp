@@ -1,0 +1,277 @@
+#include "geometry/surface/triangle_repair.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "geometry/surface/orient_triangles.h"
+#include "geometry/surface/surface_messages.h"
+#include "geometry/surface/triangle_sides.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+using Triangle = std::array<int, 3>;
+using Edge = std::array<int, 2>;
+
+Edge sorted_edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+Triangle sorted_vertices(Triangle v) {
+  std::sort(v.begin(), v.end());
+  return v;
+}
+
+bool repeats_vertex(const Triangle& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
+
+int longest_side(const std::vector<Vec3>& points, const Triangle& v) {
+  int longest = 0;
+  double length = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double l = norm(points[v[(k + 1) % 3]] - points[v[k]]);
+    if (l > length) longest = k;
+    length = std::max(length, l);
+  }
+  return longest;
+}
+
+bool has_area(const std::vector<Vec3>& points, const Triangle& v) {
+  constexpr double kFlat = 1e-12;  // height by longest side: what rounding leaves of collinear points
+  const int k = longest_side(points, v);
+  const Vec3 base = points[v[(k + 1) % 3]] - points[v[k]], side = points[v[(k + 2) % 3]] - points[v[k]];
+  const double length = norm(base);
+  return norm(cross((1 / length) * base, side)) > kFlat * length;
+}
+
+/// Keeps the triangles for which keep(t), in order; returns how many went and where the first of them was.
+struct Dropped {
+  int count = 0;
+  Vec3 first;
+};
+template <class Keep>
+Dropped keep_triangles(Mesh& mesh, Keep keep) {
+  Dropped dropped;
+  size_t kept = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (keep(t)) {
+      mesh.triangles[kept] = mesh.triangles[t];
+      mesh.triangle_region[kept++] = mesh.triangle_region[t];
+    } else if (dropped.count++ == 0) {
+      dropped.first = mesh.points[mesh.triangles[t][0]];
+    }
+  }
+  mesh.triangles.resize(kept);
+  mesh.triangle_region.resize(kept);
+  return dropped;
+}
+
+void replace_line(Mesh& mesh, Edge edge, int middle) {
+  for (size_t i = mesh.lines.size(); i-- > 0;) {
+    const auto [a, b] = mesh.lines[i];
+    if (sorted_edge(a, b) != edge) continue;
+    mesh.lines[i] = {a, middle};
+    mesh.lines.push_back({middle, b});
+    mesh.line_curve.push_back(mesh.line_curve[i]);
+  }
+}
+
+/// Cuts the neighbour across the longest side of each flat triangle at its third vertex, which takes the flat
+/// one's place, where both halves have area. Returns how many were cut.
+int cut_beside_flat_triangles(Mesh& mesh, const std::vector<int>& flat) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::set<int> touched;
+  std::set<Edge> added;
+  int cuts = 0;
+  for (const int t : flat) {
+    const Triangle v = mesh.triangles[t];
+    const int k = longest_side(mesh.points, v);
+    const int middle = v[(k + 2) % 3];
+    const auto edge = sides_of_edge(sides, v[k], v[(k + 1) % 3]);
+    if (edge.size() != 2 || touched.contains(t)) continue;
+    const HalfEdge& other = edge[0].element == t ? edge[1] : edge[0];
+    const int u = other.element;
+    if (touched.contains(u)) continue;
+    const int side = side_number(mesh, other);
+    const int a = side_start(mesh, side), b = side_end(mesh, side), apex = side_end(mesh, next_side(side));
+    const Triangle first = {a, middle, apex}, second = {middle, b, apex};
+    if (!has_area(mesh.points, first) || !has_area(mesh.points, second)) continue;
+    if (!sides_of_edge(sides, middle, apex).empty() || !added.insert(sorted_edge(middle, apex)).second)
+      continue;
+    mesh.triangles[t] = first;
+    mesh.triangles[u] = second;
+    mesh.triangle_region[t] = mesh.triangle_region[u];
+    replace_line(mesh, sorted_edge(a, b), middle);
+    touched.insert({t, u});
+    ++cuts;
+  }
+  return cuts;
+}
+
+void take_out_flat_triangles(Mesh& mesh, std::vector<std::string>& warnings) {
+  Dropped dropped = keep_triangles(mesh, [&](size_t t) { return !repeats_vertex(mesh.triangles[t]); });
+  const auto flat_triangles = [&] {
+    std::vector<int> flat;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!has_area(mesh.points, mesh.triangles[t])) flat.push_back(static_cast<int>(t));
+    }
+    return flat;
+  };
+  std::vector<int> flat = flat_triangles();
+  const int n_flat = static_cast<int>(flat.size());
+  if (dropped.count == 0 && n_flat == 0) return;
+  if (dropped.count == 0) dropped.first = mesh.points[mesh.triangles[flat[0]][0]];
+  constexpr int kRounds = 64;  // each cuts the outermost of the flat triangles that lie on each other
+  for (int round = 0; round < kRounds && cut_beside_flat_triangles(mesh, flat) > 0; ++round) {
+    flat = flat_triangles();
+  }
+  keep_triangles(mesh, [&](size_t t) { return has_area(mesh.points, mesh.triangles[t]); });
+  warnings.push_back(fmt::format("left out {} without area (the first at {})",
+                                 counted(dropped.count + n_flat, "triangle"), show_point(dropped.first)));
+}
+
+void take_out_twins(Mesh& mesh, std::vector<std::string>& warnings) {
+  std::vector<int> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Triangle> keys;
+  for (const Triangle& v : mesh.triangles) keys.push_back(sorted_vertices(v));
+  std::sort(order.begin(), order.end(),
+            [&](int s, int t) { return keys[s] != keys[t] ? keys[s] < keys[t] : s < t; });
+  std::vector<char> twin(order.size(), 0);
+  for (size_t i = 1; i < order.size(); ++i) twin[order[i]] = keys[order[i]] == keys[order[i - 1]];
+  const Dropped dropped = keep_triangles(mesh, [&](size_t t) { return !twin[t]; });
+  if (dropped.count == 0) return;
+  warnings.push_back(fmt::format("left out {} on the vertices of another (the first at {})",
+                                 counted(dropped.count, "triangle"), show_point(dropped.first)));
+}
+
+void check_edges(const Mesh& mesh, const std::string& source) {
+  std::string named;
+  int count = 0;
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    if (edge.size() <= 2) return;
+    constexpr int kNamed = 4;
+    if (++count > kNamed) return;
+    named +=
+        fmt::format("{}{} to {} ({} triangles)", named.empty() ? "" : ", ",
+                    show_point(mesh.points[edge[0].lo]), show_point(mesh.points[edge[0].hi]), edge.size());
+  });
+  if (count == 0) return;
+  throw InputError(
+      fmt::format("{}: the surface branches at {}: {}{}: expected one or two triangles at an edge", source,
+                  counted(count, "edge"), named, count > 4 ? ", ..." : ""));
+}
+
+/// For each line the number of a side along it. Lines that are no edges go, and those on the edge of an
+/// earlier one.
+std::vector<int> settle_lines(Mesh& mesh, std::vector<std::string>& warnings) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<int> side_of_line;
+  std::vector<char> taken(3 * mesh.triangles.size(), 0);
+  size_t kept = 0;
+  int stray = 0;
+  Vec3 first_stray;
+  for (size_t i = 0; i < mesh.lines.size(); ++i) {
+    const auto edge = sides_of_edge(sides, mesh.lines[i][0], mesh.lines[i][1]);
+    if (edge.empty()) {
+      if (stray++ == 0) first_stray = mesh.points[mesh.lines[i][0]];
+      continue;
+    }
+    const int side = side_number(mesh, edge[0]);
+    if (taken[side]) continue;
+    taken[side] = 1;
+    side_of_line.push_back(side);
+    mesh.line_curve[kept++] = mesh.line_curve[i];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  if (stray > 0) {
+    warnings.push_back(fmt::format("left out {} along no side of a triangle (the first at {})",
+                                   counted(stray, "line"), show_point(first_stray)));
+  }
+  return side_of_line;
+}
+
+/// Gives each fan at a vertex a vertex of its own.
+void split_vertices(Mesh& mesh, std::vector<std::string>& warnings) {
+  const int n_corners = 3 * static_cast<int>(mesh.triangles.size());
+  const std::vector<int> twin = side_twins(mesh);
+  // Corner 3 t + k is that at the start of side 3 t + k; corners that share a side at their vertex are of one
+  // fan.
+  std::vector<int> fan(n_corners, -1);
+  std::vector<int> vertex_of_fan, stack;
+  std::vector<char> used(mesh.points.size(), 0);
+  int splits = 0;
+  Vec3 first;
+  for (int seed = 0; seed < n_corners; ++seed) {
+    if (fan[seed] >= 0) continue;
+    const int v = side_start(mesh, seed);
+    if (used[v]) {
+      if (splits++ == 0) first = mesh.points[v];
+      vertex_of_fan.push_back(static_cast<int>(mesh.points.size()));
+      mesh.points.push_back(Vec3(mesh.points[v]));
+    } else {
+      used[v] = 1;
+      vertex_of_fan.push_back(v);
+    }
+    const int number = static_cast<int>(vertex_of_fan.size()) - 1;
+    fan[seed] = number;
+    stack = {seed};
+    while (!stack.empty()) {
+      const int corner = stack.back();
+      stack.pop_back();
+      const int before = next_side(next_side(corner));  // the side that ends at the vertex
+      const int left = twin[before], right = twin[corner] < 0 ? -1 : next_side(twin[corner]);
+      for (const int c : {left, right}) {
+        if (c < 0 || fan[c] >= 0) continue;
+        fan[c] = number;
+        stack.push_back(c);
+      }
+    }
+  }
+  for (int c = 0; c < n_corners; ++c) mesh.triangles[c / 3][c % 3] = vertex_of_fan[fan[c]];
+  if (splits > 0) {
+    warnings.push_back(
+        fmt::format("parted the surface where it touched itself at a vertex: {} (the first at {})",
+                    counted(splits, "time"), show_point(first)));
+  }
+}
+
+void check_contents(const Mesh& mesh, const std::string& source) {
+  if (!mesh.quads.empty()) {
+    throw InputError(fmt::format("{}: {}: expected a surface made of triangles", source,
+                                 counted(static_cast<long long>(mesh.quads.size()), "quad")));
+  }
+  if (mesh.triangles.empty())
+    throw InputError(source + ": no triangles: expected a surface made of triangles");
+  for (size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3& p = mesh.points[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    throw InputError(
+        fmt::format("{}: point {} at {}: expected finite coordinates", source, i + 1, show_point(p)));
+  }
+}
+
+}  // namespace
+
+Mesh repair_triangles(Mesh mesh, const std::string& source, std::vector<std::string>& warnings) {
+  check_contents(mesh, source);
+  take_out_flat_triangles(mesh, warnings);
+  if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
+  take_out_twins(mesh, warnings);
+  check_edges(mesh, source);
+  orient_triangles(mesh, source, warnings);
+  const std::vector<int> side_of_line = settle_lines(mesh, warnings);
+  split_vertices(mesh, warnings);
+  for (size_t i = 0; i < side_of_line.size(); ++i) {
+    mesh.lines[i] = {side_start(mesh, side_of_line[i]), side_end(mesh, side_of_line[i])};
+  }
+  const int unused = drop_unused_points(mesh);
+  if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");
+  return mesh;
+}
+
+}  // namespace delquad

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace delquad {
+
+/// Makes a surface of triangles as files hold them: each edge in one or two triangles that agree in
+/// orientation, each vertex in one fan, each line on an edge, no quads, no triangle without area, none twice,
+/// no unused point. Each kind of repair adds a line to `warnings`:
+/// - triangles without area go; where one has its third vertex between the others, its neighbour is cut
+/// there, so
+///   that no gap opens;
+/// - of triangles on the same vertices the first stays;
+/// - triangles that run against their neighbours are turned, the fewer in each component; a closed component
+/// is
+///   turned outwards, unless it lies in the bounding box of the largest one and may be a cavity;
+/// - a vertex where fans touch becomes one vertex a fan;
+/// - lines that are not edges go.
+/// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles, an
+/// edge in three triangles or more, a surface that cannot be oriented.
+Mesh repair_triangles(Mesh mesh, const std::string& source, std::vector<std::string>& warnings);
+
+}  // namespace delquad

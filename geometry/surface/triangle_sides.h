@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "mesh/half_edges.h"
+
+/// Sides of triangles by number: side 3 t + k of triangle t runs from its vertex k to the next.
+namespace delquad {
+
+inline int side_start(const Mesh& mesh, int side) { return mesh.triangles[side / 3][side % 3]; }
+inline int side_end(const Mesh& mesh, int side) { return mesh.triangles[side / 3][(side % 3 + 1) % 3]; }
+inline int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+
+/// The sides along the edge between a and b; none when it is no edge.
+inline std::span<const HalfEdge> sides_of_edge(const std::vector<HalfEdge>& sorted, int a, int b) {
+  const auto before = [](const HalfEdge& s, const std::array<int, 2>& edge) {
+    return std::tie(s.lo, s.hi) < std::tie(edge[0], edge[1]);
+  };
+  const std::array<int, 2> edge = {std::min(a, b), std::max(a, b)};
+  const auto first = std::lower_bound(sorted.begin(), sorted.end(), edge, before);
+  auto last = first;
+  while (last != sorted.end() && last->lo == edge[0] && last->hi == edge[1]) ++last;
+  return {first, last};
+}
+
+inline int side_number(const Mesh& mesh, const HalfEdge& half) {
+  const int start = half.forward ? half.lo : half.hi, end = half.forward ? half.hi : half.lo;
+  int side = 3 * half.element;
+  while (side_start(mesh, side) != start || side_end(mesh, side) != end) ++side;
+  return side;
+}
+
+/// For each side the other side of its edge, whichever way that runs; -1: there is none, or more than one.
+inline std::vector<int> side_twins(const Mesh& mesh) {
+  std::vector<int> twin(3 * mesh.triangles.size(), -1);
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const int s = side_number(mesh, edge[0]), t = side_number(mesh, edge[1]);
+    twin[s] = t;
+    twin[t] = s;
+  });
+  return twin;
+}
+
+}  // namespace delquad

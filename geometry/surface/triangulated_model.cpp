@@ -1,0 +1,167 @@
+#include "geometry/surface/triangulated_model.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "geometry/surface/curve_chains.h"
+#include "geometry/surface/surface_messages.h"
+#include "geometry/surface/triangle_repair.h"
+#include "geometry/surface/triangle_sides.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr int kNoCut = -2, kNewCut = -1;  // else the index of a given curve
+
+double diagonal(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+/// Unit normals; that of a sliver is its neighbour's across its longest side.
+std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
+  constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
+  const double least_height = kSliver * diagonal(mesh.points);
+  const int n = static_cast<int>(mesh.triangles.size());
+  std::vector<Vec3> normal(n);
+  std::vector<int> across(n, -1);
+  for (int t = 0; t < n; ++t) {
+    double length = 0;
+    int longest = 3 * t;
+    for (int side = 3 * t; side < 3 * t + 3; ++side) {
+      const double l = norm(mesh.points[side_end(mesh, side)] - mesh.points[side_start(mesh, side)]);
+      if (l > length) longest = side;
+      length = std::max(length, l);
+    }
+    const auto& v = mesh.triangles[t];
+    const Vec3 area = cross((1 / length) * (mesh.points[v[1]] - mesh.points[v[0]]),
+                            mesh.points[v[2]] - mesh.points[v[0]]);  // as long as the height
+    normal[t] = (1 / norm(area)) * area;
+    if (norm(area) < least_height && twin[longest] >= 0) across[t] = twin[longest] / 3;
+  }
+  std::vector<Vec3> steady = normal;
+  for (int t = 0; t < n; ++t) {
+    constexpr int kFarthest = 16;  // slivers side by side
+    int at = t;
+    for (int step = 0; step < kFarthest && across[at] >= 0; ++step) at = across[at];
+    if (across[at] < 0) steady[t] = normal[at];
+  }
+  return steady;
+}
+
+/// For each side what cut lies along it; the same for both sides of an edge.
+std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, double feature_angle) {
+  std::vector<int> cut(twin.size(), kNoCut);
+  const std::vector<Vec3> normal = steady_normals(mesh, twin);
+  for (size_t s = 0; s < twin.size(); ++s) {
+    if (twin[s] < 0) {
+      cut[s] = kNewCut;
+      continue;
+    }
+    const size_t t = s / 3, u = static_cast<size_t>(twin[s]) / 3;
+    const double angle = std::atan2(norm(cross(normal[t], normal[u])), dot(normal[t], normal[u]));
+    if (angle > feature_angle || mesh.triangle_region[t] != mesh.triangle_region[u]) cut[s] = kNewCut;
+  }
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (size_t i = 0; i < mesh.lines.size(); ++i) {
+    for (const HalfEdge& half : sides_of_edge(sides, mesh.lines[i][0], mesh.lines[i][1])) {
+      cut[side_number(mesh, half)] = mesh.line_curve[i];
+    }
+  }
+  return cut;
+}
+
+/// Takes cuts away from their loose ends. Returns how many of the given lines went.
+int drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& cut) {
+  std::vector<std::vector<int>> sides_at(mesh.points.size());  // one side of each cut edge
+  for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
+    if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
+    sides_at[side_start(mesh, s)].push_back(s);
+    sides_at[side_end(mesh, s)].push_back(s);
+  }
+  int given = 0;
+  for (int seed = 0; seed < static_cast<int>(sides_at.size()); ++seed) {
+    for (int p = seed; sides_at[p].size() == 1;) {
+      const int s = sides_at[p][0];
+      given += cut[s] >= 0;
+      cut[s] = cut[twin[s]] = kNoCut;  // a free edge has cuts at both ends: this one has a twin
+      const int q = side_start(mesh, s) == p ? side_end(mesh, s) : side_start(mesh, s);
+      sides_at[p].clear();
+      std::erase(sides_at[q], s);
+      p = q;
+    }
+  }
+  return given;
+}
+
+/// Numbers the parts between cuts in the order of their first triangles; returns the region of each.
+std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& cut) {
+  const int n = static_cast<int>(mesh.triangles.size());
+  std::vector<int> face(n, -1), region_of_face, stack;
+  for (int seed = 0; seed < n; ++seed) {
+    if (face[seed] >= 0) continue;
+    face[seed] = static_cast<int>(region_of_face.size());
+    region_of_face.push_back(mesh.triangle_region[seed]);
+    stack = {seed};
+    while (!stack.empty()) {
+      const int t = stack.back();
+      stack.pop_back();
+      for (int s = 3 * t; s < 3 * t + 3; ++s) {
+        if (cut[s] != kNoCut || face[twin[s] / 3] >= 0) continue;
+        face[twin[s] / 3] = face[t];
+        stack.push_back(twin[s] / 3);
+      }
+    }
+  }
+  mesh.triangle_region = std::move(face);
+  return region_of_face;
+}
+
+/// Cuts become the lines of the model, joined into curves.
+void make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::vector<int>& cut,
+                 double angle) {
+  Mesh& mesh = model.fine;
+  mesh.lines.clear();
+  std::vector<int> given;
+  for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
+    if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
+    mesh.lines.push_back({side_start(mesh, s), side_end(mesh, s)});
+    given.push_back(cut[s]);
+  }
+  std::vector<char> corner(mesh.points.size(), 0);
+  mark_turns(mesh, angle, std::vector<char>(mesh.points.size(), 1), corner);
+  std::vector<int> given_of_curve;
+  for (const auto& chain : chain_lines(model, given, std::move(corner)))
+    given_of_curve.push_back(given[chain[0]]);
+  mesh.curves = entities_of_pieces(mesh.curves, given_of_curve);
+}
+
+}  // namespace
+
+SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options) {
+  if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
+    throw std::invalid_argument("feature angle: expected above 0 to 180 degrees");
+  }
+  const double angle = options.feature_angle * std::numbers::pi / 180;
+  SurfaceModel model;
+  model.source = options.source;
+  model.fine = repair_triangles(std::move(triangles), options.source, model.warnings);
+  const std::vector<int> twin = side_twins(model.fine);
+  std::vector<int> cut = find_cuts(model.fine, twin, angle);
+  const int loose = drop_loose_ends(model.fine, twin, cut);
+  if (loose > 0) {
+    model.warnings.push_back("left out " + counted(loose, "line") +
+                             " that only led into a face and ended there");
+  }
+  model.fine.regions = entities_of_pieces(model.fine.regions, number_faces(model.fine, twin, cut));
+  make_curves(model, twin, cut, angle);
+  return model;
+}
+
+}  // namespace delquad

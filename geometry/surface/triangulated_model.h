@@ -1,0 +1,29 @@
+#pragma once
+
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+struct TriangulatedOptions {
+  /// Degrees, above 0 to 180: neighbouring triangles whose normals differ by more lie in different faces, and
+  /// a curve that turns by more has a corner there.
+  double feature_angle = 40;
+  /// The file that the triangles are from, for messages.
+  std::string source = "triangles";
+};
+
+/// A model of a triangulated surface, repaired (see repair_triangles).
+///
+/// Faces are what is left when the surface is cut at its outline, between regions, along the given lines and
+/// along features. A face keeps the tag of its region; further faces of the same region get new tags and its
+/// names. Curves are the chains of these cuts, ended where other than two meet, where they turn sharply and
+/// where the given curve changes. A cut that ends inside a face bounds nothing and is dropped from its loose
+/// end; a cut that has the same face on both sides but no loose end stays, like the seam of a tube.
+///
+/// The direction of a triangle whose height is within the rounding of single precision coordinates is that of
+/// its neighbour across its longest side: such slivers make no features.
+///
+/// Throws InputError for what cannot be repaired; invalid_argument for a feature angle out of range.
+SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options = {});
+
+}  // namespace delquad

@@ -1,0 +1,292 @@
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <cmath>
+#include <numbers>
+
+#include "cad/cad_reader.h"
+#include "tests/cad/cad_files.h"
+#include "tests/cad/surface_counts.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+using std::numbers::pi;
+
+/// Of area and volume against closed forms: the triangulation is as fine as 0.15 radians.
+constexpr double kFine = 4e-3;
+
+struct Solid {
+  const char* name;
+  TopoDS_Shape shape;
+  int faces, curves, corners, euler;
+  double area, volume;
+};
+
+Solid box() { return {"box", BRepPrimAPI_MakeBox(2, 3, 4), 6, 12, 8, 2, 52, 24}; }
+Solid cylinder() {
+  return {"cylinder", BRepPrimAPI_MakeCylinder(2, 5), 3, 2, 0, 2, 2 * pi * 2 * (2 + 5), pi * 4 * 5};
+}
+Solid sphere() { return {"sphere", BRepPrimAPI_MakeSphere(3), 1, 0, 0, 2, 4 * pi * 9, 4 * pi * 27 / 3}; }
+Solid torus() {
+  return {"torus", BRepPrimAPI_MakeTorus(5, 2), 1, 0, 0, 0, 4 * pi * pi * 10, 2 * pi * pi * 5 * 4};
+}
+Solid cone() {
+  return {"cone", BRepPrimAPI_MakeCone(3, 0, 4), 2, 1, 0, 2, pi * 9 + pi * 3 * 5, pi * 9 * 4 / 3};
+}
+Solid frustum() {
+  return {"frustum",
+          BRepPrimAPI_MakeCone(3, 1, 4),
+          3,
+          2,
+          0,
+          2,
+          pi * (9 + 1) + pi * 4 * std::sqrt(20.0),
+          pi * 4 * (9 + 3 + 1) / 3};
+}
+
+class Primitives : public ::testing::TestWithParam<Solid> {};
+
+TEST_P(Primitives, KeepTheirTopologyThroughBothFormats) {
+  const Solid& solid = GetParam();
+  const TemporaryFolder folder;
+  for (const auto& path :
+       {write_brep(folder / "a.brep", solid.shape), write_step(folder / "a.step", solid.shape)}) {
+    SCOPED_TRACE(path);
+    const SurfaceModel model = read_cad(path);
+    EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
+    expect_sound(model);
+    EXPECT_EQ(model.warnings, std::vector<std::string>{});
+    EXPECT_EQ(model.fine.regions.size(), static_cast<std::size_t>(solid.faces));
+    EXPECT_EQ(model.fine.curves.size(), static_cast<std::size_t>(solid.curves));
+    EXPECT_EQ(model.corners.size(), static_cast<std::size_t>(solid.corners));
+    const SurfaceCounts n = count(model.fine);
+    EXPECT_EQ(n.euler, solid.euler);
+    EXPECT_EQ(n.free_sides, 0);
+    EXPECT_NEAR(n.area / solid.area, 1, kFine);
+    EXPECT_NEAR(n.volume / solid.volume, 1, 2 * kFine);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Primitives,
+                         ::testing::Values(box(), cylinder(), sphere(), torus(), cone(), frustum()),
+                         [](const auto& param) { return param.param.name; });
+
+TEST(ReadCad, GivesTheSameBytesTwice) {
+  const TemporaryFolder folder;
+  const auto path = write_step(folder / "a.step", torus().shape);
+  const SurfaceModel first = read_cad(path), second = read_cad(path);
+  EXPECT_EQ(first.fine.points, second.fine.points);
+  EXPECT_EQ(first.fine.triangles, second.fine.triangles);
+}
+
+TEST(ReadCad, TellsTheFormatByContent) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(read_cad(write_step(folder / "a.brep", box().shape)).fine.regions.size(), 6u);
+  EXPECT_EQ(read_cad(write_brep(folder / "a.txt", box().shape)).fine.regions.size(), 6u);
+}
+
+TEST(ReadCad, ConvertsTheUnitsOfStepToMillimetres) {
+  const TemporaryFolder folder;
+  const auto path = write_step(folder / "a.step", box().shape, "INCH");
+  // What was written holds inches.
+  ASSERT_NE(read_text(path).find("INCH"), std::string::npos);
+  EXPECT_NEAR(count(read_cad(path).fine).area, 52, 1e-9);
+}
+
+TEST(ReadCad, DropsAnOldTriangulation) {
+  const TemporaryFolder folder;
+  const TopoDS_Shape shape = BRepPrimAPI_MakeSphere(3);
+  BRepMesh_IncrementalMesh(shape, 2.0);
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", shape));
+  EXPECT_NEAR(count(model.fine).area / (36 * pi), 1, kFine);
+}
+
+TEST(ReadCad, DeflectionIsRelativeToTheDiagonal) {
+  const TemporaryFolder folder;
+  const auto path = write_brep(folder / "a.brep", sphere().shape);
+  const SurfaceModel coarse = read_cad(path, {.deflection = 1e-2, .angle = 1});
+  const SurfaceModel fine = read_cad(path, {.deflection = 1e-3, .angle = 1});
+  const double diagonal = 6 * std::sqrt(3.0);
+  for (const auto& [model, deflection] : {std::pair{&coarse, 1e-2}, std::pair{&fine, 1e-3}}) {
+    double worst = 0;
+    for (const auto& [a, b, c] : model->fine.triangles) {
+      const auto& p = model->fine.points;
+      worst = std::max(worst, 3 - norm(1.0 / 3 * (p[a] + p[b] + p[c])));
+    }
+    EXPECT_LT(worst, 1.1 * deflection * diagonal);
+    EXPECT_GT(worst, 0.1 * deflection * diagonal);
+  }
+}
+
+TopoDS_Compound compound(const std::vector<TopoDS_Shape>& parts) {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& part : parts) builder.Add(all, part);
+  return all;
+}
+
+std::vector<TopoDS_Shape> faces_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Shape> faces;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) faces.push_back(face.Current());
+  return faces;
+}
+
+TopoDS_Face polygon(const std::vector<gp_Pnt>& points) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const gp_Pnt& p : points) wire.Add(p);
+  wire.Close();
+  return BRepBuilderAPI_MakeFace(wire.Wire());
+}
+
+bool mentions(const SurfaceModel& model, const std::string& text) {
+  return std::ranges::any_of(model.warnings, [&](const std::string& w) { return w.find(text) != w.npos; });
+}
+
+TEST(ReadCad, SewsFacesThatWereNeverJoined) {
+  const TemporaryFolder folder;
+  const auto path =
+      write_brep(folder / "a.brep", compound({polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+                                              polygon({{1, 0, 0}, {2, 0, 1}, {2, 1, 1}, {1, 1, 0}})}));
+  const SurfaceModel model = read_cad(path);
+  EXPECT_EQ(model.fine.curves.size(), 7u);
+  EXPECT_EQ(count(model.fine).euler, 1);
+  EXPECT_TRUE(mentions(model, "2 of 8 free edges coincided and have been sewn"));
+  EXPECT_TRUE(mentions(model, "the surface is open: free curves: 6"));
+}
+
+TEST(ReadCad, LeavesAGapOpenAndSaysSo) {
+  const TemporaryFolder folder;
+  const auto path =
+      write_brep(folder / "a.brep", compound({polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+                                              polygon({{1.01, 0, 0}, {2, 0, 1}, {2, 1, 1}, {1.01, 1, 0}})}));
+  const SurfaceModel model = read_cad(path);
+  EXPECT_EQ(count(model.fine).euler, 2);
+  EXPECT_TRUE(mentions(model, "free curves: 8 (1, 2, 3, 4, 5, 6, 7, 8)"));
+}
+
+TEST(ReadCad, MakesNeighboursAgree) {
+  const TemporaryFolder folder;
+  std::vector<TopoDS_Shape> faces = faces_of(box().shape);
+  faces[2].Reverse();
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", compound(faces)));
+  EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
+  EXPECT_TRUE(mentions(model, "1 faces disagreed with their neighbours"));
+  EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
+}
+
+TEST(ReadCad, TurnsASolidThatIsInsideOut) {
+  const TemporaryFolder folder;
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", box().shape.Reversed()));
+  EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
+  EXPECT_TRUE(mentions(model, "inside out"));
+}
+
+TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
+  const TemporaryFolder folder;
+  gp_Trsf mirror;
+  mirror.SetMirror(gp_Ax2({10, 0, 0}, {1, 0, 0}));
+  const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(2, 5);
+  const auto path = write_brep(
+      folder / "a.brep", compound({solid, BRepBuilderAPI_Transform(solid, mirror, /*Copy=*/false).Shape()}));
+  const SurfaceModel model = read_cad(path);
+  EXPECT_EQ(model.fine.regions.size(), 6u);
+  EXPECT_EQ(count(model.fine).euler, 4);
+  EXPECT_NEAR(count(model.fine).volume / (2 * pi * 20), 1, kFine);
+}
+
+TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
+  const TemporaryFolder folder;
+  const auto path =
+      write_brep(folder / "a.brep", compound({polygon({{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}),
+                                              polygon({{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}}),
+                                              polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}})}));
+  const SurfaceModel model = read_cad(path);
+  EXPECT_EQ(count(model.fine).crowded_sides, 1);
+  EXPECT_TRUE(mentions(model, "more than two faces meet on curves: 1"));
+}
+
+TEST(ReadCad, KeepsATinyHole) {
+  const TemporaryFolder folder;
+  BRepBuilderAPI_MakeFace face(polygon({{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}}));
+  const gp_Circ circle(gp_Ax2({3, 4, 0}, {0, 0, -1}), 1e-3);
+  face.Add(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle)));
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", face.Shape()));
+  EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
+  EXPECT_EQ(model.fine.curves.size(), 5u);
+  EXPECT_EQ(count(model.fine).euler, 0);
+  EXPECT_GE(std::ranges::count(model.fine.line_curve, 4), 3);
+}
+
+TEST(ReadCad, IsWholeUpToACusp) {
+  // Two circles that touch in (0, 0): the chords of the outer one cross those of the inner one near the cusp.
+  const TemporaryFolder folder;
+  const auto arc = [](double radius) {
+    return GC_MakeArcOfCircle(gp_Circ(gp_Ax2({0, radius, 0}, {0, 0, 1}), radius), gp_Pnt(0, 0, 0),
+                              gp_Pnt(radius, radius, 0), true)
+        .Value();
+  };
+  const TopoDS_Edge outer = BRepBuilderAPI_MakeEdge(arc(20)), inner = BRepBuilderAPI_MakeEdge(arc(19));
+  const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(gp_Pnt(20, 20, 0), gp_Pnt(19, 19, 0));
+  const TopoDS_Face sickle =
+      BRepBuilderAPI_MakeFace(gp_Pln(), BRepBuilderAPI_MakeWire(outer, side, inner).Wire());
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sickle));
+  EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
+  EXPECT_EQ(model.fine.curves.size(), 3u);
+  EXPECT_EQ(count(model.fine).euler, 1);
+  EXPECT_EQ(count(model.fine).free_sides, static_cast<int>(model.fine.lines.size()));
+}
+
+TEST(ReadCad, KeepsNamesAndColours) {
+  const TemporaryFolder folder;
+  const auto path = write_step(folder / "a.step", box().shape);
+  std::string text = read_text(path);
+  const auto put = [&](const std::string& before, const std::string& after) {
+    const std::size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << before;
+    text.replace(at, before.size(), after);
+  };
+  put("MANIFOLD_SOLID_BREP(''", "MANIFOLD_SOLID_BREP('block'");
+  put("ADVANCED_FACE(''", "ADVANCED_FACE('inlet'");
+  const std::size_t entity = text.rfind('#', text.find("ADVANCED_FACE('inlet'"));
+  const std::string face = text.substr(entity, text.find(' ', entity) - entity);
+  put("ENDSEC;\nEND-ISO",
+      "#9001=STYLED_ITEM('',(#9002)," + face +
+          ");\n#9002=PRESENTATION_STYLE_ASSIGNMENT((#9003));\n#9003=SURFACE_STYLE_USAGE(.BOTH.,#9004);\n"
+          "#9004=SURFACE_SIDE_STYLE('',(#9005));\n#9005=SURFACE_STYLE_FILL_AREA(#9006);\n"
+          "#9006=FILL_AREA_STYLE('',(#9007));\n#9007=FILL_AREA_STYLE_COLOUR('',#9008);\n"
+          "#9008=COLOUR_RGB('',1.,0.,0.);\nENDSEC;\nEND-ISO");
+  const SurfaceModel model = read_cad(write_text(folder / "b.step", text));
+  using Names = std::vector<std::string>;
+  int inlets = 0;
+  for (const Entity& region : model.fine.regions) {
+    EXPECT_TRUE(std::ranges::count(region.names, "block") == 1) << region.tag;
+    if (region.names.size() == 1) continue;
+    ++inlets;
+    Names names = region.names;
+    std::ranges::sort(names);
+    EXPECT_EQ(names, (Names{"block", "colour #FF0000", "inlet"}));
+  }
+  EXPECT_EQ(inlets, 1);
+}
+
+}  // namespace
+}  // namespace delquad
