@@ -32,8 +32,9 @@ namespace {
 
 /// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
 constexpr double kSewing = 1e-6;
-/// Accuracy of projected points, as a fraction of the diagonal.
-constexpr double kProjection = 1e-10;
+/// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
+/// surfaces with a singular parametrisation, where Newton's method converges linearly.
+constexpr double kProjection = 1e-12;
 
 TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   TopTools_IndexedMapOfShape map;

@@ -14,6 +14,8 @@
 #include <TCollection_AsciiString.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <fstream>
+#include <iostream>
+#include <sstream>
 
 #include "cad/rehearse.h"
 #include "cad/step_names.h"
@@ -40,16 +42,20 @@ class FirstComplaint : public Message_Printer {
   mutable std::string text_;
 };
 
-/// The kernel's messages go nowhere but here while it lives.
+/// The kernel's messages go nowhere but here while it lives; some it writes to the standard output directly.
 class QuietKernel {
  public:
   QuietKernel() : before_(Message::DefaultMessenger()->Printers()), complaint_(new FirstComplaint) {
+    cout_ = std::cout.rdbuf(printed_.rdbuf());
     Message::DefaultMessenger()->ChangePrinters().Clear();
     Message::DefaultMessenger()->AddPrinter(complaint_);
   }
   QuietKernel(const QuietKernel&) = delete;
   QuietKernel& operator=(const QuietKernel&) = delete;
-  ~QuietKernel() { Message::DefaultMessenger()->ChangePrinters() = before_; }
+  ~QuietKernel() {
+    std::cout.rdbuf(cout_);
+    Message::DefaultMessenger()->ChangePrinters() = before_;
+  }
 
   /// " (...)" with the first complaint, if there was one.
   std::string why() const { return complaint_->text().empty() ? "" : " (" + complaint_->text() + ")"; }
@@ -57,6 +63,8 @@ class QuietKernel {
  private:
   Message_SequenceOfPrinters before_;
   Handle(FirstComplaint) complaint_;
+  std::ostringstream printed_;
+  std::streambuf* cout_;
 };
 
 std::string beginning(const std::filesystem::path& path) {

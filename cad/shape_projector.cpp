@@ -1,7 +1,5 @@
 #include "cad/shape_projector.h"
 
-#include <fmt/format.h>
-
 #include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
 #include <Geom_ConicalSurface.hxx>
@@ -11,6 +9,9 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <TopExp.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -18,7 +19,6 @@
 
 #include "cad/nearest_point.h"
 #include "cad/nearest_triangle.h"
-#include "mesh/error.h"
 
 namespace delquad::cad {
 
@@ -37,6 +37,9 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
 
 Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 gp_Pnt to_pnt(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+/// How near to the ends of a closed curve both sides are tried, as a fraction of its parameters.
+constexpr double kNearEnd = 0.1;
 
 class FaceProjector {
  public:
@@ -77,6 +80,7 @@ class CurveProjector {
   explicit CurveProjector(const CurveMesh& mesh) : parameters_(mesh.parameters) {
     curve_ = BRep_Tool::Curve(mesh.edge, first_, last_);
     while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve_)) curve_ = trimmed->BasisCurve();
+    is_closed_ = TopExp::FirstVertex(mesh.edge).IsSame(TopExp::LastVertex(mesh.edge));
     for (const double t : parameters_) points_.push_back(to_vec(curve_->Value(t)));
   }
 
@@ -91,12 +95,19 @@ class CurveProjector {
       best2 = dot(away, away);
       best = parameters_[k] + t * (parameters_[k + 1] - parameters_[k]);
     }
-    return to_vec(nearest_point(*curve_, first_, last_, to_pnt(x), best, tolerance));
+    const gp_Pnt target = to_pnt(x);
+    const auto from = [&](double t) { return nearest_point(*curve_, first_, last_, target, t, tolerance); };
+    const gp_Pnt p = from(best);
+    // The nearest point may lie across the point where a closed curve begins and ends.
+    if (!is_closed_ || std::min(best - first_, last_ - best) > kNearEnd * (last_ - first_)) return to_vec(p);
+    const gp_Pnt q = from(best - first_ < last_ - best ? last_ : first_);
+    return to_vec(q.SquareDistance(target) < p.SquareDistance(target) ? q : p);
   }
 
  private:
   Handle(Geom_Curve) curve_;
   double first_ = 0, last_ = 0;
+  bool is_closed_ = false;
   std::vector<double> parameters_;
   std::vector<Vec3> points_;
 };

@@ -29,14 +29,9 @@ Mesh read_obj(const std::filesystem::path& path);
 /// vertices.
 Mesh read_off(const std::filesystem::path& path);
 
-struct StlOptions {
-  /// Ends of open edges that are no further apart become one point; a part of the bounding box's diagonal,
-  /// from 0.
-  double weld_tolerance = 1e-9;
-};
-/// Reads STL, text or binary, by content. Points with the same coordinates become one, then those at open
-/// edges within the tolerance. Each solid of a text file is a region with its name.
-Mesh read_stl(const std::filesystem::path& path, const StlOptions& options = {});
+/// Reads STL, text or binary, by content. Points with the same coordinates become one. Each solid of a text
+/// file is a region with its name.
+Mesh read_stl(const std::filesystem::path& path);
 
 /// Reads by extension: .msh, .obj, .off, .stl. InputError for any other, naming those known.
 Mesh read_mesh(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/irregular_vertices.h"
 #include "io/picture.h"
 #include "io/svg.h"
 #include "mesh/half_edges.h"
@@ -67,25 +68,14 @@ class ElementPaths {
 };
 
 /// Dots on interior vertices whose valence is not `regular`.
-std::vector<svg::Mark> irregular_vertices(const Mesh& mesh, int regular, double scale) {
-  std::vector<int> valence(mesh.points.size(), 0);
-  std::vector<double> size(mesh.points.size(), 0);
-  for_each_element(mesh, [&](int, const auto& v) {
-    const double s = pixel_size(mesh, v, scale);
-    for (const int i : v) {
-      ++valence[i];
-      size[i] += s;
-    }
-  });
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() != 2) valence[edge[0].lo] = valence[edge[0].hi] = regular;
-  });
+std::vector<svg::Mark> irregular_marks(const Mesh& mesh, int regular, double scale) {
+  std::vector<double> size;
+  for_each_element(mesh, [&](int, const auto& v) { size.push_back(pixel_size(mesh, v, scale)); });
   constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the mean size of the elements around; pixels
   std::vector<svg::Mark> marks;
-  for (size_t i = 0; i < valence.size(); ++i) {
-    if (valence[i] == regular || valence[i] == 0) continue;
-    const int index = std::abs(regular - valence[i]) == 1 ? regular - valence[i] : 0;
-    marks.push_back({flat(mesh.points[i]), index, std::clamp(kRadius * size[i] / valence[i], kLeast, kMost)});
+  for (const auto& [vertex, valence, mean_size] : irregular_vertices(mesh, regular, size)) {
+    const int index = std::abs(regular - valence) == 1 ? regular - valence : 0;
+    marks.push_back({flat(mesh.points[vertex]), index, std::clamp(kRadius * mean_size, kLeast, kMost)});
   }
   return marks;
 }
@@ -105,7 +95,7 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
   picture.add_outline(mesh, kOutlineWidth);
 
   const int regular = mesh.quads.empty() ? 6 : 4;
-  const std::vector<svg::Mark> marks = irregular_vertices(mesh, regular, picture.scale());
+  const std::vector<svg::Mark> marks = irregular_marks(mesh, regular, picture.scale());
   picture.add_marks(marks);
   if (!mesh.quads.empty()) {
     picture.add_colour_bar("eta",

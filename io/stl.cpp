@@ -8,9 +8,9 @@
 
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
-#include "io/weld.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/error.h"
+#include "mesh/weld.h"
 
 namespace delquad {
 
@@ -146,23 +146,14 @@ class TextReader {
   Mesh mesh_;
 };
 
-double diagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
-
 }  // namespace
 
-Mesh read_stl(const std::filesystem::path& path, const StlOptions& options) {
+Mesh read_stl(const std::filesystem::path& path) {
   TextScanner scanner(path);
   const std::optional<std::uint32_t> n = binary_facets(scanner.text());
   Mesh mesh = n ? read_binary(path.string(), scanner.text(), *n) : TextReader(scanner).read();
   if (mesh.triangles.empty()) throw InputError(path.string() + ": the file holds no triangles");
-  weld(mesh, options.weld_tolerance * diagonal(mesh.points));
+  rename_points(mesh, names_of_equal_points(mesh));
   drop_unused_points(mesh);
   return mesh;
 }

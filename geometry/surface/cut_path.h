@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/surface/chart.h"
@@ -24,9 +25,16 @@ struct CutPath {
 
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
-/// The connected pieces of the curve u = level, each as one path. Pieces that touch the boundary other than
-/// with their ends, or themselves, are left out.
-std::vector<CutPath> level_curves(const Chart& chart, const std::vector<double>& u, double level);
+/// A connected piece of a level curve.
+struct LevelCurve {
+  CutPath path;  ///< moved into vertices that are near
+  std::vector<std::pair<int, int>>
+      crossed;  ///< edges that the curve itself crosses, as (lower, higher), sorted
+};
+
+/// The connected pieces of the curve u = level. Pieces that touch the boundary other than with their ends, or
+/// themselves, are left out.
+std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level);
 
 /// The path of steepest descent of u, linear on triangles, from a vertex to the first vertex or boundary side
 /// that is reached. A target may also be an inner vertex. None when it ends in a minimum elsewhere.

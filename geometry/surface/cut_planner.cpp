@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "geometry/surface/laplacian.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxStarts = 16;  ///< paths tried from one loop
 /// What a path costs more, in parts of its length, for an end that becomes a corner only because of it.
-constexpr double kNewCorner = 0.15;
+constexpr double kNewCorner = 0.15, kNewCornerAtStart = 0.05;
 /// The same for a path that runs into a third loop.
 constexpr double kWrongLoop = 2;
 
@@ -32,9 +32,7 @@ class PathChoice {
       std::optional<CutPath> path = descend(chart_, around_, down, start, target);
       if (!path) continue;
       const EdgePoint& last = path->points.back();
-      double factor = 1;
-      if (end_of(start) != CutEnd::kCorner) factor += kNewCorner;
-      if (last.b >= 0 || end_of(last.a) != CutEnd::kCorner) factor += kNewCorner;
+      double factor = 1 + end_cost(end_of(start)) + end_cost(last.b < 0 ? end_of(last.a) : CutEnd::kAnywhere);
       if (!target[last.a]) factor += kWrongLoop;
       if (factor * path->length < cost_) {
         cost_ = factor * path->length;
@@ -43,21 +41,27 @@ class PathChoice {
     }
   }
 
-  /// The loop's corners, else where its curves begin, else points spread along it.
+  /// The loop's corners, else where its curves begin and points spread along it.
   std::vector<int> starts(const std::vector<int>& loop) const {
-    for (CutEnd wanted : {CutEnd::kCorner, CutEnd::kCurveStart}) {
-      std::vector<int> found;
-      for (int v : loop)
-        if (end_of(v) == wanted) found.push_back(v);
-      if (!found.empty()) return spread(found);
+    std::vector<int> corners, begins;
+    for (int v : loop) {
+      if (end_of(v) == CutEnd::kCorner) corners.push_back(v);
+      if (end_of(v) == CutEnd::kCurveStart) begins.push_back(v);
     }
-    return spread(loop);
+    if (!corners.empty()) return spread(corners);
+    const std::vector<int> all = spread(loop);
+    begins.insert(begins.end(), all.begin(), all.end());
+    return begins;
   }
 
   std::optional<CutPath> best() && { return std::move(best_); }
 
  private:
   CutEnd end_of(int v) const { return ends_[chart_.fine_node[v]]; }
+
+  static double end_cost(CutEnd end) {
+    return end == CutEnd::kCorner ? 0 : end == CutEnd::kCurveStart ? kNewCornerAtStart : kNewCorner;
+  }
 
   static std::vector<int> spread(const std::vector<int>& all) {
     const std::size_t n = std::min<std::size_t>(all.size(), kMaxStarts);
@@ -78,39 +82,40 @@ std::vector<double> negated(std::vector<double> u) {
   return u;
 }
 
-/// Areas on both sides of a path; nothing on one side when the path separates nothing.
+/// Areas on both sides of a curve; nothing on one side when the curve separates nothing.
 class Separation {
  public:
   explicit Separation(const Chart& chart) : chart_(chart), areas_(triangle_areas(chart)) {}
 
-  double smaller_side(const CutPath& crossings) const {
-    std::set<std::pair<int, int>> cut;
-    for (const EdgePoint& p : crossings.points) cut.insert(std::minmax({p.a, p.b}));
+  double smaller_side(const LevelCurve& curve) const {
     std::vector<char> reached(areas_.size(), 0);
     double area = 0;
-    std::vector<int> stack = {first_beside(cut)};
+    std::size_t n_reached = 0;
+    std::vector<int> stack = {first_beside(curve)};
     while (!stack.empty()) {
       const int t = stack.back();
       stack.pop_back();
       if (reached[t]) continue;
       reached[t] = 1;
+      ++n_reached;
       area += areas_[t];
       for (int k = 0; k < 3; ++k)
-        if (const int s = chart_.neighbours[t][k]; s >= 0 && !reached[s] && !cut.contains(side(t, k)))
+        if (const int s = chart_.neighbours[t][k]; s >= 0 && !reached[s] && !crosses(curve, t, k))
           stack.push_back(s);
     }
-    return std::min(area, total() - area);
+    return n_reached == areas_.size() ? 0 : std::min(area, total() - area);
   }
   double total() const { return std::accumulate(areas_.begin(), areas_.end(), 0.0); }
 
  private:
-  std::pair<int, int> side(int t, int k) const {
-    return std::minmax({chart_.triangles[t][(k + 1) % 3], chart_.triangles[t][(k + 2) % 3]});
+  bool crosses(const LevelCurve& curve, int t, int k) const {
+    const int a = chart_.triangles[t][(k + 1) % 3], b = chart_.triangles[t][(k + 2) % 3];
+    return std::ranges::binary_search(curve.crossed, std::pair(std::min(a, b), std::max(a, b)));
   }
-  int first_beside(const std::set<std::pair<int, int>>& cut) const {
-    for (std::size_t t = 0; t < areas_.size(); ++t)
+  int first_beside(const LevelCurve& curve) const {
+    for (int t = 0; t < static_cast<int>(areas_.size()); ++t)
       for (int k = 0; k < 3; ++k)
-        if (cut.contains(side(static_cast<int>(t), k))) return static_cast<int>(t);
+        if (crosses(curve, t, k)) return t;
     return 0;
   }
 
@@ -196,18 +201,19 @@ std::optional<CutPath> plan_division(const Chart& chart) {
   std::optional<CutPath> best;
   double best_cost = std::numeric_limits<double>::infinity();
   for (double level : levels(u, vertex_areas(chart))) {
-    std::vector<CutPath> pieces = level_curves(chart, u, level);
-    std::ranges::stable_sort(pieces, std::greater{}, &CutPath::length);
+    std::vector<LevelCurve> pieces = level_curves(chart, u, level);
+    std::ranges::stable_sort(pieces, std::greater{}, [](const LevelCurve& c) { return c.path.length; });
     if (pieces.size() > kMaxPieces) pieces.resize(kMaxPieces);
-    for (CutPath& piece : pieces) {
+    for (LevelCurve& piece : pieces) {
       const double side = separation.smaller_side(piece);
       const bool separates = side > 0;
       if (separates && side < kSmallestPart * total) continue;
       // A cut that removes a handle is worth far more than one that does not.
-      const double cost = separates ? piece.length / side * (handles ? 4 : 1) : piece.length / total;
+      const double cost =
+          separates ? piece.path.length / side * (handles ? 4 : 1) : piece.path.length / total;
       if (cost < best_cost) {
         best_cost = cost;
-        best = std::move(piece);
+        best = std::move(piece.path);
       }
     }
   }

@@ -24,11 +24,13 @@ constexpr double kPlane = 1e-9;
 constexpr double kGoodSigma = 1.05, kGoodAreaRatio = 4;
 /// Above these a seam is cut through an annulus and a chart with more holes, instead of mapping it uncut.
 constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
+/// A chart with branches is divided rather than cut open when that takes a curve this much shorter.
+constexpr double kShortDivision = 0.5;
 /// Below this a cut to a tip is not worth it.
 constexpr double kMinTipRatio = 2;
 /// After so many rounds of cuts a map is taken when it is one-to-one: first whatever its angles, which cuts
 /// seldom improve, then whatever its areas.
-constexpr int kAnyAngles = 4, kAnyAreas = 12, kMaxRounds = 30;
+constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 30;
 
 struct Map {
   std::vector<Vec2> flat;
@@ -82,8 +84,12 @@ class ChartWork {
     std::optional<Map> map = checked(chart_, spectral_map(chart_), "spectral");
     if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
       return {std::move(map), {}, false};
-    if (auto seam = plan_seam(chart_, ends_)) return {std::move(map), std::move(seam), false};
-    return divide(std::move(map));
+    auto seam = plan_seam(chart_, ends_);
+    if (chart_.loops.size() == 2 && seam) return {std::move(map), std::move(seam), false};
+    Outcome division = divide(std::move(map));
+    if (seam && !(division.cut && division.cut->length < kShortDivision * seam->length))
+      return {std::move(division.map), std::move(seam), false};
+    return division;
   }
 
   Outcome flatten_disk() const {
@@ -104,7 +110,9 @@ class ChartWork {
   bool better(const FlatQuality& a, const FlatQuality& b) const {
     const bool fits_a = a.area_ratio <= options_.max_area_ratio,
                fits_b = b.area_ratio <= options_.max_area_ratio;
-    return fits_a != fits_b ? fits_a : a.sigma_mean < b.sigma_mean;
+    // Angles count most: a size field can follow the scale.
+    auto cost = [](const FlatQuality& q) { return std::log(q.sigma_mean) + 0.02 * std::log(q.area_ratio); };
+    return fits_a != fits_b ? fits_a : cost(a) < cost(b);
   }
 
   Outcome divide(std::optional<Map> map) const { return {std::move(map), plan_division(chart_), true}; }

@@ -33,6 +33,7 @@ class Improver {
 
   void run() {
     flip_all();
+    find_targets();
     for (int pass = 0; pass < 2; ++pass) {
       split_all();
       flip_all();
@@ -132,25 +133,31 @@ class Improver {
     for (int k = 1; k < 3; ++k)
       if (length(side(t, k)) > length(longest)) longest = side(t, k);
     const double l = length(longest);
-    const auto [a, b, c] = mesh_.triangles[t];
-    const double height = norm(double_area(a, b, c)) / l;
-    const bool thin = l > options_.max_aspect * height && l > 2 * options_.min_length * diagonal_;
-    if (thin || l > options_.max_length * diagonal_) candidates_.push({l, longest.first, longest.second});
+    if (l > target_[t]) candidates_.push({l, longest.first, longest.second});
+  }
+
+  // How long the sides of each triangle may be. Halves keep it: needles around a pole would be needles at any
+  // size.
+  void find_targets() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      double shortest = options_.max_length * diagonal_;
+      for (int k = 0; k < 3; ++k)
+        shortest = std::min(shortest, options_.max_aspect * length(side(static_cast<int>(t), k)));
+      target_.push_back(std::max(shortest, options_.min_length * diagonal_));
+    }
   }
 
   void split_all() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
-    std::size_t budget = 100000 + 20 * mesh_.triangles.size();
-    while (!candidates_.empty() && budget-- > 0) {
+    while (!candidates_.empty()) {
       const auto [l, a, b] = candidates_.top();
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);
       if (on_edge.empty()) continue;  // split already
+      for (int t : on_edge) target_.push_back(target_[t]);
       const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
-      for (int t : std::vector(editor_.triangles_at(node).begin(), editor_.triangles_at(node).end()))
-        consider(t);
+      for (int t : editor_.triangles_at(node)) consider(t);
     }
-    candidates_ = {};
   }
 
   Vec3 midpoint(int a, int b, int triangle) const {
@@ -167,7 +174,8 @@ class Improver {
   SurfaceEditor editor_;
   const ImproveOptions& options_;
   double diagonal_;
-  std::vector<char> curved_;  ///< of each face
+  std::vector<char> curved_;    ///< of each face
+  std::vector<double> target_;  ///< of each triangle
   std::priority_queue<Candidate> candidates_;
 };
 

@@ -5,12 +5,13 @@
 namespace delquad {
 
 struct ImproveOptions {
-  /// Triangles of curved faces whose longest side is this many times their height are split, > 2.
-  double max_aspect = 4;
-  /// Sides of curved faces longer than this part of the model's diagonal are split; sides are never split
-  /// below `min_length`.
-  double max_length = 1.0 / 40;
-  double min_length = 1.0 / 2000;
+  /// Sides of a curved face are split when they are longer than this many times the shortest side of their
+  /// triangle, as it was given.
+  double max_aspect = 3;
+  /// Parts of the model's diagonal: sides that are shorter than the first are not split, those that are
+  /// longer than the second are in any case.
+  double min_length = 1.0 / 200;
+  double max_length = 1.0 / 30;
 };
 
 /// Makes the fine triangulation fit for cotangent weights: edges inside faces are turned to be Delaunay where

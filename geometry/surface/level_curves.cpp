@@ -18,11 +18,15 @@ class LevelWalk {
   LevelWalk(const Chart& chart, const std::vector<double>& u, double level)
       : chart_(chart), u_(u), level_(level), visited_(chart.triangles.size(), 0) {}
 
-  std::vector<CutPath> run() {
-    std::vector<CutPath> paths;
+  std::vector<LevelCurve> run() {
+    std::vector<LevelCurve> curves;
     auto add = [&](int t, int side) {
-      std::optional<CutPath> path = tidy(walk(t, side));
-      if (path) paths.push_back(std::move(*path));
+      const CutPath raw = walk(t, side);
+      std::optional<CutPath> path = tidy(raw);
+      if (!path) return;
+      LevelCurve& curve = curves.emplace_back(LevelCurve{std::move(*path), {}});
+      for (const EdgePoint& p : raw.points) curve.crossed.push_back({p.a, p.b});
+      std::ranges::sort(curve.crossed);
     };
     const int n = static_cast<int>(chart_.triangles.size());
     for (int t = 0; t < n; ++t)
@@ -31,7 +35,7 @@ class LevelWalk {
     for (int t = 0; t < n; ++t)
       for (int k = 0; k < 3; ++k)
         if (!visited_[t] && crosses(t, k)) add(t, k);
-    return paths;
+    return curves;
   }
 
  private:
@@ -108,7 +112,7 @@ Vec3 position(const Chart& chart, const EdgePoint& p) {
   return (1 - p.t) * chart.points[p.a] + p.t * chart.points[p.b];
 }
 
-std::vector<CutPath> level_curves(const Chart& chart, const std::vector<double>& u, double level) {
+std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level) {
   return LevelWalk(chart, u, level).run();
 }
 

@@ -12,7 +12,8 @@ namespace delquad {
 class SurfaceProjector {
  public:
   virtual ~SurfaceProjector() = default;
-  /// The point of a face (index into SurfaceModel::fine.regions) nearest to x; safe to call from several threads.
+  /// The point of a face (index into SurfaceModel::fine.regions) nearest to x; safe to call from several
+  /// threads.
   virtual Vec3 to_face(int face, const Vec3& x) const = 0;
   /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
@@ -21,11 +22,13 @@ class SurfaceProjector {
 /// A model made of faces that share curves, as a fine conforming triangulation.
 struct SurfaceModel {
   std::string source;  ///< file it was read from, for messages
-  /// Triangles tagged by face (triangle_region), lines tagged by curve (line_curve): every line is a side of triangles, and
-  /// every side between two faces, on the outline or on a feature is a line. The lines of a curve form one chain, open or
-  /// closed, listed from end to end, all in one direction. Triangles agree in orientation wherever the model is orientable.
+  /// Triangles tagged by face (triangle_region), lines tagged by curve (line_curve): every line is a side of
+  /// triangles, and every side between two faces, on the outline or on a feature is a line. The lines of a
+  /// curve form one chain, open or closed, listed from end to end, all in one direction. Triangles agree in
+  /// orientation wherever the model is orientable.
   Mesh fine;
-  /// Points of `fine` that must be nodes of any mesh, ascending: ends of curves, points where more than two curves meet.
+  /// Points of `fine` that must be nodes of any mesh, ascending: ends of curves, points where more than two
+  /// curves meet.
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;

@@ -11,6 +11,7 @@
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/error.h"
+#include "mesh/weld.h"
 
 namespace delquad {
 
@@ -240,6 +241,39 @@ void split_vertices(Mesh& mesh, std::vector<std::string>& warnings) {
   }
 }
 
+void close_gaps(Mesh& mesh, double tolerance, std::vector<std::string>& warnings) {
+  const PointNames names = names_at_open_edges(mesh, tolerance);
+  int welded = 0;
+  Vec3 first;
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    if (names[i] != i && welded++ == 0) first = mesh.points[i];
+  }
+  if (welded == 0) return;
+  rename_points(mesh, names);
+  drop_unused_points(mesh);
+  warnings.push_back(fmt::format("welded {} at open edges to others (the first at {})",
+                                 counted(welded, "point"), show_point(first)));
+}
+
+/// Tells of open edges that nearly meet others.
+void report_gaps(const Mesh& mesh, std::vector<std::string>& warnings) {
+  constexpr double kGap = 1e-5;  // of the diagonal: closer than any element will be small
+  const double width = kGap * diagonal(mesh.points);
+  const PointNames names = names_at_open_edges(mesh, width);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  int gaps = 0;
+  Vec3 first;
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    if (names[i] == i || !sides_of_edge(sides, i, names[i]).empty()) continue;
+    if (gaps++ == 0) first = mesh.points[i];
+  }
+  if (gaps == 0) return;
+  warnings.push_back(
+      fmt::format("{} at open edges within {:.3g} of others: gaps that a larger weld tolerance would "
+                  "close (the first at {})",
+                  counted(gaps, "point"), width, show_point(first)));
+}
+
 void check_contents(const Mesh& mesh, const std::string& source) {
   if (!mesh.quads.empty()) {
     throw InputError(fmt::format("{}: {}: expected a surface made of triangles", source,
@@ -257,8 +291,20 @@ void check_contents(const Mesh& mesh, const std::string& source) {
 
 }  // namespace
 
-Mesh repair_triangles(Mesh mesh, const std::string& source, std::vector<std::string>& warnings) {
+double diagonal(const std::vector<Vec3>& points) {
+  if (points.empty()) return 0;
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
+                      std::vector<std::string>& warnings) {
   check_contents(mesh, source);
+  close_gaps(mesh, weld_tolerance, warnings);
   take_out_flat_triangles(mesh, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   take_out_twins(mesh, warnings);
@@ -271,6 +317,7 @@ Mesh repair_triangles(Mesh mesh, const std::string& source, std::vector<std::str
   }
   const int unused = drop_unused_points(mesh);
   if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");
+  report_gaps(mesh, warnings);
   return mesh;
 }
 

@@ -7,9 +7,15 @@
 
 namespace delquad {
 
+/// Length of the diagonal of the bounding box.
+double diagonal(const std::vector<Vec3>& points);
+
 /// Makes a surface of triangles as files hold them: each edge in one or two triangles that agree in
 /// orientation, each vertex in one fan, each line on an edge, no quads, no triangle without area, none twice,
 /// no unused point. Each kind of repair adds a line to `warnings`:
+/// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, only
+/// a
+///   warning tells of the gaps;
 /// - triangles without area go; where one has its third vertex between the others, its neighbour is cut
 /// there, so
 ///   that no gap opens;
@@ -21,6 +27,7 @@ namespace delquad {
 /// - lines that are not edges go.
 /// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles, an
 /// edge in three triangles or more, a surface that cannot be oriented.
-Mesh repair_triangles(Mesh mesh, const std::string& source, std::vector<std::string>& warnings);
+Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
+                      std::vector<std::string>& warnings);
 
 }  // namespace delquad

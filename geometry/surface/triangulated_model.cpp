@@ -15,15 +15,6 @@ namespace {
 
 constexpr int kNoCut = -2, kNewCut = -1;  // else the index of a given curve
 
-double diagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
-
 /// Unit normals; that of a sliver is its neighbour's across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
   constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
@@ -151,7 +142,9 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   const double angle = options.feature_angle * std::numbers::pi / 180;
   SurfaceModel model;
   model.source = options.source;
-  model.fine = repair_triangles(std::move(triangles), options.source, model.warnings);
+  if (!(options.weld_tolerance >= 0)) throw std::invalid_argument("weld tolerance: expected 0 or more");
+  const double weld_tolerance = options.weld_tolerance * diagonal(triangles.points);
+  model.fine = repair_triangles(std::move(triangles), weld_tolerance, options.source, model.warnings);
   const std::vector<int> twin = side_twins(model.fine);
   std::vector<int> cut = find_cuts(model.fine, twin, angle);
   const int loose = drop_loose_ends(model.fine, twin, cut);

@@ -8,6 +8,8 @@ struct TriangulatedOptions {
   /// Degrees, above 0 to 180: neighbouring triangles whose normals differ by more lie in different faces, and
   /// a curve that turns by more has a corner there.
   double feature_angle = 40;
+  /// Ends of open edges no further apart become one point; a part of the bounding box's diagonal, from 0.
+  double weld_tolerance = 1e-9;
   /// The file that the triangles are from, for messages.
   std::string source = "triangles";
 };

@@ -1,7 +1,6 @@
 #include "tests/cad/cad_files.h"
 
 #include <BRepTools.hxx>
-#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Writer.hxx>
@@ -15,11 +14,9 @@ std::filesystem::path write_brep(const std::filesystem::path& path, const TopoDS
   return path;
 }
 
-std::filesystem::path write_step(const std::filesystem::path& path, const TopoDS_Shape& shape,
-                                 const std::string& unit) {
+std::filesystem::path write_step(const std::filesystem::path& path, const TopoDS_Shape& shape) {
   Message::DefaultMessenger()->ChangePrinters().Clear();
   STEPControl_Writer writer;
-  Interface_Static::SetCVal("write.step.unit", unit.c_str());
   if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone ||
       writer.Write(path.c_str()) != IFSelect_RetDone) {
     throw std::runtime_error("cannot write " + path.string());

@@ -12,6 +12,7 @@
 
 #include "cad/cad_reader.h"
 #include "tests/cad/cad_files.h"
+#include "tests/cad/surface_counts.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,7 +36,7 @@ TEST_F(CadBadInput, NoFileOrNoneOfItsKind) {
 TEST_F(CadBadInput, GarbageBehindTheFirstLine) {
   const std::string garbage = "\n\x01\xff 17 #= (;\n";
   expect_input_error([&] { read_cad(write_text(folder_ / "a.step", "ISO-10303-21;" + garbage)); },
-                     {"a.step", "not a readable STEP file", "Line 2"});
+                     {"a.step", "not a readable STEP file", "Line 3"});
   expect_input_error(
       [&] {
         read_cad(write_text(folder_ / "a.brep", "CASCADE Topology V1, (c) Matra-Datavision" + garbage));
@@ -99,10 +100,14 @@ TEST_F(CadBadInput, FaceWithoutArea) {
   expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", face)); }, {"a.brep", "face 1"});
 }
 
-TEST_F(CadBadInput, BoundaryThatCrossesItself) {
+TEST_F(CadBadInput, BoundaryThatCrossesItselfIsCutAtTheCrossing) {
   BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 0), gp_Pnt(1, 0, 0), gp_Pnt(0, 1, 0), true);
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(), wire.Wire());
-  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", face)); }, {"a.brep", "face 1"});
+  const SurfaceModel model = read_cad(write_brep(folder_ / "a.brep", face));
+  EXPECT_EQ(model.fine.regions.size(), 2u);
+  EXPECT_NEAR(count(model.fine).area, 0.5, 1e-12);
+  ASSERT_FALSE(model.warnings.empty());
+  EXPECT_EQ(model.warnings[0], "the shape was invalid and has been healed");
 }
 
 }  // namespace

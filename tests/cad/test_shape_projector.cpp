@@ -64,11 +64,18 @@ TEST(ShapeProjector, MeetsElementarySurfaces) {
   });
 }
 
+/// n x n points, point(i, j) with i and j from 0.
+TColgp_Array2OfPnt grid(int n, const std::function<gp_Pnt(int, int)>& point) {
+  TColgp_Array2OfPnt points(1, n, 1, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) points(i + 1, j + 1) = point(i, j);
+  return points;
+}
+
+/// Over 0 < x < 11, 0 < y < 11.
 Handle(Geom_BSplineSurface) wavy_sheet() {
-  TColgp_Array2OfPnt points(1, 12, 1, 12);
-  for (int i = 1; i <= 12; ++i)
-    for (int j = 1; j <= 12; ++j) points(i, j) = {i * 1.0, j * 1.0, std::sin(i * 0.9) * std::cos(j * 0.7)};
-  return GeomAPI_PointsToBSplineSurface(points, 3, 5).Surface();
+  const auto wave = [](int i, int j) { return gp_Pnt(i, j, std::sin(i * 0.9) * std::cos(j * 0.7)); };
+  return GeomAPI_PointsToBSplineSurface(grid(12, wave), 3, 5).Surface();
 }
 
 TEST(ShapeProjector, FindsFootPointsOfFreeFormSurfaces) {
@@ -92,20 +99,15 @@ TEST(ShapeProjector, FindsFootPointsOfFreeFormSurfaces) {
 TEST(ShapeProjector, StaysInsideFreeFormSurfaces) {
   const SurfaceModel model = read(BRepBuilderAPI_MakeFace(wavy_sheet(), 1e-7));
   const Vec3 y = model.projector->to_face(0, {20, 6, 0});
-  EXPECT_NEAR(y.x, 12, 1e-9);
+  EXPECT_NEAR(y.x, 11, 1e-9);
   const Vec3 corner = model.projector->to_face(0, {20, 30, 0});
-  EXPECT_NEAR(corner.x, 12, 1e-9);
-  EXPECT_NEAR(corner.y, 12, 1e-9);
+  EXPECT_NEAR(corner.x, 11, 1e-9);
+  EXPECT_NEAR(corner.y, 11, 1e-9);
 }
 
 TEST(ShapeProjector, PassesThePoleOfACollapsedPatch) {
-  TColgp_Array2OfPnt poles(1, 3, 1, 3);
-  for (int j = 1; j <= 3; ++j) {
-    poles(1, j) = {0, 0, 0};
-    poles(2, j) = {1, j - 2.0, 0.3};
-    poles(3, j) = {2, 2 * (j - 2.0), 0};
-  }
-  const Handle(Geom_BezierSurface) patch = new Geom_BezierSurface(poles);
+  const auto fan = [](int i, int j) { return gp_Pnt(i, i * (j - 1), i == 1 ? 0.3 : 0); };
+  const Handle(Geom_BezierSurface) patch = new Geom_BezierSurface(grid(3, fan));
   const SurfaceModel model = read(BRepBuilderAPI_MakeFace(patch, 1e-7));
   const Vec3 tip = model.projector->to_face(0, {-0.1, 0, 0});
   EXPECT_NEAR(norm(tip), 0, 1e-8);

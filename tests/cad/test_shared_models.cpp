@@ -49,7 +49,9 @@ TEST_P(SharedModels, AreWholeConformingAndOutward) {
   EXPECT_EQ(n.crowded_sides, 0);
   constexpr double kArea = 5e-3;
   EXPECT_NEAR(n.area / expected.area, 1, kArea);
-  if (expected.closed) EXPECT_GT(n.volume, 0);
+  if (expected.closed) {
+    EXPECT_GT(n.volume, 0);
+  }
 }
 
 TEST_P(SharedModels, ProjectToTheirSurfacesAndCurves) {
