@@ -195,3 +195,9 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 }
 
 }  // namespace delquad
+
+#ifdef __SANITIZE_ADDRESS__
+/// The kernel keeps tables until the end of the program.
+extern "C" const char* __lsan_default_suppressions();
+const char* __lsan_default_suppressions() { return "leak:libTK\n"; }
+#endif

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopoDS.hxx>
+#include <cmath>
 #include <utility>
 
 #include "mesh/error.h"
@@ -41,6 +43,32 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
   return mesh;
 }
 
+bool is_whole(const TopTools_IndexedMapOfShape& faces) {
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopLoc_Location place;
+    if (BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place).IsNull()) return false;
+  }
+  return true;
+}
+
+/// Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
+/// may not.
+void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
+                 double angle) {
+  constexpr int kMostTrials = 6;
+  constexpr double kFiner = 0.7;
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    if (trial > 0) BRepTools::Clean(shape);
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
+    parameters.Angle = angle * std::pow(kFiner, trial);
+    // The smallest sides follow the deflection, or a small edge's own length.
+    parameters.AdjustMinSize = true;
+    BRepMesh_IncrementalMesh(shape, parameters);
+    if (is_whole(faces)) return;
+  }
+}
+
 double area(const FaceMesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -58,13 +86,7 @@ std::string face_title(int number, const std::vector<std::string>& names) {
 
 std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                                  double diagonal, const CadOptions& options) {
-  IMeshTools_Parameters parameters;
-  parameters.Deflection = options.deflection * diagonal;
-  parameters.Angle = options.angle;
-  // The smallest sides follow the deflection, or a small edge's own length.
-  parameters.AdjustMinSize = true;
-  BRepMesh_IncrementalMesh(cad.shape, parameters);
-
+  triangulate(cad.shape, faces, options.deflection * diagonal, options.angle);
   std::vector<FaceMesh> meshes;
   std::string unmeshed, flat;
   for (int f = 1; f <= faces.Extent(); ++f) {

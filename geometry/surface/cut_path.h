@@ -25,6 +25,9 @@ struct CutPath {
 
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
+/// Is the path no more than one side of the boundary?
+bool is_boundary_side(const Chart& chart, const CutPath& path);
+
 /// A connected piece of a level curve.
 struct LevelCurve {
   CutPath path;  ///< moved into vertices that are near

@@ -82,44 +82,38 @@ std::vector<double> negated(std::vector<double> u) {
   return u;
 }
 
-/// Areas on both sides of a curve; nothing on one side when the curve separates nothing.
+/// Areas of the vertices on both sides of a curve; nothing on one side when the curve separates nothing.
 class Separation {
  public:
-  explicit Separation(const Chart& chart) : chart_(chart), areas_(triangle_areas(chart)) {}
+  explicit Separation(const Chart& chart)
+      : chart_(chart), around_(triangles_around(chart)), areas_(vertex_areas(chart)) {}
 
   double smaller_side(const LevelCurve& curve) const {
+    const auto [start, beyond] = curve.crossed.front();
     std::vector<char> reached(areas_.size(), 0);
+    std::vector<int> stack = {start};
+    reached[start] = 1;
     double area = 0;
-    std::size_t n_reached = 0;
-    std::vector<int> stack = {first_beside(curve)};
     while (!stack.empty()) {
-      const int t = stack.back();
+      const int v = stack.back();
       stack.pop_back();
-      if (reached[t]) continue;
-      reached[t] = 1;
-      ++n_reached;
-      area += areas_[t];
-      for (int k = 0; k < 3; ++k)
-        if (const int s = chart_.neighbours[t][k]; s >= 0 && !reached[s] && !crosses(curve, t, k))
-          stack.push_back(s);
+      area += areas_[v];
+      for (int t : around_[v])
+        for (int w : chart_.triangles[t])
+          if (!reached[w] &&
+              !std::ranges::binary_search(curve.crossed, std::pair(std::min(v, w), std::max(v, w)))) {
+            reached[w] = 1;
+            stack.push_back(w);
+          }
     }
-    return n_reached == areas_.size() ? 0 : std::min(area, total() - area);
+    return reached[beyond] ? 0 : std::min(area, total() - area);
   }
+  const std::vector<double>& areas() const { return areas_; }
   double total() const { return std::accumulate(areas_.begin(), areas_.end(), 0.0); }
 
  private:
-  bool crosses(const LevelCurve& curve, int t, int k) const {
-    const int a = chart_.triangles[t][(k + 1) % 3], b = chart_.triangles[t][(k + 2) % 3];
-    return std::ranges::binary_search(curve.crossed, std::pair(std::min(a, b), std::max(a, b)));
-  }
-  int first_beside(const LevelCurve& curve) const {
-    for (int t = 0; t < static_cast<int>(areas_.size()); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (crosses(curve, t, k)) return t;
-    return 0;
-  }
-
   const Chart& chart_;
+  std::vector<std::vector<int>> around_;
   std::vector<double> areas_;
 };
 
@@ -193,14 +187,14 @@ std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vect
 
 std::optional<CutPath> plan_division(const Chart& chart) {
   constexpr std::size_t kMaxPieces = 6;  // longest pieces of one level looked at
-  constexpr double kSmallestPart = 0.02;
+  constexpr double kSmallestPart = 0.08;
   const std::vector<double> u = fiedler_function(chart);
   const Separation separation(chart);
   const double total = separation.total();
   const bool handles = genus(chart) > 0;
   std::optional<CutPath> best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (double level : levels(u, vertex_areas(chart))) {
+  for (double level : levels(u, separation.areas())) {
     std::vector<LevelCurve> pieces = level_curves(chart, u, level);
     std::ranges::stable_sort(pieces, std::greater{}, [](const LevelCurve& c) { return c.path.length; });
     if (pieces.size() > kMaxPieces) pieces.resize(kMaxPieces);

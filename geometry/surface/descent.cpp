@@ -25,6 +25,7 @@ class Descent {
     do {  // u falls with each step, so that this ends
       if (!(at_.b < 0 ? leave_vertex() : leave_edge())) return std::nullopt;
     } while (!arrived_);
+    if (is_boundary_side(chart_, path_)) return std::nullopt;
     std::set<std::pair<int, int>> seen;
     for (const EdgePoint& p : path_.points)
       if (!seen.insert(std::minmax({p.a, p.b})).second) return std::nullopt;

@@ -19,8 +19,9 @@ namespace {
 /// the other; else the triangles are the surface.
 const double kTurnSmooth = std::cos(25 * std::numbers::pi / 180);
 const double kTurnExact = std::cos(3 * std::numbers::pi / 180);
-/// Height over longest side below which a triangle has no normal.
-constexpr double kFlat = 1e-7;
+/// Height over longest side below which a triangle's normal says nothing about the surface, and below which a
+/// flip must not make one.
+constexpr double kThin = 0.02, kFlat = 1e-7;
 /// A new point moves at most this part of the side it splits.
 constexpr double kMaxMove = 0.25;
 
@@ -32,12 +33,12 @@ class Improver {
   }
 
   void run() {
-    flip_all();
+    std::set<Edge> all;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) all.insert(side(static_cast<int>(t), k));
+    flip(std::move(all));
     find_targets();
-    for (int pass = 0; pass < 2; ++pass) {
-      split_all();
-      flip_all();
-    }
+    split_all();
     editor_.finish();
   }
 
@@ -70,11 +71,11 @@ class Improver {
     }
   }
 
-  /// The unit normal, zero for a triangle that is too flat to have one.
-  Vec3 normal(int a, int b, int c) const {
+  /// The unit normal, zero for a triangle whose height is below this part of its longest side.
+  Vec3 normal(int a, int b, int c, double thinnest) const {
     const Vec3 n = double_area(a, b, c);
     const double longest = std::max({length({a, b}), length({b, c}), length({c, a})});
-    return norm(n) > kFlat * longest * longest ? (1 / norm(n)) * n : Vec3{};
+    return norm(n) > thinnest * longest * longest ? (1 / norm(n)) * n : Vec3{};
   }
 
   double cotangent(int at, int b, int c) const {
@@ -86,8 +87,8 @@ class Improver {
   bool should_flip(int a, int b, int c, int d) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are
     if (cotangent(c, a, b) + cotangent(d, a, b) > -kTie) return false;
-    const Vec3 old_normals[] = {normal(a, b, c), normal(b, a, d)};
-    const Vec3 new_normals[] = {normal(a, d, c), normal(b, c, d)};
+    const Vec3 old_normals[] = {normal(a, b, c, kThin), normal(b, a, d, kThin)};
+    const Vec3 new_normals[] = {normal(a, d, c, kFlat), normal(b, c, d, kFlat)};
     const double limit = model_.projector ? kTurnSmooth : kTurnExact;
     for (const Vec3& n : new_normals) {
       if (dot(n, n) == 0) return false;
@@ -97,21 +98,19 @@ class Improver {
     return true;
   }
 
-  void flip_all() {
-    std::set<Edge> queue;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k) queue.insert(side(static_cast<int>(t), k));
-    std::size_t budget = 10 * queue.size();  // flips in space have no energy that falls
+  // Flips these edges and those around each edge that was flipped, until all are well.
+  void flip(std::set<Edge> queue) {
+    std::size_t budget = 20 * queue.size();  // flips in space have no energy that falls
     while (!queue.empty() && budget > 0) {
       const Edge e = *queue.begin();
       queue.erase(queue.begin());
-      if (editor_.line_on(e.first, e.second) >= 0) continue;
       const std::vector<int> on_edge = editor_.triangles_on(e.first, e.second);
       if (on_edge.size() != 2) continue;
       const auto [a, b, c] = seen_from(on_edge[0], e);
       const int d = seen_from(on_edge[1], e)[2];
       if (!should_flip(a, b, c, d) || !editor_.flip_edge(a, b)) continue;
       --budget;
+      for (int t : on_edge) flipped_.push_back(t);
       for (const Edge& next : {edge(a, c), edge(a, d), edge(b, c), edge(b, d)}) queue.insert(next);
     }
   }
@@ -147,15 +146,22 @@ class Improver {
     }
   }
 
+  // Edges around a new point are turned at once: halves of needles would be needles again.
   void split_all() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
     while (!candidates_.empty()) {
       const auto [l, a, b] = candidates_.top();
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);
-      if (on_edge.empty()) continue;  // split already
+      if (on_edge.empty()) continue;  // split or turned already
       for (int t : on_edge) target_.push_back(target_[t]);
       const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
+      flipped_.clear();
+      std::set<Edge> around;
+      for (int t : editor_.triangles_at(node))
+        for (int k = 0; k < 3; ++k) around.insert(side(t, k));
+      flip(std::move(around));
+      for (int t : flipped_) consider(t);
       for (int t : editor_.triangles_at(node)) consider(t);
     }
   }
@@ -176,6 +182,7 @@ class Improver {
   double diagonal_;
   std::vector<char> curved_;    ///< of each face
   std::vector<double> target_;  ///< of each triangle
+  std::vector<int> flipped_;    ///< triangles, since the last split
   std::priority_queue<Candidate> candidates_;
 };
 

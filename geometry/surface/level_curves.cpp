@@ -22,7 +22,8 @@ class LevelWalk {
     std::vector<LevelCurve> curves;
     auto add = [&](int t, int side) {
       const CutPath raw = walk(t, side);
-      std::optional<CutPath> path = tidy(raw);
+      std::optional<CutPath> path = tidy(raw, kSnapInner);
+      if (!path) path = tidy(raw, kTouch);
       if (!path) return;
       LevelCurve& curve = curves.emplace_back(LevelCurve{std::move(*path), {}});
       for (const EdgePoint& p : raw.points) curve.crossed.push_back({p.a, p.b});
@@ -75,14 +76,14 @@ class LevelWalk {
   bool on_boundary(int v) const { return v < chart_.n_boundary; }
 
   // Moves crossings into near vertices; none when the path then touches itself or the boundary.
-  std::optional<CutPath> tidy(const CutPath& path) const {
+  std::optional<CutPath> tidy(const CutPath& path, double snap_inner) const {
     CutPath out;
     out.closed = path.closed;
     const std::size_t n = path.points.size();
     for (std::size_t i = 0; i < n; ++i) {
       EdgePoint p = path.points[i];
       const bool is_end = !path.closed && (i == 0 || i + 1 == n);
-      const double snap = is_end ? kSnapEnd : kSnapInner;
+      const double snap = is_end ? kSnapEnd : snap_inner;
       const int near = p.t < 0.5 ? p.a : p.b;
       if (std::min(p.t, 1 - p.t) < snap && (is_end || !on_boundary(near))) p = {near, -1, 0};
       if (!is_end && p.b >= 0 && std::min(p.t, 1 - p.t) < kTouch) return std::nullopt;
@@ -90,6 +91,7 @@ class LevelWalk {
     }
     if (out.closed && out.points.size() > 1 && out.points.front() == out.points.back()) out.points.pop_back();
     if (out.points.size() < (out.closed ? 3 : 2)) return std::nullopt;
+    if (is_boundary_side(chart_, out)) return std::nullopt;
     std::map<std::pair<int, int>, int> seen;
     for (const EdgePoint& p : out.points)
       if (seen[{p.a, p.b}]++ > 0) return std::nullopt;
@@ -110,6 +112,15 @@ class LevelWalk {
 Vec3 position(const Chart& chart, const EdgePoint& p) {
   if (p.b < 0) return chart.points[p.a];
   return (1 - p.t) * chart.points[p.a] + p.t * chart.points[p.b];
+}
+
+bool is_boundary_side(const Chart& chart, const CutPath& path) {
+  if (path.points.size() != 2 || path.points[0].b >= 0 || path.points[1].b >= 0) return false;
+  const auto ends = std::minmax({path.points[0].a, path.points[1].a});
+  for (const auto& loop : chart.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (std::minmax({loop[k], loop[(k + 1) % loop.size()]}) == ends) return true;
+  return false;
 }
 
 std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level) {

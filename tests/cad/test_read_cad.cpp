@@ -245,18 +245,23 @@ TEST(ReadCad, KeepsATinyHole) {
 }
 
 TEST(ReadCad, IsWholeUpToACusp) {
-  // Two circles that touch in (0, 0): the chords of the outer one cross those of the inner one near the cusp.
+  // Two circles that touch in (0, 0). The inner one has the shorter chords in angle, so that its first
+  // crosses the outer one's first.
   const TemporaryFolder folder;
-  const auto arc = [](double radius) {
-    return GC_MakeArcOfCircle(gp_Circ(gp_Ax2({0, radius, 0}, {0, 0, 1}), radius), gp_Pnt(0, 0, 0),
-                              gp_Pnt(radius, radius, 0), true)
-        .Value();
+  const auto end = [](double radius, double angle) {
+    return gp_Pnt(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0);
   };
-  const TopoDS_Edge outer = BRepBuilderAPI_MakeEdge(arc(20)), inner = BRepBuilderAPI_MakeEdge(arc(19));
-  const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(gp_Pnt(20, 20, 0), gp_Pnt(19, 19, 0));
+  const auto arc = [&](double radius, double angle) {
+    const gp_Circ circle(gp_Ax2({0, radius, 0}, {0, 0, 1}), radius);
+    return GC_MakeArcOfCircle(circle, gp_Pnt(0, 0, 0), end(radius, angle), true).Value();
+  };
+  const double outer_angle = pi / 2, inner_angle = 0.44 * pi;
+  const TopoDS_Edge outer = BRepBuilderAPI_MakeEdge(arc(60, outer_angle));
+  const TopoDS_Edge inner = BRepBuilderAPI_MakeEdge(arc(40, inner_angle));
+  const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(end(60, outer_angle), end(40, inner_angle));
   const TopoDS_Face sickle =
       BRepBuilderAPI_MakeFace(gp_Pln(), BRepBuilderAPI_MakeWire(outer, side, inner).Wire());
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sickle));
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sickle), {.deflection = 1e-2});
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   EXPECT_EQ(model.fine.curves.size(), 3u);
   EXPECT_EQ(count(model.fine).euler, 1);

@@ -62,8 +62,9 @@ TEST_P(SharedModels, ProjectToTheirSurfacesAndCurves) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // The deflection is 1/2000; the mapped box is somewhat smaller than the kernel's.
-  const double near = 6e-4 * norm(high - low), same = 1e-9 * norm(high - low);
+  // The deflection is 1/2000 of the kernel's box, somewhat larger than ours. One free-form surface of A319
+  // folds onto itself at a tip, where points of both sheets, 2e-9 apart, are foot points.
+  const double near = 6e-4 * norm(high - low), same = 5e-9 * norm(high - low);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec3 x = 1.0 / 3 * (mesh.points[a] + mesh.points[b] + mesh.points[c]);

@@ -1,0 +1,310 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "io/irregular_vertices.h"
+#include "io/item_buffer.h"
+#include "io/picture.h"
+#include "io/svg.h"
+#include "mesh/half_edges.h"
+#include "metrics/metrics.h"
+
+namespace delquad {
+
+namespace {
+
+using svg::Path;
+using svg::Picture;
+
+/// Beyond this many elements edges would only blacken the picture.
+constexpr size_t kMostElementsWithEdges = 30'000;
+
+Vec3 unit(const Vec3& v) { return (1 / norm(v)) * v; }
+
+/// A parallel projection: x right, y up, z towards the viewer.
+struct View {
+  Vec3 right, up, towards;
+  Vec3 operator()(const Vec3& p) const { return {dot(right, p), dot(up, p), dot(towards, p)}; }
+};
+
+/// From the direction `towards`, the z axis upright.
+View view_from(const Vec3& towards) {
+  View view;
+  view.towards = unit(towards);
+  view.right = unit(cross({0, 0, 1}, view.towards));
+  view.up = cross(view.towards, view.right);
+  return view;
+}
+
+std::vector<Vec3> seen(const View& view, const std::vector<Vec3>& points) {
+  std::vector<Vec3> result;
+  result.reserve(points.size());
+  for (const Vec3& p : points) result.push_back(view(p));
+  return result;
+}
+
+template <size_t N>
+Vec3 area_vector(const std::vector<Vec3>& points, const std::array<int, N>& v) {
+  if constexpr (N == 3) return 0.5 * cross(points[v[1]] - points[v[0]], points[v[2]] - points[v[0]]);
+  return 0.5 * cross(points[v[2]] - points[v[0]], points[v[N - 1]] - points[v[1]]);
+}
+
+/// Elements of a projected mesh on a raster that just holds it.
+class Raster {
+ public:
+  Raster(const Mesh& mesh, double samples_a_unit) : mesh_(mesh), scale_(samples_a_unit), buffer_(0, 0) {
+    Vec3 high = low_ = mesh.points[0];
+    for (const Vec3& p : mesh.points) {
+      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Vec3 size = scale_ * (high - low_);
+    buffer_ = ItemBuffer(static_cast<int>(size.x) + 2, static_cast<int>(size.y) + 2);
+    for_each_element(mesh, [&](int element, const auto& v) {
+      for_each_part(v, [&](const std::array<Vec3, 3>& part) { buffer_.add(element, part); });
+    });
+  }
+
+  const ItemBuffer& buffer() const { return buffer_; }
+
+  enum class Visibility { kHidden, kPartly, kWholly };
+  template <size_t N>
+  Visibility of(const std::array<int, N>& v) const {
+    constexpr double kRounding = 1e-7;  // samples
+    int samples = 0, nearest = 0;
+    Vec3 centre;
+    for_each_part(v, [&](const std::array<Vec3, 3>& part) {
+      centre = (1.0 / 3) * (part[0] + part[1] + part[2]);
+      buffer_.for_each_sample(part, [&](size_t at, double depth) {
+        ++samples;
+        nearest += depth >= buffer_.depth(at) - kRounding;
+      });
+    });
+    if (samples == 0) return sees(centre) ? Visibility::kPartly : Visibility::kHidden;
+    return nearest == 0 ? Visibility::kHidden : nearest < samples ? Visibility::kPartly : Visibility::kWholly;
+  }
+
+  bool sees_point(const Vec3& p) const { return sees(to_samples(p)); }
+
+ private:
+  Vec3 to_samples(const Vec3& p) const { return scale_ * (p - low_); }
+
+  bool sees(const Vec3& p) const {
+    constexpr double kSlack = 1.5;  // samples: a surface may come as much nearer from one to the next
+    return p.z > buffer_.depth_around(p.x, p.y) - kSlack;
+  }
+
+  template <size_t N, class Visit>
+  void for_each_part(const std::array<int, N>& v, Visit visit) const {
+    const auto at = [&](size_t k) { return to_samples(mesh_.points[v[k]]); };
+    for (size_t k = 1; k + 1 < N; ++k) visit({at(0), at(k), at(k + 1)});
+  }
+
+  const Mesh& mesh_;
+  double scale_;
+  Vec3 low_;
+  ItemBuffer buffer_;
+};
+
+double largest_extent(const std::vector<Vec3>& points) {
+  double extent = 0;
+  for (const Vec3& p : points) {
+    const Vec3 d = p - points[0];
+    extent = std::max({extent, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  }
+  return extent;
+}
+
+/// Area of the surface that is seen, except at grazing angles.
+double seen_area(const Mesh& projected) {
+  constexpr double kSamples = 200, kGrazing = 0.2;  // across; cosine
+  const double extent = largest_extent(projected.points);
+  if (!(extent > 0)) return 0;
+  std::vector<double> cosine;
+  for_each_element(projected, [&](int, const auto& v) {
+    const Vec3 area = area_vector(projected.points, v);
+    cosine.push_back(std::abs(area.z) / norm(area));
+  });
+  double area = 0;
+  const Raster raster(projected, kSamples / extent);
+  for (const int item : raster.buffer().items()) {
+    if (item >= 0 && cosine[item] > kGrazing) area += 1 / cosine[item];
+  }
+  return area * extent * extent;
+}
+
+/// The mesh seen from that corner of a cube around it from which most of it is seen, rather from above.
+Mesh best_view(const Mesh& mesh) {
+  constexpr double kClearly = 1.02;  // times as much area as the views before
+  Mesh best, projected = mesh;
+  double most = -1;
+  for (const double z : {1.0, -1.0}) {
+    for (const auto& [x, y] : {std::pair{1.0, -1.0}, {-1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+      projected.points = seen(view_from({x, y, z}), mesh.points);
+      const double area = seen_area(projected);
+      if (area <= kClearly * most) continue;
+      most = area;
+      best = projected;
+    }
+  }
+  return best;
+}
+
+/// Colour `rgb` (#rrggbb) in light of strength t.
+std::string shaded(const std::string& rgb, double t) {
+  std::string result = "#";
+  for (size_t k = 1; k < 7; k += 2) {
+    const double channel = static_cast<double>(std::strtol(rgb.substr(k, 2).c_str(), nullptr, 16));
+    result += fmt::format("{:02x}", static_cast<int>(std::lround(channel * t)));
+  }
+  return result;
+}
+
+/// From 0 to 1, in few steps so that many elements share a colour.
+double brightness(const Vec3& area) {
+  constexpr double kSteps = 16, kAmbient = 0.6;
+  const Vec3 light = unit({-0.4, 0.6, 1});
+  const double n = norm(area);
+  const double facing = n > 0 ? dot(area.z < 0 ? -1 * area : area, light) / n : 0;
+  return kAmbient + (1 - kAmbient) * std::round(kSteps * std::max(facing, 0.0)) / kSteps;
+}
+
+std::string face_colour(int region) {
+  static constexpr std::array<const char*, 12> kPale = {"#e3e3e3", "#a6cee3", "#b2df8a", "#fdbf6f",
+                                                        "#cab2d6", "#fb9a99", "#ffff99", "#8dd3c7",
+                                                        "#d9b48f", "#bebada", "#ccebc5", "#fccde5"};
+  return kPale[static_cast<size_t>(region) % kPale.size()];
+}
+
+/// Fill of each element: eta of quads, a colour a region for triangles.
+std::vector<std::string> fills(const Mesh& projected) {
+  constexpr int kColours = 32;
+  const std::vector<double> eta = quad_etas(projected);
+  const size_t n_triangles = projected.triangles.size();
+  std::vector<std::string> fill;
+  for_each_element(projected, [&](int element, const auto& v) {
+    const size_t e = static_cast<size_t>(element);
+    std::string base;
+    if (e < n_triangles) {
+      base = face_colour(projected.quads.empty() ? projected.triangle_region[e] : 0);
+    } else {
+      const int step = std::min(static_cast<int>(eta[e - n_triangles] * kColours), kColours - 1);
+      base = svg::colour((step + 0.5) / kColours);
+    }
+    fill.push_back(shaded(base, brightness(area_vector(projected.points, v))));
+  });
+  return fill;
+}
+
+/// Elements that are seen: first those that others cover in part, far ones first; the rest cover each other
+/// nowhere and need no order.
+class ElementLayers {
+ public:
+  ElementLayers(const Mesh& mesh, const Raster& raster, const Picture& picture) : fill_(fills(mesh)) {
+    for_each_element(mesh, [&](int element, const auto& v) {
+      const auto visibility = raster.of(v);
+      if (visibility == Raster::Visibility::kHidden) return;
+      constexpr int kLeast = -8,
+                    kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
+      const double size = std::sqrt(std::abs(area_vector(mesh.points, v).z)) * picture.scale();
+      const int step =
+          size > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(size))), kLeast, kMost) : kLeast;
+      std::vector<svg::Spot> corners;
+      double depth = 0;
+      for (const int i : v) {
+        corners.push_back(picture.spot(mesh.points[i]));
+        depth += mesh.points[i].z / static_cast<double>(v.size());
+      }
+      if (visibility == Raster::Visibility::kWholly) {
+        front_[{-step, fill_[element]}].polygon(corners);
+      } else {
+        behind_.push_back({depth, element, step, std::move(corners)});
+      }
+    });
+    std::sort(behind_.begin(), behind_.end(), [](const Behind& a, const Behind& b) {
+      return a.depth != b.depth ? a.depth < b.depth : a.element < b.element;
+    });
+  }
+
+  void draw(Picture& picture, bool with_edges) const {
+    const auto add = [&](const Path& path, const std::string& fill, int step) {
+      constexpr double kEdgeWidth = 0.06;  // of the element's size
+      constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between neighbours drawn without edges
+      picture.add(path, fill, with_edges ? "#222" : fill,
+                  with_edges ? kEdgeWidth * std::exp2(0.5 * step) : kSeamWidth);
+    };
+    for (const Behind& one : behind_) {
+      Path path;
+      path.polygon(one.corners);
+      add(path, fill_[one.element], one.step);
+    }
+    for (const auto& [key, path] : front_) add(path, key.second, -key.first);
+  }
+
+ private:
+  struct Behind {
+    double depth;
+    int element, step;
+    std::vector<svg::Spot> corners;
+  };
+  std::vector<std::string> fill_;
+  std::vector<Behind> behind_;
+  std::map<std::pair<int, std::string>, Path> front_;  // large elements first
+};
+
+/// Curves of the model and free edges, where they are seen.
+Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) {
+  Path path;
+  const auto add = [&](int a, int b) {
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b];
+    if (raster.sees_point(0.5 * (p + q))) path.segment(picture.spot(p), picture.spot(q));
+  };
+  for (const auto& [a, b] : mesh.lines) add(a, b);
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 1) add(edge[0].lo, edge[0].hi);
+  });
+  return path;
+}
+
+std::vector<svg::Mark> seen_irregular_vertices(const Mesh& mesh, const Raster& raster, double scale) {
+  std::vector<double> size;
+  for_each_element(mesh, [&](int, const auto& v) {
+    size.push_back(std::sqrt(std::abs(area_vector(mesh.points, v).z)) * scale);
+  });
+  constexpr int kRegular = 4;
+  constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the size of the elements around; pixels
+  std::vector<svg::Mark> marks;
+  for (const IrregularVertex& irregular : irregular_vertices(mesh, kRegular, size)) {
+    const Vec3& p = mesh.points[irregular.vertex];
+    if (!raster.sees_point(p)) continue;
+    const int index = kRegular - irregular.valence;
+    marks.push_back(
+        {{p.x, p.y}, std::abs(index) == 1 ? index : 0, std::clamp(kRadius * irregular.size, kLeast, kMost)});
+  }
+  return marks;
+}
+
+}  // namespace
+
+void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std::string& title) {
+  const Mesh projected = best_view(mesh);
+  Picture picture(projected.points, title);
+  constexpr double kSamplesAPixel = 2;
+  const Raster raster(projected, kSamplesAPixel * picture.scale());
+  ElementLayers(projected, raster, picture)
+      .draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostElementsWithEdges);
+  constexpr double kLineWidth = 1.1;
+  picture.add(seen_lines(projected, raster, picture), "none", "#000", kLineWidth);
+  if (!mesh.quads.empty()) {
+    const std::vector<svg::Mark> marks = seen_irregular_vertices(projected, raster, picture.scale());
+    picture.add_marks(marks);
+    picture.add_colour_bar("eta",
+                           {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
+    if (!marks.empty()) picture.add_mark_legend({{1, "valence 3"}, {-1, "valence 5"}, {0, "other valence"}});
+  }
+  picture.write(path);
+}
+
+}  // namespace delquad

@@ -1,0 +1,150 @@
+#include "surfaces/curve_nodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "algorithms/recombination/t_join.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+/// Splitting a curve of one or two edges distorts it most: the T-join avoids these where it can.
+constexpr double kFewEdgesPenalty = 4;
+
+/// n + 1 or n - 1, whichever is nearer to the integral in ratio and allowed.
+int changed_by_one(int n, const CurveDemand& curve) {
+  if (n - 1 < curve.minimum) return n + 1;
+  const auto misfit = [&](int m) { return std::abs(std::log(m / std::max(curve.integral, 1e-3))); };
+  return misfit(n - 1) < misfit(n + 1) ? n - 1 : n + 1;
+}
+
+}  // namespace
+
+std::vector<CurveChain> curve_chains(const Mesh& fine) {
+  std::vector<CurveChain> chains(fine.curves.size());
+  for (size_t i = 0; i < fine.lines.size(); ++i) {
+    auto& points = chains[fine.line_curve[i]].points;
+    const auto& [a, b] = fine.lines[i];
+    if (points.empty()) points.push_back(a);
+    if (points.back() != a) {
+      throw InputError(
+          fmt::format("curve {}: its lines do not form one chain", fine.curves[fine.line_curve[i]].tag));
+    }
+    points.push_back(b);
+  }
+  for (size_t c = 0; c < chains.size(); ++c) {
+    if (chains[c].points.empty()) throw InputError(fmt::format("curve {} has no lines", fine.curves[c].tag));
+  }
+  return chains;
+}
+
+std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
+                             const MatchingSolver& solver, std::vector<int>& odd_patches) {
+  std::vector<int> counts;
+  std::vector<int> total(n_patches, 0);
+  WeightedGraph graph{n_patches + 1, {}};  // the last node is the outside
+  std::vector<int> curve_of_edge;
+  for (size_t c = 0; c < curves.size(); ++c) {
+    const CurveDemand& curve = curves[c];
+    const int n = std::max(curve.minimum, static_cast<int>(std::lround(curve.integral)));
+    counts.push_back(n);
+    for (const int p : curve.patches) total[p] += n;
+    if (curve.patches.empty() || curve.patches.size() > 2)
+      continue;  // more than two: no single edge of the graph
+    const int a = curve.patches[0], b = curve.patches.size() == 2 ? curve.patches[1] : n_patches;
+    if (a == b) continue;
+    const double change = std::abs(std::log(changed_by_one(n, curve) / static_cast<double>(n)));
+    graph.edges.push_back({a, b, change * (n <= 2 ? kFewEdgesPenalty : 1)});
+    curve_of_edge.push_back(static_cast<int>(c));
+  }
+  std::vector<int> terminals;
+  for (int p = 0; p < n_patches; ++p) {
+    if (total[p] % 2) terminals.push_back(p);
+  }
+  // The outside takes part where its component has an odd number of odd patches.
+  TJoin join = minimum_t_join(graph, terminals, solver);
+  if (!join.unmatched.empty()) {
+    std::vector<int> with_outside = terminals;
+    with_outside.push_back(n_patches);
+    const TJoin other = minimum_t_join(graph, with_outside, solver);
+    if (std::count_if(other.unmatched.begin(), other.unmatched.end(), [&](int t) { return t < n_patches; }) <
+        static_cast<long>(join.unmatched.size())) {
+      join = other;
+    }
+  }
+  for (const int e : join.edges) {
+    const int c = curve_of_edge[e];
+    counts[c] = changed_by_one(counts[c], curves[c]);
+  }
+  odd_patches.clear();
+  for (const int t : join.unmatched) {
+    if (t < n_patches) odd_patches.push_back(t);
+  }
+  std::sort(odd_patches.begin(), odd_patches.end());
+  return counts;
+}
+
+std::vector<double> size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size) {
+  // Two-point Gauss on each fine line, which is short against the size wherever the model is curved, cut into
+  // pieces where it is not.
+  constexpr int kPieces = 8;
+  constexpr double kGauss = 0.21132486540518713;  // (1 - 1/sqrt 3) / 2
+  std::vector<double> integral = {0};
+  for (size_t i = 0; i + 1 < chain.points.size(); ++i) {
+    const Vec3 a = fine.points[chain.points[i]], d = fine.points[chain.points[i + 1]] - a;
+    double sum = 0;
+    for (int k = 0; k < kPieces; ++k) {
+      for (const double g : {kGauss, 1 - kGauss}) sum += 1 / size(a + ((k + g) / kPieces) * d);
+    }
+    integral.push_back(integral.back() + norm(d) * sum / (2 * kPieces));
+  }
+  return integral;
+}
+
+namespace {
+
+Vec3 projected(const SurfaceModel& model, int curve, int cut_face, const Vec3& x) {
+  if (!model.projector) return x;
+  return cut_face >= 0 ? model.projector->to_face(cut_face, x) : model.projector->to_curve(curve, x);
+}
+
+}  // namespace
+
+SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
+                         const std::vector<int>& cut_face, const std::vector<std::vector<double>>& integrals,
+                         const std::vector<int>& counts) {
+  const Mesh& fine = model.fine;
+  SurfaceNodes nodes;
+  std::unordered_map<int, int> node_of_point;  // only looked up, never iterated
+  const auto end_node = [&](int point) {
+    const auto [it, added] = node_of_point.try_emplace(point, static_cast<int>(nodes.points.size()));
+    if (added) nodes.points.push_back(fine.points[point]);
+    return it->second;
+  };
+  for (size_t c = 0; c < chains.size(); ++c) {
+    const auto& points = chains[c].points;
+    const auto& integral = integrals[c];
+    auto& on_curve = nodes.on_curve.emplace_back();
+    on_curve.push_back({0, end_node(points.front())});
+    size_t line = 0;
+    for (int k = 1; k < counts[c]; ++k) {
+      const double target = integral.back() * k / counts[c];
+      while (line + 2 < integral.size() && integral[line + 1] < target) ++line;
+      const double t =
+          std::clamp((target - integral[line]) / (integral[line + 1] - integral[line]), 0.0, 1.0);
+      const Vec3 a = fine.points[points[line]], b = fine.points[points[line + 1]];
+      const Vec3 x = a + t * (b - a);
+      on_curve.push_back({line + t, static_cast<int>(nodes.points.size())});
+      nodes.points.push_back(projected(model, static_cast<int>(c), cut_face[c], x));
+    }
+    on_curve.push_back({static_cast<double>(points.size() - 1), end_node(points.back())});
+  }
+  return nodes;
+}
+
+}  // namespace delquad

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "algorithms/recombination/matching.h"
+#include "geometry/planar_model.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// A curve of the fine triangulation as a polyline: fine points from end to end; a closed one ends where it
+/// begins.
+struct CurveChain {
+  std::vector<int> points;
+  bool closed() const { return points.front() == points.back(); }
+};
+
+/// Of each curve of the model. Throws InputError where the lines of a curve do not form one chain.
+std::vector<CurveChain> curve_chains(const Mesh& fine);
+
+/// How many edges a curve wants and must have.
+struct CurveDemand {
+  double integral = 0;  ///< of ds/delta along it
+  int minimum = 1;
+  std::vector<int> patches;  ///< that it bounds; a seam names its patch twice
+};
+
+/// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
+/// them. The curves to change by one are a minimum-weight T-join over patches and curves (odd patches are the
+/// terminals; the curves of the outline lead to an outside whose parity is free), weighted by |log((n +- 1) /
+/// integral)|. `odd_patches` receives the patches for which there is none.
+std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
+                             const MatchingSolver& solver, std::vector<int>& odd_patches);
+
+/// A node on a curve: at `s` in [0, number of lines], the fine line's index plus the fraction along it.
+struct CurveNode {
+  double s;
+  int node;  ///< in SurfaceNodes::points
+};
+
+struct SurfaceNodes {
+  std::vector<Vec3> points;
+  std::vector<std::vector<CurveNode>> on_curve;  ///< of each curve, ascending in s, both ends included
+};
+
+/// Integral of ds/delta from the curve's beginning to each of its fine points.
+std::vector<double> size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size);
+
+/// Places nodes at equal integrals and projects them to the curves, or to the faces that cuts run through
+/// (`cut_face`: of each curve, -1 where it is no cut); ends of curves that meet share their node.
+SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
+                         const std::vector<int>& cut_face, const std::vector<std::vector<double>>& integrals,
+                         const std::vector<int>& counts);
+
+}  // namespace delquad

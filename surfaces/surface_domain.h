@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/recombination/matching.h"
+#include "fields/fields.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/surface_model.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
+struct SurfacePatch {
+  FlatPatch map;
+  PatchBoundary boundary;
+  std::shared_ptr<const BackgroundMesh> background;  ///< the map's triangulation
+};
+
+struct SurfaceDomain {
+  Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
+  std::vector<SurfacePatch> patches;
+  std::vector<std::string> warnings;
+};
+
+/// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
+/// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
+/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd.
+/// Throws InputError when no refinement gives a valid boundary, naming the face.
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                                  const MatchingSolver& solver);
+
+/// delta' of a patch: delta at the point in space, times the local stretch parameter length / surface length,
+/// which is |det M|^(-1/4) (the paper's sections 2 and 5 print +1/4), averaged to the map's vertices so that
+/// it is continuous.
+class SurfacePatchSize final : public ParametricSize {
+ public:
+  SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SizeField& size);
+  double at(Vec2 u, int& hint) const override;
+
+ private:
+  const SurfacePatch& patch_;
+  const Mesh& fine_;
+  const SizeField& size_;
+  std::vector<double> stretch_;  ///< of each vertex of the map
+};
+
+/// The point of space at u: on the fine triangulation, then projected to the true surface where there is one.
+Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint);
+
+}  // namespace delquad

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "io/mesh_io.h"
+#include "mesh/error.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+const std::string kSquare = "OFF\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+
+class Off : public ::testing::Test {
+ protected:
+  Mesh read(const std::string& text) {
+    return read_mesh(testing_support::write_text(folder_ / "case.off", text));
+  }
+  bool reads(const std::string& text) {
+    try {
+      read(text);
+      return true;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("case.off:"), std::string::npos) << error.what();
+      return false;
+    }
+  }
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Off, ReadsPlainFiles) {
+  const Mesh mesh = read(kSquare);
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+}
+
+TEST_F(Off, IgnoresCommentsColoursNormalsAndUnusedPoints) {
+  const Mesh mesh = read(
+      "# made by hand\nCNOFF # colours and normals\n\n5 2 0 # counts\n# points\n0 0 0 0 0 1 255 0 0 255\n"
+      "9 9 9 0 0 1 1 1 1 1\n1 0 0 0 0 1 .5 .5 .5 1 # a point\n\n1 1 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n"
+      "4 0 2 3 4 255 0 0\n# a triangle\n3 0 2 3 0.5 0.5 0.5 # red\n# the end");
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
+}
+
+TEST_F(Off, CountsMayFollowTheKeyword) { EXPECT_TRUE(reads("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2")); }
+
+TEST_F(Off, NamesTheLineOfWhatIsWrong) {
+  const auto expect_error = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read(text); }, parts);
+  };
+  const std::string points = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  expect_error("", {"case.off:1: ", "'OFF'"});
+  expect_error("ply\n", {"case.off:1: ", "'OFF'", "'ply'"});
+  expect_error("4OFF\n", {"case.off:1: ", "three coordinates", "'4OFF'"});
+  expect_error("OFF BINARY\n", {"case.off:1: ", "binary"});
+  expect_error("OFF\n3 x 0\n", {"case.off:2: ", "number of faces", "'x'"});
+  expect_error("OFF\n-3 1 0\n", {"case.off:2: ", "'-3'"});
+  expect_error("OFF\n2000000000 1 0\n0 0 0\n", {"case.off:2: ", "2000000000 vertices", "bytes"});
+  expect_error("OFF\n3 2000000000 0\n0 0 0\n", {"case.off:2: ", "2000000000 faces", "bytes"});
+  expect_error("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {"case.off:3: ", "three coordinates"});
+  expect_error("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", {"case.off:3: ", "finite", "'nan'"});
+  expect_error(points + "3 0 1 3\n", {"case.off:6: ", "from 0 to 2", "'3'"});
+  expect_error(points + "3 0 -1 2\n", {"case.off:6: ", "'-1'"});
+  expect_error(points + "5 0 1 2 0 1\n", {"case.off:6: ", "face of 5 vertices", "triangle"});
+  expect_error(points + "2 0 1    \n", {"case.off:6: ", "face of 2 vertices"});
+  expect_error(points + "3 0 1 2\n3 0 1 2\n", {"case.off:7: ", "end of the file after 1 faces"});
+  expect_error("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", {"case.off:", "no faces"});
+}
+
+TEST_F(Off, EveryTruncationIsRefused) {
+  for (size_t n = 0; n + 1 < kSquare.size(); ++n) EXPECT_FALSE(reads(kSquare.substr(0, n))) << n;
+}
+
+TEST_F(Off, FlippedBitsAreReadOrRefused) {
+  std::mt19937 random(7);
+  int refused = 0;
+  constexpr int kTrials = 500;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::string text = kSquare;
+    for (unsigned flips = 1 + random() % 3; flips > 0; --flips) {
+      text[random() % text.size()] ^= static_cast<char>(1u << random() % 8);
+    }
+    refused += reads(text) ? 0 : 1;
+  }
+  EXPECT_GT(refused, kTrials / 2);
+  EXPECT_LT(refused, kTrials) << "some flips only move a point";
+}
+
+TEST_F(Off, IsNamedAmongTheKnownFormats) {
+  expect_input_error([&] { read_mesh(folder_ / "case.ply"); }, {".msh", ".obj", ".off", ".stl", "'.ply'"});
+}
+
+}  // namespace
+}  // namespace delquad

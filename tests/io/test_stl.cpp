@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "io/mesh_io.h"
+#include "mesh/error.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using Facet = std::array<std::array<float, 3>, 3>;
+
+const std::vector<Facet> kTetrahedron = {{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}},
+                                         {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}},
+                                         {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
+                                         {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+
+std::string text_file(const std::vector<Facet>& facets, const std::string& name = "part one") {
+  std::string text = "solid " + name + "\n";
+  for (const Facet& facet : facets) {
+    text += " facet normal nan 0 1e0\n  outer loop\n";
+    for (const auto& p : facet) {
+      text += "   vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) +
+              "\n";
+    }
+    text += "  endloop\n endfacet\n";
+  }
+  return text + "endsolid " + name + "\n";
+}
+
+std::string bytes_of(std::uint32_t value) {
+  std::string bytes;
+  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 255);
+  return bytes;
+}
+
+std::string binary_file(const std::vector<Facet>& facets, std::string header = "made by a test") {
+  header.resize(80);
+  std::string bytes = header + bytes_of(static_cast<std::uint32_t>(facets.size()));
+  for (const Facet& facet : facets) {
+    bytes += std::string(12, '\xff');  // a normal that is not a number
+    for (const auto& p : facet) {
+      for (const float x : p) bytes += bytes_of(std::bit_cast<std::uint32_t>(x));
+    }
+    bytes += "\x01\x80";
+  }
+  return bytes;
+}
+
+class Stl : public ::testing::Test {
+ protected:
+  Mesh read(const std::string& content) {
+    return read_stl(testing_support::write_text(folder_ / "case.stl", content));
+  }
+  void expect_error(const std::string& content, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read(content); }, parts);
+  }
+  /// Whether it is read; nothing but an InputError that names the file may come out otherwise.
+  bool reads(const std::string& content) {
+    try {
+      const Mesh mesh = read(content);
+      for (const Vec3& p : mesh.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+      return true;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("case.stl:"), std::string::npos) << error.what();
+      return false;
+    }
+  }
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Stl, TextAndBinaryGiveOneClosedMesh) {
+  const std::string solid_header = "solid as some programs write it";
+  for (const std::string& content :
+       {text_file(kTetrahedron), binary_file(kTetrahedron), binary_file(kTetrahedron, solid_header)}) {
+    const Mesh mesh = read(content);
+    EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}}));
+    EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+  }
+}
+
+TEST_F(Stl, KeywordsInAnyCaseWithoutANameAndWithNegativeZeros) {
+  const Mesh mesh = read(
+      "SOLID\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\n"
+      "Facet Normal 0 0 1\nOuter Loop\nVertex 1 0 -0.0\nVertex 1 1 0\nVertex -0 1 "
+      "0\nEndLoop\nEndFacet\nEndSolid");
+  EXPECT_EQ(mesh.points.size(), 4u);
+  ASSERT_EQ(mesh.regions.size(), 1u);
+  EXPECT_TRUE(mesh.regions[0].names.empty());
+}
+
+TEST_F(Stl, EachSolidOfATextIsARegion) {
+  const Mesh mesh = read(text_file({kTetrahedron[0]}, "left wing") + text_file({kTetrahedron[3]}, "right"));
+  ASSERT_EQ(mesh.regions.size(), 2u);
+  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"left wing"}));
+  EXPECT_EQ(mesh.regions[1].tag, 2);
+  EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 1}));
+}
+
+TEST_F(Stl, NamesTheLineOrByteOfWhatIsWrong) {
+  expect_error("", {"case.stl", "0 bytes"});
+  expect_error("solid a\nendsolid a\n", {"case.stl", "no triangles"});
+  expect_error(binary_file({}), {"case.stl", "no triangles"});
+  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\n",
+               {"case.stl:5: ", "coordinate", "'endloop'"});
+  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n",
+               {"case.stl:4: ", "finite", "'nan'"});
+  expect_error("solid a\nfoo\n", {"case.stl:2: ", "'endsolid'", "'foo'"});
+  std::string four = text_file({kTetrahedron[0]});
+  four.insert(four.find("  endloop"), "vertex 5 5 5\n");
+  expect_error(four, {"case.stl:7: ", "'endloop'", "'vertex'"});
+
+  const std::string binary = binary_file(kTetrahedron);
+  expect_error(binary.substr(0, 100), {"100 bytes", "4 triangles", "284"});
+  expect_error(binary + "x", {"285 bytes", "4 triangles", "284"});
+  expect_error("solid " + binary.substr(6, 150), {"156 bytes", "4 triangles"});
+  const float nan = std::nanf("");
+  expect_error(binary_file({kTetrahedron[0], {{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}}}),
+               {"byte 174: ", "finite"});
+  std::string huge = binary;
+  huge.replace(80, 4, "\xff\xff\xff\xff");
+  expect_error(huge, {"4294967295 triangles"});
+}
+
+TEST_F(Stl, EveryTruncationIsRefused) {
+  const std::string text = text_file(kTetrahedron, "t"), binary = binary_file(kTetrahedron);
+  const size_t name = std::string(" t\n").size();
+  for (size_t n = 0; n < text.size() - name; ++n) EXPECT_FALSE(reads(text.substr(0, n))) << n;
+  for (size_t n = 0; n < binary.size(); ++n) EXPECT_FALSE(reads(binary.substr(0, n))) << n;
+  EXPECT_TRUE(reads(text) && reads(binary));
+}
+
+TEST_F(Stl, FlippedBitsAreReadOrRefused) {
+  std::mt19937 random(7);
+  for (const std::string& content : {text_file(kTetrahedron), binary_file(kTetrahedron)}) {
+    int refused = 0;
+    constexpr int kTrials = 400;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::string changed = content;
+      for (unsigned flips = 1 + random() % 3; flips > 0; --flips) {
+        changed[random() % changed.size()] ^= static_cast<char>(1u << random() % 8);
+      }
+      refused += reads(changed) ? 0 : 1;
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_LT(refused, kTrials) << "some flips only move a point";
+  }
+}
+
+}  // namespace
+}  // namespace delquad

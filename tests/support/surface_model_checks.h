@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geometry/surface/surface_model.h"
+#include "mesh/half_edges.h"
+
+namespace delquad::testing_support {
+
+/// What breaks the promises of SurfaceModel, one line each.
+inline std::vector<std::string> violations(const SurfaceModel& model) {
+  const Mesh& mesh = model.fine;
+  std::vector<std::string> wrong = check_invariants(mesh);
+  std::set<std::array<int, 2>> lines;
+  for (const auto& [a, b] : mesh.lines) lines.insert({std::min(a, b), std::max(a, b)});
+  const auto sides = sorted_half_edges(mesh);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const bool inside =
+        edge.size() == 2 && mesh.triangle_region[edge[0].element] == mesh.triangle_region[edge[1].element];
+    if (!inside && !lines.contains({edge[0].lo, edge[0].hi})) {
+      wrong.push_back("no line between faces at point " + std::to_string(edge[0].lo));
+    }
+  });
+
+  // Chains: each line begins where the one before it ended, and only their ends are corners.
+  std::map<int, std::vector<std::array<int, 2>>> chains;
+  for (size_t i = 0; i < mesh.lines.size(); ++i) chains[mesh.line_curve[i]].push_back(mesh.lines[i]);
+  if (chains.size() != mesh.curves.size()) wrong.push_back("a curve without lines");
+  std::set<int> ends;
+  std::map<int, int> lines_at;
+  for (const auto& [curve, chain] : chains) {
+    for (size_t k = 1; k < chain.size(); ++k) {
+      if (chain[k - 1][1] != chain[k][0]) wrong.push_back("curve " + std::to_string(curve) + " is torn");
+      if (std::binary_search(model.corners.begin(), model.corners.end(), chain[k][0])) {
+        wrong.push_back("curve " + std::to_string(curve) + " runs through a corner");
+      }
+    }
+    const int first = chain.front()[0], last = chain.back()[1];
+    if (first != last) ends.insert({first, last});
+    for (const auto& [a, b] : chain) {
+      ++lines_at[a];
+      ++lines_at[b];
+    }
+  }
+  for (const auto& [point, n] : lines_at) {
+    if (n != 2) ends.insert(point);
+  }
+  for (const int point : ends) {
+    if (!std::binary_search(model.corners.begin(), model.corners.end(), point)) {
+      wrong.push_back("curves end at point " + std::to_string(point) + ", which is no corner");
+    }
+  }
+  for (const int point : model.corners) {
+    if (!lines_at.contains(point)) wrong.push_back("no curve at corner " + std::to_string(point));
+  }
+
+  // Faces hang together across sides that are no lines.
+  std::vector<int> part(mesh.triangles.size());
+  for (size_t t = 0; t < part.size(); ++t) part[t] = static_cast<int>(t);
+  const auto find = [&](int t) {
+    while (part[t] != t) t = part[t] = part[part[t]];
+    return t;
+  };
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 2 && !lines.contains({edge[0].lo, edge[0].hi}))
+      part[find(edge[0].element)] = find(edge[1].element);
+  });
+  std::map<int, std::set<int>> parts;
+  for (size_t t = 0; t < part.size(); ++t) parts[mesh.triangle_region[t]].insert(find(static_cast<int>(t)));
+  for (const auto& [face, some] : parts) {
+    if (some.size() > 1) wrong.push_back("face " + std::to_string(face) + " is in pieces");
+  }
+  if (parts.size() != mesh.regions.size()) wrong.push_back("a face without triangles");
+  return wrong;
+}
+
+/// Volume enclosed by a closed mesh of triangles.
+inline double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& v : mesh.triangles) {
+    sum += dot(mesh.points[v[0]], cross(mesh.points[v[1]], mesh.points[v[2]])) / 6;
+  }
+  return sum;
+}
+
+}  // namespace delquad::testing_support
