@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace delquad {
 
@@ -11,7 +11,7 @@ inline constexpr int kDone = 0, kInternalError = 1, kBadInput = 2, kTrianglesLef
 
 struct RunArguments {
   std::filesystem::path experiment, folder;
-  std::vector<std::string> pipelines;  ///< empty: those of the file
+  std::optional<std::string> pipelines;  ///< words separated by commas; else those of the file
   long long max_elements = 50'000'000;
   bool allow_triangles = false;
 };

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "apps/commands.h"
 #include "mesh/error.h"
+#include "pipeline/case.h"
 #include "pipeline/interrupt.h"
 
 namespace {
@@ -16,16 +20,28 @@ constexpr const char* kSizeHelp = "wanted edge length: a number, an expression i
 constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads than this";
 constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
 
+/// A whole number, which may be written as 1e6.
+const CLI::Validator kCount(
+    [](std::string& text) -> std::string {
+      constexpr double kMost = 1e15;  // far from overflow
+      const auto count = as_number(text);
+      if (!count || *count != std::floor(*count) || *count < 1 || *count > kMost)
+        return "'" + text.substr(0, 40) +
+               "': expected a whole number from 1 to 1e15, such as 50000000 or 1e6";
+      text = std::to_string(static_cast<long long>(*count));
+      return "";
+    },
+    "");
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment: every pipeline on every case, with tables and pictures");
   run->add_option("experiment", arguments.experiment, "experiment file (.toml)")->required();
   run->add_option("-o,--output", arguments.folder, "folder for the results")->required();
-  run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says")
-      ->delimiter(',');
+  run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
   run->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->transform(kCount);
   run->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
 }
 
@@ -41,7 +57,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("--json", arguments.json, "record to write");
   mesh->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->transform(kCount);
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
 }
 
@@ -71,18 +87,28 @@ int run_program(int argc, char** argv) {
   return metrics_command(metrics);
 }
 
+/// The exit code, unless what was printed did not reach its reader.
+int after_printing(int code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+  fmt::print(stderr, "error: the standard output cannot be written{}\n",
+             errno != 0 ? ": " + std::generic_category().message(errno) : "");
+  return code == kDone ? kBadInput : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   delquad::exit_on_interrupt();
   try {
-    return run_program(argc, argv);
+    return after_printing(run_program(argc, argv));
   } catch (const delquad::InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return delquad::kBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "internal error: out of memory\n");
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return after_printing(delquad::kDone);
     fmt::print(stderr, "internal error: {}\n", error.what());
   }
   return delquad::kInternalError;

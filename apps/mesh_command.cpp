@@ -3,27 +3,18 @@
 #include <cstdio>
 #include <ostream>
 
+#include "apps/check_files.h"
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
 #include "io/mesh_io.h"
 #include "mesh/error.h"
 #include "pipeline/case_file.h"
-#include "pipeline/experiment_runner.h"
 #include "pipeline/interrupt.h"
 #include "pipeline/record.h"
+#include "pipeline/runner.h"
 
 namespace delquad {
 namespace {
-
-/// Before any work: whether the file can be written at all.
-void check_output(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
-    throw InputError(path.string() + ": is a folder; expected a file to write");
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(path.string() + ": there is no folder '" + folder.string() + "'");
-  prepare_folder(folder);
-}
 
 void check_extension(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
@@ -40,6 +31,10 @@ int mesh_command(const MeshArguments& arguments) {
   c.options.max_elements = arguments.max_elements;
   if (!arguments.size.empty()) c.size = {arguments.size, {}, 0, "--size"};
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
+  check_distinct({{"the model", arguments.model},
+                  {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},
+                  {"-o", arguments.output},
+                  {"--json", arguments.json}});
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
 
@@ -48,6 +43,7 @@ int mesh_command(const MeshArguments& arguments) {
   const PreparedCase prepared = prepare_case(c);
   for (const std::string& warning : prepared.warnings) progress.message("warning: " + warning);
   const RunResult result = run_word(c, prepared, word, progress);
+  for (const std::string& warning : result.warnings) progress.message("warning: " + warning);
   {
     const Uninterrupted whole;
     write_mesh(arguments.output, result.mesh);

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "apps/check_files.h"
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
 #include "io/mesh_io.h"
@@ -11,6 +12,8 @@
 namespace delquad {
 
 int metrics_command(const MetricsArguments& arguments) {
+  check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
+  if (!arguments.json.empty()) check_output(arguments.json);
   const Mesh mesh = read_mesh(arguments.mesh);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");

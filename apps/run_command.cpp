@@ -4,12 +4,30 @@
 
 #include "apps/commands.h"
 #include "pipeline/experiment_runner.h"
+#include "pipeline/located.h"
 
 namespace delquad {
 
+namespace {
+
+/// Empty words are kept, for parse_words() to refuse.
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> words(1);
+  for (const char c : list) {
+    if (c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  return words;
+}
+
+}  // namespace
+
 int run_command(const RunArguments& arguments) {
   Experiment experiment = read_experiment(arguments.experiment);
-  if (!arguments.pipelines.empty()) experiment.words = parse_words(arguments.pipelines);
+  if (arguments.pipelines)
+    experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });
   for (Case& c : experiment.cases) c.options.max_elements = arguments.max_elements;
 
   ExperimentOutcome outcome;

@@ -21,10 +21,10 @@ struct CadOptions {
 /// these are no curves, the triangulation is connected across them. A region's names are those of its face,
 /// solids and products in STEP and its colour ("colour #rrggbb"). Normals of a solid point outwards. Invalid
 /// shapes are healed and coincident free edges sewn, and a warning says so; warnings also tell free and
-/// non-manifold curves. Projected points
-/// are accurate to 1e-9 of the diagonal where the surface is regular. Throws InputError naming the file for
-/// files that cannot be read or hold no face, and naming the faces that are unbounded, have no area, cross
-/// their own boundary or cannot be triangulated.
+/// non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the surface is regular.
+/// The kernel works in a child process, so that a damaged file cannot bring the program down. Throws
+/// InputError naming the file for files that cannot be read or hold no face, and naming the faces that are
+/// unbounded, have no area, cross their own boundary or cannot be triangulated.
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 
 }  // namespace delquad

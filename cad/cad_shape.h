@@ -32,6 +32,7 @@ class FaceNames {
 struct CadShape {
   TopoDS_Shape shape;
   FaceNames names;
+  double diagonal = 0;  ///< of the bounding box
   std::vector<std::string> warnings;
 };
 

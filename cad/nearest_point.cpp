@@ -13,6 +13,8 @@ namespace {
 /// Newton converges in 3 to 5 steps; more are needed only at kinks and poles.
 constexpr int kMostSteps = 50;
 constexpr int kMostHalvings = 30;
+/// Steps shorter than this many tolerances are taken as they are: rounding hides what the distance gains.
+constexpr double kSure = 1e4;
 
 /// The parameters that a variable may take.
 struct Range {
@@ -88,7 +90,7 @@ gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, dou
     gp_Pnt q;
     for (int k = 0; k < kMostHalvings; ++k, fraction /= 2) {
       q = surface.Value(range.u.clamp(u + fraction * step.u), range.v.clamp(v + fraction * step.v));
-      if (last || q.SquareDistance(x) <= r.SquareMagnitude()) break;
+      if (moved < kSure * tolerance || q.SquareDistance(x) <= r.SquareMagnitude()) break;
     }
     u = range.u.clamp(u + fraction * step.u);
     v = range.v.clamp(v + fraction * step.v);
@@ -112,8 +114,9 @@ gp_Pnt nearest_point(const Geom_Curve& curve, double first, double last, const g
     const double divisor = curvature > 0 ? curvature : slope2;
     double step = divisor > 0 ? -r.Dot(d1) / divisor : 0;
     if (range.stops(t, step)) step = 0;
-    const bool done = std::abs(step) * std::sqrt(slope2) < tolerance;
-    for (int k = 0; k < kMostHalvings && !done; ++k, step /= 2)
+    const double moved = std::abs(step) * std::sqrt(slope2);
+    const bool done = moved < tolerance;
+    for (int k = 0; k < kMostHalvings && moved > kSure * tolerance; ++k, step /= 2)
       if (curve.Value(range.clamp(t + step)).SquareDistance(x) <= r.SquareMagnitude()) break;
     t = range.clamp(t + step);
     p = curve.Value(t);

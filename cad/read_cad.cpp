@@ -1,23 +1,14 @@
 #include <fmt/format.h>
 
-#include <BRepBndLib.hxx>
-#include <BRepLib.hxx>
-#include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
-#include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
-#include <Precision.hxx>
-#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <new>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "cad/agree_faces.h"
 #include "cad/cad_reader.h"
-#include "cad/heal_shape.h"
-#include "cad/shape_file.h"
+#include "cad/prepare_shape.h"
 #include "cad/shape_projector.h"
 #include "cad/tessellate.h"
 #include "cad/weld_faces.h"
@@ -30,8 +21,6 @@ namespace cad {
 
 namespace {
 
-/// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
-constexpr double kSewing = 1e-6;
 /// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
 /// surfaces with a singular parametrisation, where Newton's method converges linearly.
 constexpr double kProjection = 1e-12;
@@ -40,47 +29,6 @@ TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kin
   TopTools_IndexedMapOfShape map;
   TopExp::MapShapes(shape, kind, map);
   return map;
-}
-
-double diagonal_of(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  // The geometry's own box: an old triangulation may lie.
-  BRepBndLib::Add(shape, box, /*useTriangulation=*/false);
-  if (box.IsVoid() || box.IsOpen()) throw InputError("the model has no extent, or an infinite one");
-  const double diagonal = std::sqrt(box.SquareExtent());
-  if (!(diagonal > 0) || Precision::IsInfinite(diagonal)) {
-    throw InputError("the model has no extent, or an infinite one");
-  }
-  return diagonal;
-}
-
-/// A face needs a surface, and a boundary unless its surface ends by itself.
-void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
-  if (faces.IsEmpty()) throw InputError("the model holds no face");
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(f)));
-    const std::string title = face_title(f, cad.names.of(faces(f)));
-    if (surface.IsNull()) throw InputError(title + " has no surface");
-    double u0, u1, v0, v1;
-    surface->Bounds(u0, u1, v0, v1);
-    if (TopExp_Explorer(faces(f), TopAbs_EDGE).More()) continue;
-    if (Precision::IsInfinite(u0) || Precision::IsInfinite(u1) || Precision::IsInfinite(v0) ||
-        Precision::IsInfinite(v1)) {
-      throw InputError(title + " has no boundary and its surface is infinite");
-    }
-  }
-}
-
-/// Every edge must have a curve in space; those that have one on a surface only get it computed.
-void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges) {
-  BRepLib::BuildCurves3d(shape);
-  for (int e = 1; e <= edges.Extent(); ++e) {
-    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
-    double first, last;
-    if (!BRep_Tool::Degenerated(edge) && BRep_Tool::Curve(edge, first, last).IsNull()) {
-      throw InputError(fmt::format("edge {} has no curve", e));
-    }
-  }
 }
 
 /// Faces of each solid, and of each shell outside solids.
@@ -145,17 +93,11 @@ void report_edges(SurfaceModel& model) {
 }
 
 SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) {
-  CadShape cad = read_shape(path);
-  check_faces(cad, parts(cad.shape, TopAbs_FACE));
-  const double diagonal = diagonal_of(cad.shape);
-  heal_shape(cad, kSewing * diagonal);
-
+  CadShape cad = prepare_shape(path, options);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
                                    edges = parts(cad.shape, TopAbs_EDGE);
-  check_faces(cad, faces);
-  complete_edges(cad.shape, edges);
-  std::vector<FaceMesh> meshes = tessellate(cad, faces, diagonal, options);
-  WeldedFaces welded = weld_faces(meshes, edges, options.deflection * diagonal);
+  std::vector<FaceMesh> meshes = face_meshes(cad, faces);
+  WeldedFaces welded = weld_faces(meshes, edges, options.deflection * cad.diagonal);
   if (!welded.bad_faces.empty()) {
     std::string list;
     for (const int f : welded.bad_faces)
@@ -171,7 +113,7 @@ SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) 
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
   orient(model, bodies(cad.shape, faces));
   report_edges(model);
-  model.projector = make_projector(std::move(meshes), welded.curves, kProjection * diagonal);
+  model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
   return model;
 }
 
@@ -182,11 +124,6 @@ SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) 
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
   try {
     return cad::read(path, options);
-  } catch (const Standard_Failure& failure) {
-    throw InputError(fmt::format("{}: damaged: the CAD kernel gave up: {} {}", path.string(),
-                                 failure.DynamicType()->Name(), failure.GetMessageString()));
-  } catch (const std::bad_alloc&) {
-    throw InputError(fmt::format("{}: damaged, or too large for the memory", path.string()));
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(path.string())) throw;
@@ -195,9 +132,3 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 }
 
 }  // namespace delquad
-
-#ifdef __SANITIZE_ADDRESS__
-/// The kernel keeps tables until the end of the program.
-extern "C" const char* __lsan_default_suppressions();
-const char* __lsan_default_suppressions() { return "leak:libTK\n"; }
-#endif

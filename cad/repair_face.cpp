@@ -136,4 +136,18 @@ double repair_face(const std::vector<Vec3>& points, const std::vector<std::array
   return worst;
 }
 
+bool is_manifold(const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<std::array<int, 2>> sides;
+  for (const Triangle& t : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::ranges::sort(sides);
+  for (std::size_t i = 2; i < sides.size(); ++i)
+    if (sides[i] == sides[i - 2]) return false;
+  return true;
+}
+
 }  // namespace delquad::cad

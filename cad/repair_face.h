@@ -15,4 +15,7 @@ namespace delquad::cad {
 double repair_face(const std::vector<Vec3>& points, const std::vector<std::array<int, 2>>& boundary,
                    std::vector<std::array<int, 3>>& triangles);
 
+/// True when no side belongs to more than two of the triangles.
+bool is_manifold(const std::vector<std::array<int, 3>>& triangles);
+
 }  // namespace delquad::cad

@@ -6,7 +6,8 @@
 
 namespace delquad::cad {
 
-/// Reads STEP or BREP, by content. Throws InputError naming the file.
+/// Reads STEP or BREP, by content; silences the kernel for good. Throws InputError without the name of the
+/// file.
 CadShape read_shape(const std::filesystem::path& path);
 
 }  // namespace delquad::cad

@@ -51,24 +51,6 @@ bool is_whole(const TopTools_IndexedMapOfShape& faces) {
   return true;
 }
 
-/// Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
-/// may not.
-void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
-                 double angle) {
-  constexpr int kMostTrials = 6;
-  constexpr double kFiner = 0.7;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
-    if (trial > 0) BRepTools::Clean(shape);
-    IMeshTools_Parameters parameters;
-    parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
-    parameters.Angle = angle * std::pow(kFiner, trial);
-    // The smallest sides follow the deflection, or a small edge's own length.
-    parameters.AdjustMinSize = true;
-    BRepMesh_IncrementalMesh(shape, parameters);
-    if (is_whole(faces)) return;
-  }
-}
-
 double area(const FaceMesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -84,9 +66,27 @@ std::string face_title(int number, const std::vector<std::string>& names) {
   return names.empty() ? fmt::format("face {}", number) : fmt::format("face {} ({})", number, names.front());
 }
 
-std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
-                                 double diagonal, const CadOptions& options) {
-  triangulate(cad.shape, faces, options.deflection * diagonal, options.angle);
+/// Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
+/// may not.
+void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
+                 double angle) {
+  // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
+  // may not.
+  constexpr int kMostTrials = 6;
+  constexpr double kFiner = 0.7;
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    if (trial > 0) BRepTools::Clean(shape);
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
+    parameters.Angle = angle * std::pow(kFiner, trial);
+    // The smallest sides follow the deflection, or a small edge's own length.
+    parameters.AdjustMinSize = true;
+    BRepMesh_IncrementalMesh(shape, parameters);
+    if (is_whole(faces)) return;
+  }
+}
+
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
   std::vector<FaceMesh> meshes;
   std::string unmeshed, flat;
   for (int f = 1; f <= faces.Extent(); ++f) {
@@ -94,7 +94,7 @@ std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapO
     const std::string title = face_title(f, cad.names.of(faces(f)));
     if (meshes.back().triangles.empty()) {
       append(unmeshed, title);
-    } else if (!(area(meshes.back()) > kNoArea * diagonal * diagonal)) {
+    } else if (!(area(meshes.back()) > kNoArea * cad.diagonal * cad.diagonal)) {
       append(flat, title);
     }
   }

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "cad/cad_reader.h"
 #include "cad/cad_shape.h"
 #include "mesh/vec.h"
 
@@ -25,9 +24,13 @@ struct FaceMesh {
 /// "face 12 (lid)", by its number and first name.
 std::string face_title(int number, const std::vector<std::string>& names);
 
-/// Triangulates the faces, in the map's order; neighbours have the same nodes along their edges. Throws
-/// InputError naming the faces that cannot be triangulated or have no area.
-std::vector<FaceMesh> tessellate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
-                                 double diagonal, const CadOptions& options);
+/// Triangulates the faces of a shape; the kernel keeps the triangulation in the shape. Neighbours have the
+/// same nodes along their edges. `deflection` is a length, `angle` in radians.
+void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
+                 double angle);
+
+/// The triangulations of the faces, in the map's order. Throws InputError naming the faces that have none, or
+/// no area.
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces);
 
 }  // namespace delquad::cad

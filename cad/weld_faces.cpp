@@ -156,7 +156,7 @@ class Welder {
       const std::array<int, 2> side{sets_.find(a), sets_.find(b)};
       if (side[0] != side[1]) boundary.push_back(side);
     }
-    if (repair_face(points_, boundary, triangles) > gap_) bad_faces_.push_back(f);
+    if (repair_face(points_, boundary, triangles) > gap_ || !is_manifold(triangles)) bad_faces_.push_back(f);
     return triangles;
   }
   int find(int f, int local) { return sets_.find(node_of_[f][local]); }

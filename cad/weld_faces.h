@@ -20,7 +20,7 @@ struct WeldedFaces {
   Mesh mesh;  ///< regions are the faces, without names
   std::vector<CurveMesh> curves;
   std::vector<int> corners;
-  std::vector<int> bad_faces;  ///< whose triangles missed their boundary by more than `gap`
+  std::vector<int> bad_faces;  ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
 /// Makes one node of those of all faces that stand for the same point: of an edge by their order along it

@@ -19,7 +19,7 @@ class ExpressionCross final : public CrossField {
     const double theta = theta_(values);
     if (!std::isfinite(theta)) {
       throw InputError(fmt::format("cross field '{}' is {} at ({:.6g}, {:.6g}); an angle must be finite",
-                                   theta_.text(), theta, u.x, u.y));
+                                   theta_.shown(), theta, u.x, u.y));
     }
     return Cross::from_angle(theta);
   }

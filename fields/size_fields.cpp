@@ -28,7 +28,7 @@ class ExpressionSize final : public SizeField {
   double at(const Vec3& x, int&) const override {
     const double values[] = {x.x, x.y, x.z};
     const double delta = delta_(values);
-    if (!is_size(delta)) throw bad_size(fmt::format("size field '{}'", delta_.text()), x, delta);
+    if (!is_size(delta)) throw bad_size(fmt::format("size field '{}'", delta_.shown()), x, delta);
     return delta;
   }
 
@@ -83,8 +83,9 @@ void check_source(const SizeSource& s, std::size_t index) {
 bool is_size(double delta) { return std::isfinite(delta) && delta > 0; }
 
 InputError bad_size(const std::string& field, const Vec3& x, double delta) {
+  const double shown = std::isnan(delta) ? std::abs(delta) : delta;  // not "-nan"
   return InputError(fmt::format("{} is {} at ({:.6g}, {:.6g}, {:.6g}); a size must be finite and positive",
-                                field, delta, x.x, x.y, x.z));
+                                field, shown, x.x, x.y, x.z));
 }
 
 std::unique_ptr<SizeField> make_constant_size(double delta) {

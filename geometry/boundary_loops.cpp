@@ -93,8 +93,7 @@ class LoopFinder {
     for (int v : used_) {
       const Vec3& p = mesh_.points[static_cast<std::size_t>(v)];
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        fail("node {} of {} is at ({}, {}, {}); finite coordinates were expected", v + 1, curve_at(v), p.x,
-             p.y, p.z);
+        fail("a node of {} is at ({}, {}, {}); finite coordinates were expected", curve_at(v), p.x, p.y, p.z);
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
@@ -116,8 +115,8 @@ class LoopFinder {
     for (std::size_t i = 1; i < used_.size(); ++i) {
       const int v = used_[i - 1], w = used_[i];
       if (at(v) == at(w))
-        fail("nodes {} and {} coincide at {}, on {} and {}: loops must not touch, and a node stands once",
-             v + 1, w + 1, place(v), curve_at(v), curve_at(w));
+        fail("two nodes coincide at {}, on {} and on {}: loops must not touch, and a node stands once",
+             place(v), curve_at(v), curve_at(w));
     }
     std::vector<int> order(mesh_.lines.size());
     std::iota(order.begin(), order.end(), 0);
@@ -225,6 +224,16 @@ class LoopFinder {
 };
 
 }  // namespace
+
+BoundaryNames names_of_curves(const Mesh& lines, const std::string& source) {
+  // By value: the mesh itself may move away while the names are still wanted.
+  const auto label = [curves = lines.curves](int c) {
+    const Entity& curve = curves[static_cast<std::size_t>(c)];
+    return curve.names.empty() ? fmt::format("curve {}", curve.tag)
+                               : fmt::format("curve '{}'", fmt::join(curve.names, "', '"));
+  };
+  return {source, label, ""};
+}
 
 std::vector<BoundaryLoop> find_loops(const Mesh& lines, const BoundaryNames& names) {
   return LoopFinder(lines, names).run();

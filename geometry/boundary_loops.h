@@ -15,6 +15,9 @@ struct BoundaryNames {
   std::string crossing_hint;              ///< added where lines meet; may be empty
 };
 
+/// Curves by their groups, or by their tags.
+BoundaryNames names_of_curves(const Mesh& lines, const std::string& source);
+
 /// A closed polygon of lines, counterclockwise, from its lexicographically smallest node on.
 struct BoundaryLoop {
   std::vector<int> nodes;

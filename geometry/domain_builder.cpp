@@ -127,13 +127,8 @@ PlanarDomain build_domain(Mesh lines, const std::vector<std::pair<int, std::stri
 }
 
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options) {
-  // By value: the mesh itself moves away while the names are still wanted.
-  const auto label = [curves = lines.curves](int c) {
-    const Entity& curve = curves[static_cast<std::size_t>(c)];
-    return curve.names.empty() ? fmt::format("curve {}", curve.tag)
-                               : fmt::format("curve '{}'", fmt::join(curve.names, "', '"));
-  };
-  return build_domain(std::move(lines), options.loop_regions, {options.source, label, ""});
+  const BoundaryNames names = names_of_curves(lines, options.source);
+  return build_domain(std::move(lines), options.loop_regions, names);
 }
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -14,10 +15,21 @@ namespace delquad {
 
 namespace {
 
+/// At most kMostShown characters from `first` on, on one line.
+std::string excerpt(const std::string& text, std::size_t first) {
+  std::string part = text.substr(first, Expression::kMostShown);
+  for (char& c : part)
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
+  return (first > 0 ? "..." : "") + part + (first + part.size() < text.size() ? "..." : "");
+}
+
 [[noreturn]] void fail(const std::string& text, const std::string& reason, int position) {
-  if (position < 0) throw InputError(fmt::format("expression '{}': {}", text, reason));
-  throw InputError(fmt::format("expression '{}', position {}: {}", text,
-                               std::min(position, static_cast<int>(text.size())) + 1, reason));
+  if (position < 0) throw InputError(fmt::format("expression '{}': {}", excerpt(text, 0), reason));
+  // Of a long text, what stands around the position.
+  constexpr std::size_t kBefore = Expression::kMostShown / 2;
+  const std::size_t at = std::min(static_cast<std::size_t>(position), text.size());
+  const std::size_t first = text.size() > Expression::kMostShown && at > kBefore ? at - kBefore : 0;
+  throw InputError(fmt::format("expression '{}', position {}: {}", excerpt(text, first), at + 1, reason));
 }
 
 std::string join(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
@@ -31,7 +43,7 @@ std::string trimmed(const std::string& s) {
 std::string reason_of(const mu::ParserError& error, const std::vector<std::string>& variables) {
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
-      return fmt::format("'{}' is not known (the variables are: {})", trimmed(error.GetToken()),
+      return fmt::format("'{}' is not known (the variables are: {})", excerpt(trimmed(error.GetToken()), 0),
                          join(variables));
     case mu::ecUNEXPECTED_EOF:
     case mu::ecEMPTY_EXPRESSION:
@@ -44,7 +56,7 @@ std::string reason_of(const mu::ParserError& error, const std::vector<std::strin
   std::string message = error.GetMsg();
   for (const char* place : {" found at position", " at position", " at expression position"})
     message = message.substr(0, message.find(place));
-  return trimmed(message);
+  return excerpt(trimmed(message), 0);
 }
 
 // muParser would let a formula overwrite its variables.
@@ -97,6 +109,8 @@ Expression& Expression::operator=(Expression other) noexcept {
 Expression::~Expression() = default;
 
 const std::string& Expression::text() const { return parsed_->text; }
+
+std::string Expression::shown() const { return excerpt(parsed_->text, 0); }
 
 double Expression::operator()(std::span<const double> values) const {
   if (values.size() != parsed_->values.size())

@@ -24,6 +24,9 @@ class Expression {
   double operator()(std::span<const double> values) const;
 
   const std::string& text() const;
+  /// The text as messages show it: one line, not longer than this.
+  std::string shown() const;
+  static constexpr std::size_t kMostShown = 80;
 
  private:
   struct Parsed;

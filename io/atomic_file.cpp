@@ -45,6 +45,17 @@ struct TemporaryFile {
 
 }  // namespace
 
+fs::path behind_links(fs::path path) {
+  constexpr int kMostLinks = 40;  // as in the kernel
+  const fs::path given = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(path, error); ++links) {
+    if (links == kMostLinks) fail(given, ELOOP);
+    path = path.parent_path() / fs::read_symlink(path, error);  // an absolute target replaces the folder
+  }
+  return path;
+}
+
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -53,7 +64,7 @@ void write_file_atomically(const fs::path& path, const std::function<void(std::o
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_stream(path, path, write);
 
   // A link stays; what it points to is replaced.
-  const fs::path target = fs::exists(status) ? fs::canonical(path, error) : path;
+  const fs::path target = behind_links(path);
   constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
   const std::string stem = target.filename().string().substr(0, kLongestStem);
   const TemporaryFile temporary{target.parent_path() /

@@ -5,11 +5,16 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/mesh.h"
 
 namespace delquad {
+
+/// Where a file lies that is reached by symbolic links, whether it exists or not. Throws InputError for links
+/// in a circle.
+std::filesystem::path behind_links(std::filesystem::path path);
 
 /// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then renamed.
 /// A link stays and its target is replaced; devices and pipes are written to directly. Throws InputError
@@ -18,10 +23,23 @@ namespace delquad {
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
+/// What an MSH file says of surfaces, whether it has elements on them or not.
+struct MshSurfaces {
+  std::vector<std::string> group_names;  ///< of the named groups of dimension 2
+  struct Surface {
+    Entity entity;
+    std::vector<int> curves;  ///< tags of the curves that bound it, ascending
+  };
+  std::vector<Surface> surfaces;  ///< those that 4.1 lists with their curves
+};
+
+/// Whether a name can stand in an MSH file: it has no double quote and no line break.
+bool fits_msh(std::string_view name);
+
 /// Reads MSH 2.2 or 4.1 (text), by content. Elements of dimension 1 and 2 become lines, triangles and quads;
 /// physical names and entity tags are kept (a group without a name goes by its number); points are ignored,
 /// and so are nodes that no other element uses. Throws InputError with file and line.
-Mesh read_msh(const std::filesystem::path& path);
+Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces = nullptr);
 /// Reads Wavefront OBJ: v, l, f (3 or 4 vertices); g names the region of the faces and the curve of the lines
 /// after it.
 Mesh read_obj(const std::filesystem::path& path);

@@ -33,6 +33,7 @@ struct Contents {
   std::vector<Node> nodes;
   std::vector<Element> elements;
   std::map<DimTag, std::vector<int>> entity_physicals;
+  std::map<int, std::vector<int>> surface_curves;  ///< tags, ascending (4.1 only)
   std::map<DimTag, std::string> physical_names;
 };
 
@@ -43,6 +44,9 @@ Contents read_contents(TextScanner& scanner);
 /// groups is listed once for each and becomes one; elements of one entity in different groups become entities
 /// of their own.
 void settle_physicals(Contents& contents);
+
+/// The groups of an entity by name; one without a name goes by its number.
+std::vector<std::string> group_names(const Contents& contents, DimTag entity);
 
 /// Tags become indices: nodes in the order of their tags, without those that no element uses.
 Mesh to_mesh(Contents contents, const TextScanner& scanner);

@@ -66,25 +66,13 @@ class EntityTable {
     if (dim == last_.first && tag == last_.second) return last_index_;
     std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
     const auto [it, is_new] = index_.emplace(DimTag{dim, tag}, static_cast<int>(entities.size()));
-    if (is_new) entities.push_back({tag, names(dim, tag)});
+    if (is_new) entities.push_back({tag, group_names(contents_, {dim, tag})});
     last_ = {dim, tag};
     last_index_ = it->second;
     return last_index_;
   }
 
  private:
-  /// A group without a name goes by its number.
-  std::vector<std::string> names(int dim, int tag) const {
-    std::vector<std::string> all;
-    const auto physicals = contents_.entity_physicals.find({dim, tag});
-    if (physicals == contents_.entity_physicals.end()) return all;
-    for (const int physical : physicals->second) {
-      const auto name = contents_.physical_names.find({dim, physical});
-      all.push_back(name != contents_.physical_names.end() ? name->second : std::to_string(physical));
-    }
-    return all;
-  }
-
   const Contents& contents_;
   Mesh& mesh_;
   std::map<DimTag, int> index_;
@@ -104,7 +92,27 @@ void check_tags(const Contents& contents, const TextScanner& scanner) {
   }
 }
 
+MshSurfaces surfaces_of(const Contents& contents) {
+  MshSurfaces result;
+  for (const auto& [group, name] : contents.physical_names)
+    if (group.first == 2) result.group_names.push_back(name);
+  for (const auto& [tag, curves] : contents.surface_curves)
+    if (!curves.empty()) result.surfaces.push_back({{tag, group_names(contents, {2, tag})}, curves});
+  return result;
+}
+
 }  // namespace
+
+std::vector<std::string> group_names(const Contents& contents, DimTag entity) {
+  std::vector<std::string> names;
+  const auto physicals = contents.entity_physicals.find(entity);
+  if (physicals == contents.entity_physicals.end()) return names;
+  for (const int physical : physicals->second) {
+    const auto name = contents.physical_names.find({entity.first, physical});
+    names.push_back(name != contents.physical_names.end() ? name->second : std::to_string(physical));
+  }
+  return names;
+}
 
 void settle_physicals(Contents& contents) {
   int greatest[3] = {};
@@ -174,9 +182,14 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner) {
 
 }  // namespace msh
 
-Mesh read_msh(const std::filesystem::path& path) {
+bool fits_msh(std::string_view name) {
+  return name.find_first_of(std::string_view("\"\r\n\0", 4)) == std::string_view::npos;
+}
+
+Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces) {
   TextScanner scanner(path);
   msh::Contents contents = msh::read_contents(scanner);
+  if (surfaces) *surfaces = msh::surfaces_of(contents);
   return msh::to_mesh(std::move(contents), scanner);
 }
 

@@ -4,6 +4,7 @@
 #include <climits>
 #include <set>
 
+#include "io/mesh_io.h"
 #include "io/msh_raw.h"
 
 namespace delquad::msh {
@@ -99,7 +100,8 @@ class SectionReader {
       if (in_.token(end) == end) return;
       in_.rest_of_line();
     }
-    in_.fail(fmt::format("section ${} is not closed by {}", name, end), first);
+    in_.fail(fmt::format("section {} is not closed by {}", in_.printable("$" + name), in_.printable(end)),
+             first);
   }
 
   void mesh_format() {
@@ -127,7 +129,11 @@ class SectionReader {
       const std::string_view rest = in_.rest_of_line();
       const size_t open = rest.find('"'), close = rest.rfind('"');
       if (open == close) in_.fail("expected a physical name in double quotes");
-      contents_.physical_names[{dim, std::abs(tag)}] = rest.substr(open + 1, close - open - 1);
+      const std::string_view name = rest.substr(open + 1, close - open - 1);
+      if (!fits_msh(name))
+        in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
+                             in_.printable(name)));
+      contents_.physical_names[{dim, std::abs(tag)}] = name;
     }
   }
 
@@ -151,8 +157,12 @@ class SectionReader {
     }
     if (dim > 0) {
       const long long n_bounding = in_.integer("the number of bounding entities", 0, INT_MAX);
+      std::vector<int> bounding;
       for (long long k = 0; k < n_bounding; ++k)
-        in_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag);
+        bounding.push_back(std::abs(
+            static_cast<int>(in_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
+      std::sort(bounding.begin(), bounding.end());
+      if (dim == 2) contents_.surface_curves[tag] = std::move(bounding);
     }
     if (!contents_.entity_physicals.emplace(DimTag{dim, tag}, std::move(physicals)).second) {
       in_.fail(fmt::format("a second entity of dimension {} with tag {}", dim, tag));

@@ -65,7 +65,7 @@ Groups number_groups(const std::vector<Block>& blocks) {
   std::set<int> taken;
   for (const Block& block : blocks) {
     for (const std::string& name : block.entity->names) {
-      if (name.find_first_of("\"\r\n") != std::string::npos) {
+      if (!fits_msh(name)) {
         throw InputError("the name '" + name +
                          "' cannot stand in an MSH file: it has a double quote or a line break");
       }

@@ -119,10 +119,14 @@ void draw_crosses(const std::filesystem::path& path, const Mesh& outline,
   for (const auto& [octave, lines] : glyphs) picture.add(lines, "none", "#2a6f97", 0.08 * std::exp2(octave));
   picture.add_outline(outline, kOutlineWidth);
 
-  constexpr double kRadius = 4.5;  // pixels
+  // Many marks must not hide the field: together they cover no more than this many of full size.
+  constexpr double kLargest = 4.5, kSmallest = 1;  // pixels
+  constexpr double kManyMarks = 60;
+  const double n_marks = std::max(1.0, static_cast<double>(singularities.size()));
+  const double radius = std::clamp(kLargest * std::sqrt(kManyMarks / n_marks), kSmallest, kLargest);
   std::vector<svg::Mark> marks;
   for (const SingularityMark& s : singularities)
-    marks.push_back({s.at, std::abs(s.index) == 1 ? s.index : 0, kRadius});
+    marks.push_back({s.at, std::abs(s.index) == 1 ? s.index : 0, radius});
   picture.add_marks(marks);
   if (!marks.empty()) picture.add_mark_legend({{1, "index +1/4"}, {-1, "index -1/4"}, {0, "other index"}});
   picture.write(path);

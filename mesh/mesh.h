@@ -27,6 +27,9 @@ struct Mesh {
   std::vector<Entity> regions;
 };
 
+/// Length of the diagonal of the bounding box; 0 without points.
+double diagonal(const Mesh& mesh);
+
 /// What is wrong with the mesh, one line each; empty when it is sound: indices in range, no repeated vertex
 /// in an element, each edge in at most two elements which run along it in opposite directions, no element
 /// used twice, every line an edge of some element (when there are elements), no vertex that nothing uses.

@@ -30,10 +30,11 @@ struct CrossSpec {
 /// A model with its fields and options: what a pipeline works on.
 struct Case {
   std::string name;
-  std::string where;                 ///< file and line it was read from
-  std::optional<PlanarModel> model;  ///< analytic curves, or else
-  std::vector<DeclaredHole> holes;   ///< loops of the model that must not bound a region from outside
-  std::filesystem::path mesh_file;   ///< a mesh of lines
+  std::string where;                   ///< file and line it was read from
+  std::optional<PlanarModel> model;    ///< analytic curves, or else
+  std::vector<DeclaredHole> holes;     ///< loops of the model that must not bound a region from outside
+  std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else
+  std::filesystem::path surface_file;  ///< CAD or triangles
   SizeSpec size;
   CrossSpec cross;
   MeshingOptions options;

@@ -1,9 +1,12 @@
 #include "pipeline/case_file.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "pipeline/located.h"
 #include "pipeline/model_file.h"
+#include "pipeline/prepare_surface.h"
 
 namespace delquad {
 namespace {
@@ -11,9 +14,18 @@ namespace {
 double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
   const double value = table.number(key, absent);
   if (value < least)
-    throw InputError(table.where(key) + ": '" + key + "' is " + std::to_string(value) +
-                     ": expected at least " + std::to_string(least));
+    throw InputError(
+        fmt::format("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least));
   return value;
+}
+
+/// In (0, most] or [least, most]: `least` 0 is left out itself.
+double number_between(const TomlTable& table, const std::string& key, double least, double most,
+                      double absent) {
+  const double value = table.number(key, absent);
+  if (!table.has(key) || (value > 0 && value >= least && value <= most)) return value;
+  throw InputError(fmt::format("{}: '{}' is {}: expected {} {} and at most {}", table.where(key), key, value,
+                               least > 0 ? "at least" : "above", least, most));
 }
 
 SizeSource read_source(const TomlTable& table) {
@@ -48,9 +60,10 @@ SizeSpec read_size(const TomlTable& table) {
 
 void read_insertion(const TomlTable& table, MeshingOptions& options) {
   FrontalOptions& frontal = options.frontal;
-  if (table.has("h_max")) frontal.h_max = table.positive_number("h_max");
-  frontal.rejection = number_at_least(table, "rejection", 0, frontal.rejection);
-  frontal.boundary_height = number_at_least(table, "boundary_height", 0, frontal.boundary_height);
+  // Outside of these ranges the front never ends, or nothing can be inserted.
+  frontal.h_max = number_between(table, "h_max", 1.1, 3, frontal.h_max);
+  frontal.rejection = number_between(table, "rejection", 0, 0.95, frontal.rejection);
+  frontal.boundary_height = number_between(table, "boundary_height", 0, 0.95, frontal.boundary_height);
   options.linf.lower_clamp = table.flag("lower_clamp", options.linf.lower_clamp);
   table.finish();
 }
@@ -120,13 +133,14 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   Case result = defaults;
   result.name = file.stem().string();
   result.where = file.string();
-  if (file.extension() == ".msh") {
-    result.mesh_file = file;
+  if (file.extension() == ".msh" || is_surface_file(file)) {
+    (file.extension() == ".msh" ? result.mesh_file : result.surface_file) = file;
     return result;
   }
   if (file.extension() != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
-                     "'; known: .toml (curves and loops), .msh (line elements)");
+                     "'; known: .toml (curves and loops), .msh (lines or triangles), .step, .stp, .brep, "
+                     ".stl, .obj, .off");
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
     throw InputError(table.where("case") +

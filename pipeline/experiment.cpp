@@ -7,6 +7,7 @@
 #include "metrics/metrics.h"
 #include "pipeline/case_file.h"
 #include "pipeline/located.h"
+#include "pipeline/table.h"
 
 namespace delquad {
 namespace {
@@ -68,7 +69,13 @@ LinfStudy read_linf_study(const TomlTable& table) {
   return study;
 }
 
-/// Case names become folders.
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// Case names become folders, on file systems that may not tell capitals from small letters.
 void check_case_name(const TomlTable& table, const std::string& name, const std::vector<Case>& others) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -79,7 +86,13 @@ void check_case_name(const TomlTable& table, const std::string& name, const std:
     throw InputError(table.where("name") + ": '" + name +
                      "' names a folder: expected letters, digits, '_', '-' and '.', not at the front");
   for (const Case& other : others)
-    if (other.name == name) throw InputError(table.where("name") + ": a second case '" + name + "'");
+    if (lower_case(other.name) == lower_case(name))
+      throw InputError(table.where("name") + ": a second case '" + name + "'" +
+                       (other.name == name ? "" : ": beside '" + other.name + "' it would share its folder"));
+  for (const std::string& file : table_files())
+    if (lower_case(name) == file)
+      throw InputError(table.where("name") + ": '" + name +
+                       "' names a folder, but that of a file of results");
 }
 
 void check_comparisons(const TomlTable& table, const Case& c, const std::vector<PublishedRow>& published) {

@@ -1,15 +1,21 @@
 #include "pipeline/experiment_runner.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <ostream>
+#include <system_error>
 
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesh/error.h"
 #include "pipeline/case_pictures.h"
+#include "pipeline/cell_folder.h"
 #include "pipeline/interrupt.h"
 #include "pipeline/linf_study.h"
 #include "pipeline/record.h"
@@ -42,14 +48,6 @@ void write_text(const fs::path& path, const std::string& text) {
   write_file_atomically(path, [&](std::ostream& out) { out << text; });
 }
 
-/// What an earlier run left would pass for what this one made.
-void clear_cell(const fs::path& folder) {
-  for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"}) {
-    std::error_code status;  // nothing there: nothing to do; not removable: writing says so
-    fs::remove(folder / name, status);
-  }
-}
-
 class Runner {
  public:
   Runner(const Experiment& experiment, const fs::path& folder, Progress& progress)
@@ -73,10 +71,14 @@ class Runner {
     const std::string failure = guarded(c.name, [&] { prepared = prepare_case(c); });
     if (prepared) {
       for (const std::string& warning : prepared->warnings) progress_.message("warning: " + warning);
-      const fs::path folder = folder_ / c.name;
-      prepare_folder(folder);
-      const Uninterrupted whole;
-      draw_case(*prepared, c.name, folder);
+      const std::string undrawn = guarded(c.name, [&] {
+        const fs::path folder = folder_ / c.name;
+        prepare_folder(folder);
+        const Uninterrupted whole;
+        draw_case(*prepared, c.name, folder);
+      });
+      if (!undrawn.empty())
+        outcome_.table.notes.push_back(c.name + ": no pictures of its fields: " + undrawn);
     }
     for (const Word& word : experiment_.words) {
       if (prepared)
@@ -89,21 +91,19 @@ class Runner {
   }
 
   void run_cell(const Case& c, const PreparedCase& prepared, const Word& word) {
+    const std::string label = c.name + " " + word.text;
     std::optional<RunResult> result;
-    const std::string failure =
-        guarded(c.name + " " + word.text, [&] { result = run_word(c, prepared, word, progress_); });
-    if (!result) return add_failure(c, word, failure);
-
-    const fs::path folder = folder_ / c.name / word.text;
-    prepare_folder(folder);
-    {
-      const Uninterrupted whole;
-      clear_cell(folder);
-      write_msh(folder / "mesh.msh", result->mesh);
-      write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
-      draw_mesh(folder / "picture.svg", result->mesh, c.name + " " + word.text);
-      write_text(folder / "record.json", run_record(c, prepared, word, *result));
-    }
+    const std::string failure = guarded(label, [&] {
+      result = run_word(c, prepared, word, progress_);
+      write_cell(folder_ / c.name / word.text, [&](const fs::path& folder) {
+        write_msh(folder / "mesh.msh", result->mesh);
+        write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
+        draw_mesh(folder / "picture.svg", result->mesh, label);
+        write_text(folder / "record.json", run_record(c, prepared, word, *result));
+      });
+    });
+    if (!failure.empty()) return add_failure(c, word, failure);
+    for (const std::string& warning : result->warnings) outcome_.table.notes.push_back("warning: " + warning);
     TableRow row{c.name, word.text, result->metrics.values, {}, "", ""};
     row.values[kSeconds] = result->seconds;
     compare(c, word, row);
@@ -124,11 +124,13 @@ class Runner {
 
   void add_failure(const Case& c, const Word& word, const std::string& reason) {
     outcome_.table.rows.push_back({c.name, word.text, {}, {}, "", reason});
-    const fs::path folder = folder_ / c.name / word.text;
-    prepare_folder(folder);
-    const Uninterrupted whole;
-    clear_cell(folder);
-    write_text(folder / "record.json", failure_record(c, word, reason));
+    try {
+      write_cell(folder_ / c.name / word.text, [&](const fs::path& folder) {
+        write_text(folder / "record.json", failure_record(c, word, reason));
+      });
+    } catch (const InputError& error) {  // it has failed already; the table says why
+      progress_.message(fmt::format("error: {} {}: {}", c.name, word.text, error.what()));
+    }
   }
 
   /// Runs `work`, called `label`; returns why it failed, empty when it did not. Counts the failure and prints
@@ -175,12 +177,19 @@ class Runner {
   ExperimentOutcome outcome_;
 };
 
-void write_tables(const Table& table, const fs::path& folder) {
+/// Each table that can be written; the others count as failures.
+void write_tables(const fs::path& folder, Progress& progress, ExperimentOutcome& outcome) {
+  using Printer = std::string (*)(const Table&);
+  constexpr Printer kPrinters[] = {to_markdown, to_csv, to_tex, to_json};  // as in table_files()
   const Uninterrupted whole;
-  write_text(folder / "table.md", to_markdown(table));
-  write_text(folder / "table.csv", to_csv(table));
-  write_text(folder / "table.tex", to_tex(table));
-  write_text(folder / "table.json", to_json(table));
+  for (std::size_t i = 0; i < std::size(kPrinters); ++i) {
+    try {
+      write_text(folder / table_files()[i], kPrinters[i](outcome.table));
+    } catch (const InputError& error) {
+      ++outcome.bad_inputs;
+      progress.message(fmt::format("error: {}", error.what()));
+    }
+  }
 }
 
 }  // namespace
@@ -195,11 +204,13 @@ int experiment_steps(const Experiment& experiment) {
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& folder, Progress& progress) {
   prepare_folder(folder);
   ExperimentOutcome outcome;
-  if (experiment.linf)
+  if (experiment.linf) {
     outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
-  else
+    for (const TableRow& row : outcome.table.rows) outcome.bad_inputs += row.failure.empty() ? 0 : 1;
+  } else {
     outcome = Runner(experiment, folder, progress).run();
-  write_tables(outcome.table, folder);
+  }
+  write_tables(folder, progress, outcome);
   return outcome;
 }
 
@@ -208,8 +219,12 @@ void prepare_folder(const fs::path& folder) {
   fs::create_directories(folder, status);
   if (!fs::is_directory(folder))
     throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
-  const fs::path probe = folder / ".delquad-probe";
-  write_text(probe, "");
+  std::string probe = (folder / ".delquad-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0)
+    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
+                                 std::generic_category().message(errno)));
+  close(file);
   fs::remove(probe, status);
 }
 

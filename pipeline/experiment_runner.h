@@ -19,8 +19,9 @@ struct ExperimentOutcome {
 int experiment_steps(const Experiment& experiment);
 
 /// Runs every pipeline on every case. Writes DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg,
-/// record.json}, DIR/<case>/{cross.svg, size.svg} and DIR/table.{md, csv, tex, json}. What fails goes to the
-/// table; the rest goes on. Throws InputError when a file cannot be written.
+/// record.json}, DIR/<case>/{cross.svg, size.svg} and DIR/table.{md, csv, tex, json}. What fails, the writing
+/// of files included, goes to the table; the rest goes on. A cell's files appear together or not at all.
+/// Throws InputError when the folder cannot be written to from the start.
 ExperimentOutcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
                                  Progress& progress);
 

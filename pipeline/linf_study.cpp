@@ -9,6 +9,7 @@
 
 #include "algorithms/insertion/linf_delaunay.h"
 #include "io/mesh_io.h"
+#include "mesh/error.h"
 #include "pipeline/interrupt.h"
 
 namespace delquad {
@@ -69,12 +70,14 @@ void draw(const std::filesystem::path& path, const std::vector<Vec2>& points,
 TableRow compare(int n, int seed, const Distribution& distribution, const std::filesystem::path& folder) {
   const std::vector<Vec2> points = make_points(n, seed, distribution);
   const LinfDelaunayComparison edges = compare_linf_delaunay(points);
-  if (n <= kMostDrawn) {
-    const Uninterrupted whole;
-    draw(folder / fmt::format("{}-{}-{}.svg", n, distribution.name, seed), points, edges);
-  }
   const double both = static_cast<double>(edges.both.size()), l2 = static_cast<double>(edges.only_l2.size());
   TableRow row{fmt::format("{} {}", n, distribution.name), fmt::format("seed {}", seed), {}, {}, "", ""};
+  if (n <= kMostDrawn) try {
+      const Uninterrupted whole;
+      draw(folder / fmt::format("{}-{}-{}.svg", n, distribution.name, seed), points, edges);
+    } catch (const InputError& error) {
+      row.failure = error.what();
+    }
   row.values = {{"both", both},
                 {"only_l2", l2},
                 {"only_linf", static_cast<double>(edges.only_linf.size())},

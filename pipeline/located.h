@@ -6,13 +6,15 @@
 
 namespace delquad {
 
-/// Runs `f`; an InputError gains `where` in front.
+/// Runs `f`; an InputError gains `where` in front, unless it stands there already.
 template <class F>
 auto located(const std::string& where, F&& f) {
   try {
     return f();
   } catch (const InputError& error) {
-    throw InputError(where + ": " + error.what());
+    const std::string message = error.what();
+    if (message.starts_with(where)) throw;
+    throw InputError(where + ": " + message);
   }
 }
 

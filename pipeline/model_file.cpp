@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/curves.h"
+#include "io/mesh_io.h"
 #include "pipeline/located.h"
 
 namespace delquad {
@@ -62,12 +63,21 @@ std::vector<PlacedCurve> read_closed_shape(const TomlTable& table, const std::st
   return polygon({low, {high.x, low.y}, high, {low.x, high.y}});
 }
 
+/// A name that becomes a physical group.
+std::string group_name(const TomlTable& table, const std::string& key, std::string name) {
+  if (!fits_msh(name))
+    throw InputError(table.where(key) + ": '" + key +
+                     "' is a name of a mesh file: expected one without double quotes and line breaks");
+  return name;
+}
+
 /// `boundary`: one name for every curve, or one each.
 std::vector<std::string> read_boundary_names(const TomlTable& table, std::size_t n_curves) {
   if (!table.has("boundary")) return std::vector<std::string>(n_curves);
   if (table.kind("boundary") == TomlKind::kText)
-    return std::vector<std::string>(n_curves, table.text("boundary"));
+    return std::vector<std::string>(n_curves, group_name(table, "boundary", table.text("boundary")));
   const std::vector<std::string> names = table.texts("boundary");
+  for (const std::string& name : names) group_name(table, "boundary", name);
   if (names.size() != n_curves)
     throw InputError(table.where("boundary") + ": " + std::to_string(names.size()) + " boundary names for " +
                      std::to_string(n_curves) + " curves: expected one, or one for each");
@@ -81,7 +91,7 @@ struct Inside {
 };
 
 Inside read_inside(const TomlTable& table) {
-  const Inside inside{table.text("region", ""), table.flag("hole", false)};
+  const Inside inside{group_name(table, "region", table.text("region", "")), table.flag("hole", false)};
   if (inside.is_hole && !inside.region.empty())
     throw InputError(table.where("hole") +
                      ": 'hole' and 'region' exclude each other: a region fills its loop");
@@ -94,7 +104,8 @@ class ModelReader {
 
   void read_curve(const TomlTable& table) {
     const std::string name = table.text("name");
-    const std::string boundary = table.text("boundary", name);
+    const std::string boundary_key = table.has("boundary") ? "boundary" : "name";
+    const std::string boundary = group_name(table, boundary_key, table.text(boundary_key));
     if (!named_.emplace(name, file_.model.curves.size()).second)
       throw InputError(table.where("name") + ": a second curve '" + name + "'; names of curves must differ");
     const auto shape = located(table.where(), [&] { return read_shape(table); });

@@ -15,6 +15,15 @@ struct MeshingOptions {
   Treatment treatment = Treatment::kPaper;  ///< after matching
   TreatmentOptions treatment_options;
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
+
+  /// Those of insertion. max_elements bounds what is inserted, too: a quad mesh has about as many points as
+  /// quads.
+  FrontalOptions insertion() const {
+    constexpr long long kPointsPerElement = 4;
+    FrontalOptions options = frontal;
+    options.max_points = kPointsPerElement * max_elements;
+    return options;
+  }
 };
 
 }  // namespace delquad

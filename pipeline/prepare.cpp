@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "io/mesh_io.h"
 #include "pipeline/boundary_report.h"
-#include "pipeline/located.h"
+#include "pipeline/located_fields.h"
+#include "pipeline/named_domain.h"
+#include "pipeline/prepare_surface.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
@@ -24,14 +27,28 @@ constexpr double kCheapEdges = 2e5;
 /// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
 constexpr double kCoarseEdges = 4e3;
 
-/// A number or an expression as a field.
-std::shared_ptr<const SizeField> make_base(const std::string& text) {
+/// Reads a formula in whose place one of `words` could stand: it may be one of them, misspelt.
+template <class F>
+auto formula_or_word(const std::string& text, const std::vector<std::string>& words, F&& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    const auto near = nearest_name(text, words);
+    throw InputError(error.what() + (near ? "; did you mean '" + *near + "'?" : ""));
+  }
+}
+
+/// A number or an expression as a field; `where` goes in front of messages.
+std::shared_ptr<const SizeField> make_base(const std::string& text, const std::string& where) {
   if (const auto number = as_number(text)) {
     if (!(*number > 0) || *number > std::numeric_limits<double>::max())
-      throw InputError("size " + text + ": expected a finite number > 0");
+      throw InputError(where + ": size " + text + ": expected a finite number > 0");
     return make_constant_size(*number);
   }
-  return make_expression_size(text);
+  return located(where, [&] {
+    return std::make_shared<LocatedSize>(
+        formula_or_word(text, {kFromBoundary}, [&] { return make_expression_size(text); }), where);
+  });
 }
 
 /// The field without its gradation limit; `boundary` makes the one that follows the boundary's edges.
@@ -41,7 +58,7 @@ std::shared_ptr<const SizeField> make_size(const SizeSpec& spec, F&& boundary) {
   if (spec.base == kFromBoundary || (spec.base.empty() && spec.sources.empty()))
     base = boundary();
   else if (!spec.base.empty())
-    base = located(spec.where, [&] { return make_base(spec.base); });
+    base = make_base(spec.base, spec.where);
   if (spec.sources.empty()) return base;
   return make_source_size(std::move(base), spec.sources);
 }
@@ -67,8 +84,10 @@ double rough_edges(const PlanarModel& model, const SizeField& size) {
 
 void check_count(double quads, const Case& c) {
   if (quads <= static_cast<double>(c.options.max_elements)) return;
-  throw InputError(fmt::format("{}: the size asks for about {:.3g} quads, more than --max-elements {}",
-                               c.size.where.empty() ? c.where : c.size.where, quads, c.options.max_elements));
+  const std::string count =
+      std::isfinite(quads) ? fmt::format("about {:.3g} quads", quads) : "more quads than can be counted";
+  throw InputError(fmt::format("{}: the size asks for {}, more than --max-elements {}",
+                               c.size.where.empty() ? c.where : c.size.where, count, c.options.max_elements));
 }
 
 /// Refuses a hopeless size while it is still cheap: estimates the quads on a domain with coarser boundaries.
@@ -112,27 +131,22 @@ PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
   return domain;
 }
 
-Mesh read_lines(const Case& c, PreparedCase& p) {
-  Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file); });
+PlanarDomain read_lines(const Case& c, PreparedCase& p) {
+  MshSurfaces surfaces;
+  const Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
   if (mesh.lines.empty())
     throw InputError(c.mesh_file.string() +
                      ": holds no line elements: expected the boundary of a planar domain");
-  if (!mesh.triangles.empty() || !mesh.quads.empty()) {
+  if (!mesh.triangles.empty() || !mesh.quads.empty())
     p.warnings.push_back(
         fmt::format("{}: {} triangles and {} quads are left out: only lines count as boundary",
                     c.mesh_file.string(), mesh.triangles.size(), mesh.quads.size()));
-    mesh.triangles.clear();
-    mesh.triangle_region.clear();
-    mesh.quads.clear();
-    mesh.quad_region.clear();
-    mesh.regions.clear();
-  }
-  return mesh;
+  return make_named_domain(mesh, surfaces, c.mesh_file.string());
 }
 
 PlanarDomain prepare_mesh(const Case& c, PreparedCase& p) {
   const SizeSpec& spec = c.size;
-  PlanarDomain domain = make_domain(read_lines(c, p), {c.mesh_file.string(), {}});
+  PlanarDomain domain = read_lines(c, p);
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = make_size(spec, [&] { return make_boundary_size(p.background, domain.boundary); });
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
@@ -143,7 +157,12 @@ PlanarDomain prepare_mesh(const Case& c, PreparedCase& p) {
 std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
   const std::string& text = c.cross.text;
   if (text == kFromGradient) return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
-  if (text != kFromBoundary) return located(c.cross.where, [&] { return make_expression_cross(text); });
+  if (text != kFromBoundary)
+    return located(c.cross.where, [&] {
+      return std::make_shared<LocatedCross>(
+          formula_or_word(text, {kFromBoundary, kFromGradient}, [&] { return make_expression_cross(text); }),
+          c.cross.where);
+    });
   auto field = std::make_shared<HarmonicCrossField>(p.background);
   p.singularities = field->singularities();
   const int expected = 4 * field->euler_characteristic();
@@ -159,6 +178,13 @@ std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
 }  // namespace
 
 PreparedCase prepare_case(const Case& c) {
+  if (!c.surface_file.empty()) {
+    const auto size = make_size(c.size, [&]() -> std::shared_ptr<const SizeField> {
+      throw InputError(c.where + ": a surface needs a size (a number or an expression)");
+    });
+    return prepare_surface(c, read_surface(c.surface_file, c.where), size,
+                           [&](double quads) { check_count(quads, c); });
+  }
   PreparedCase p;
   const Stopwatch watch;
   PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, p);
@@ -182,19 +208,9 @@ PreparedCase prepare_case(const Case& c) {
 }
 
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {
-  if (text != kFromBoundary) return make_base(text);
+  if (text != kFromBoundary) return make_base(text, "--size");
   const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
   return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
-}
-
-double diagonal(const Mesh& mesh) {
-  if (mesh.points.empty()) return 0;
-  Vec3 low = mesh.points.front(), high = low;
-  for (const Vec3& p : mesh.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
 }
 
 }  // namespace delquad

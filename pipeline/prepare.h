@@ -42,10 +42,8 @@ struct PreparedCase {
 /// begins.
 PreparedCase prepare_case(const Case& c);
 
-/// The size field of a mesh that is there already: `text` is a number, an expression or "boundary".
+/// The size field of a mesh that is there already: `text` is a number, an expression or "boundary", as --size
+/// gives it.
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
-
-/// Diagonal of the bounding box.
-double diagonal(const Mesh& mesh);
 
 }  // namespace delquad

@@ -40,7 +40,7 @@ Json options_json(const Case& c) {
           {"h_max", o.frontal.h_max > 0 ? Json(o.frontal.h_max) : Json()},
           {"rejection", o.frontal.rejection},
           {"boundary_height", o.frontal.boundary_height},
-          {"max_points", o.frontal.max_points},
+          {"max_points", o.insertion().max_points},
           {"lower_clamp", o.linf.lower_clamp},
           {"treatment", o.treatment == Treatment::kPaper ? "paper" : "none"},
           {"max_rounds", o.treatment_options.max_rounds},
@@ -149,6 +149,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);
   json["warnings"] = prepared.warnings;
+  for (const std::string& warning : result.warnings) json["warnings"].push_back(warning);
   const StageLog& log = result.log;
   if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -49,6 +50,22 @@ void check_sound(const Mesh& mesh) {
       fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
 }
 
+/// One line when quads are inverted or flat.
+void warn_of_bad_quads(const std::string& label, RunResult& result) {
+  const Mesh& mesh = result.mesh;
+  const std::vector<double> etas = quad_etas(mesh);
+  const auto is_bad = [](double eta) { return !(eta > 0); };
+  const auto first = std::find_if(etas.begin(), etas.end(), is_bad);
+  if (first == etas.end()) return;
+  Vec3 centre{0, 0, 0};
+  for (const int v : mesh.quads[static_cast<std::size_t>(first - etas.begin())])
+    centre = centre + 0.25 * mesh.points[v];
+  const auto n = std::count_if(first, etas.end(), is_bad);
+  result.warnings.push_back(
+      fmt::format("{}: {} inverted or flat (eta 0), the first at ({:.6g}, {:.6g}, {:.6g})", label,
+                  n == 1 ? "1 quad is" : fmt::format("{} quads are", n), centre.x, centre.y, centre.z));
+}
+
 }  // namespace
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
@@ -81,8 +98,9 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
       stage->run({patch.boundary, *patch.cross, *patch.size, c.options}, patches[i], result.log);
     }
     if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
-      throw InputError(fmt::format("{}: insertion stopped at {} points, the most allowed", c.where,
-                                   result.log.insertion->inserted));
+      throw InputError(
+          fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
+                      result.log.insertion->inserted, c.options.max_elements));
   }
   result.mesh = assemble(prepared, patches);
   patches.clear();
@@ -93,6 +111,7 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
   result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
   result.log.add_seconds("metrics", measuring.seconds());
   result.peak_memory = peak_memory();
+  warn_of_bad_quads(c.name + " " + word.text, result);
   return result;
 }
 

@@ -15,6 +15,7 @@ struct RunResult {
   Mesh mesh;
   MeshMetrics metrics;
   StageLog log;
+  std::vector<std::string> warnings;
   double seconds = 0;         ///< meshing: the stages of the word
   long long peak_memory = 0;  ///< bytes, the most that the process has held so far
 };

@@ -47,7 +47,7 @@ void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
 void insert_points(const PointPlacement& placement, const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   FrontalSummary summary;
-  patch.triangles = mesh_frontal(in.boundary, placement, in.cross, in.size, in.options.frontal, &summary);
+  patch.triangles = mesh_frontal(in.boundary, placement, in.cross, in.size, in.options.insertion(), &summary);
   patch.form = PatchForm::kTriangles;
   add(log.insertion, summary);
   log.h_max = in.options.frontal.h_max > 0 ? in.options.frontal.h_max : placement.default_h_max();

@@ -86,6 +86,11 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 }  // namespace
 
+const std::vector<std::string>& table_files() {
+  static const std::vector<std::string> files = {"table.md", "table.csv", "table.tex", "table.json"};
+  return files;
+}
+
 std::string to_markdown(const Table& table) {
   const Rendered rendered = render(table);
   const auto escaped = [](const std::string& text) { return replace_all(text, "|", "\\|"); };

@@ -29,6 +29,9 @@ struct Table {
   std::vector<std::string> notes;
 };
 
+/// What a table is written to, in a folder.
+const std::vector<std::string>& table_files();
+
 /// A cell of ours with a published counterpart reads "ours (published, difference)".
 std::string to_markdown(const Table& table);
 /// Booktabs.

@@ -25,10 +25,11 @@ int changed_by_one(int n, const CurveDemand& curve) {
 
 }  // namespace
 
-std::vector<CurveChain> curve_chains(const Mesh& fine) {
-  std::vector<CurveChain> chains(fine.curves.size());
+std::vector<CurveChain> curve_chains(const SurfaceModel& model) {
+  const Mesh& fine = model.fine;
+  std::vector<std::vector<int>> whole(fine.curves.size());
   for (size_t i = 0; i < fine.lines.size(); ++i) {
-    auto& points = chains[fine.line_curve[i]].points;
+    auto& points = whole[fine.line_curve[i]];
     const auto& [a, b] = fine.lines[i];
     if (points.empty()) points.push_back(a);
     if (points.back() != a) {
@@ -37,8 +38,27 @@ std::vector<CurveChain> curve_chains(const Mesh& fine) {
     }
     points.push_back(b);
   }
-  for (size_t c = 0; c < chains.size(); ++c) {
-    if (chains[c].points.empty()) throw InputError(fmt::format("curve {} has no lines", fine.curves[c].tag));
+  std::vector<CurveChain> chains;
+  for (size_t c = 0; c < whole.size(); ++c) {
+    auto& points = whole[c];
+    if (points.empty()) throw InputError(fmt::format("curve {} has no lines", fine.curves[c].tag));
+    const auto is_corner = [&](int p) {
+      return std::binary_search(model.corners.begin(), model.corners.end(), p);
+    };
+    const auto first = std::find_if(points.begin(), points.end(), is_corner);
+    if (points.front() == points.back() && first != points.end() && first != points.begin()) {
+      points.pop_back();  // a closed curve begins at a corner where it has one
+      std::rotate(points.begin(), first, points.end());
+      points.push_back(points.front());
+    }
+    CurveChain chain{static_cast<int>(c), {points.front()}};
+    for (size_t i = 1; i < points.size(); ++i) {
+      chain.points.push_back(points[i]);
+      if (i + 1 == points.size() || !is_corner(points[i])) continue;
+      chains.push_back(std::move(chain));
+      chain = {static_cast<int>(c), {points[i]}};
+    }
+    chains.push_back(std::move(chain));
   }
   return chains;
 }
@@ -140,7 +160,7 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
       const Vec3 a = fine.points[points[line]], b = fine.points[points[line + 1]];
       const Vec3 x = a + t * (b - a);
       on_curve.push_back({line + t, static_cast<int>(nodes.points.size())});
-      nodes.points.push_back(projected(model, static_cast<int>(c), cut_face[c], x));
+      nodes.points.push_back(projected(model, chains[c].curve, cut_face[chains[c].curve], x));
     }
     on_curve.push_back({static_cast<double>(points.size() - 1), end_node(points.back())});
   }

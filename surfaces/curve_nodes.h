@@ -9,15 +9,17 @@
 
 namespace delquad {
 
-/// A curve of the fine triangulation as a polyline: fine points from end to end; a closed one ends where it
-/// begins.
+/// A piece of a curve between two corners, as a polyline of fine points from end to end; a closed curve with
+/// one corner at most is one piece, which ends where it begins.
 struct CurveChain {
+  int curve = -1;  ///< index into Mesh::curves
   std::vector<int> points;
   bool closed() const { return points.front() == points.back(); }
 };
 
-/// Of each curve of the model. Throws InputError where the lines of a curve do not form one chain.
-std::vector<CurveChain> curve_chains(const Mesh& fine);
+/// The pieces of all curves, in the curves' order. Throws InputError where the lines of a curve do not form
+/// one chain.
+std::vector<CurveChain> curve_chains(const SurfaceModel& model);
 
 /// How many edges a curve wants and must have.
 struct CurveDemand {

@@ -24,18 +24,18 @@ constexpr int kRefinements = 6;
 /// Where a side of a patch's map lies on a curve.
 struct CurveSide {
   int from, to;     ///< vertices of the map
-  int curve, line;  ///< line: the curve's k-th
+  int chain, line;  ///< line: the chain's k-th
   bool forward;     ///< runs with the curve
 };
 
 struct LineOfSide {
-  int curve, line;
+  int chain, line;
   int first;  ///< fine point at which the line begins
 };
 
 /// Whether the side is the first that a loop meets of its curve.
 bool begins(const CurveSide& s, const std::vector<CurveChain>& chains) {
-  return s.forward ? s.line == 0 : s.line + 2 == static_cast<int>(chains[s.curve].points.size());
+  return s.forward ? s.line == 0 : s.line + 2 == static_cast<int>(chains[s.chain].points.size());
 }
 
 using LineIndex = std::unordered_map<long long, LineOfSide>;  // only looked up, never iterated
@@ -64,7 +64,7 @@ std::vector<std::vector<CurveSide>> trace_loops(const FlatPatch& map, const Line
       const int from = points[i], to = points[i + 1 < points.size() ? i + 1 : 0];
       const auto it = lines.find(side_key(map.fine_node[from], map.fine_node[to]));
       if (it == lines.end()) throw std::logic_error(face + ": a side of its map's boundary lies on no curve");
-      loop.push_back({from, to, it->second.curve, it->second.line, map.fine_node[from] == it->second.first});
+      loop.push_back({from, to, it->second.chain, it->second.line, map.fine_node[from] == it->second.first});
     }
     std::rotate(loop.begin(),
                 std::find_if(loop.begin(), loop.end(), [&](const CurveSide& s) { return begins(s, chains); }),
@@ -74,17 +74,17 @@ std::vector<std::vector<CurveSide>> trace_loops(const FlatPatch& map, const Line
 }
 
 PatchBoundary place_boundary(const FlatPatch& map, const std::vector<std::vector<CurveSide>>& loops,
-                             const SurfaceNodes& nodes) {
+                             const std::vector<CurveChain>& chains, const SurfaceNodes& nodes) {
   PatchBoundary boundary;
   for (const auto& loop : loops) {
     const int first = static_cast<int>(boundary.points.size());
     for (const CurveSide& side : loop) {
-      const auto& on_curve = nodes.on_curve[side.curve];
+      const auto& on_curve = nodes.on_curve[side.chain];
       const Vec2 a = map.flat.points[side.from], b = map.flat.points[side.to];
       const auto add = [&](const CurveNode& n, double t) {
         boundary.points.push_back(t == 0 ? a : a + t * (b - a));
         boundary.point_node.push_back(n.node);
-        boundary.edge_curve.push_back(side.curve);
+        boundary.edge_curve.push_back(chains[side.chain].curve);
       };
       // A node at either end of the side belongs to the side that begins there.
       const auto before = [](const CurveNode& n, double s) { return n.s < s; };
@@ -124,7 +124,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   auto& maps = flattening.patches;
   std::vector<int> cut_face(fine.curves.size(), -1);
   for (const SurfaceCut& cut : flattening.cuts) cut_face[cut.curve] = cut.face;
-  const auto chains = curve_chains(fine);
+  const auto chains = curve_chains(model);
   const LineIndex lines = index_lines(chains);
   int hint = -1;
   const SizeFunction delta = [&](const Vec3& x) { return size.at(x, hint); };
@@ -140,7 +140,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     demands.push_back({integrals.back().back(), chains[c].closed() ? 3 : 1, {}});
     if (demands.back().integral < 0.5) {
       domain.warnings.push_back(fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
-                                            fine.curves[c].tag, demands.back().integral,
+                                            fine.curves[chains[c].curve].tag, demands.back().integral,
                                             demands.back().minimum));
     }
   }
@@ -149,7 +149,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     loops.push_back(trace_loops(maps[p], lines, chains, face_name(maps[p])));
     for (const auto& loop : loops.back()) {
       for (const CurveSide& side : loop) {
-        if (begins(side, chains)) demands[side.curve].patches.push_back(static_cast<int>(p));
+        if (begins(side, chains)) demands[side.chain].patches.push_back(static_cast<int>(p));
       }
     }
   }
@@ -165,10 +165,10 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     nodes = place_nodes(model, chains, cut_face, integrals, counts);
     std::vector<int> refine;
     for (size_t p = 0; p < maps.size(); ++p) {
-      boundaries[p] = place_boundary(maps[p], loops[p], nodes);
+      boundaries[p] = place_boundary(maps[p], loops[p], chains, nodes);
       bool short_loop = false;
       for (const auto& loop : loops[p]) {
-        PatchBoundary alone = place_boundary(maps[p], {loop}, nodes);
+        PatchBoundary alone = place_boundary(maps[p], {loop}, chains, nodes);
         short_loop = short_loop || alone.points.size() < kFewestLoopEdges;
       }
       if (!short_loop && meshable(boundaries[p])) continue;
@@ -178,7 +178,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
                         face_name(maps[p])));
       }
       for (const auto& loop : loops[p]) {
-        for (const CurveSide& s : loop) refine.push_back(s.curve);
+        for (const CurveSide& s : loop) refine.push_back(s.chain);
       }
     }
     if (refine.empty()) break;
@@ -196,7 +196,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   for (size_t c = 0; c < chains.size(); ++c) {
     for (size_t i = 0; i + 1 < nodes.on_curve[c].size(); ++i) {
       domain.boundary.lines.push_back({nodes.on_curve[c][i].node, nodes.on_curve[c][i + 1].node});
-      domain.boundary.line_curve.push_back(static_cast<int>(c));
+      domain.boundary.line_curve.push_back(chains[c].curve);
     }
   }
   for (size_t p = 0; p < maps.size(); ++p) {

@@ -188,16 +188,6 @@ class Improver {
 
 }  // namespace
 
-double diagonal(const Mesh& mesh) {
-  if (mesh.points.empty()) return 0;
-  Vec3 lo = mesh.points[0], hi = lo;
-  for (const Vec3& p : mesh.points) {
-    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
-  }
-  return norm(hi - lo);
-}
-
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options) {
   Improver(model, options).run();
 }

@@ -19,7 +19,4 @@ struct ImproveOptions {
 /// surface. Lines keep following their curves. Plane faces are only divided along with their neighbours.
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = {});
 
-/// Length of the diagonal of the bounding box.
-double diagonal(const Mesh& mesh);
-
 }  // namespace delquad

@@ -44,16 +44,17 @@ Eigen::SparseMatrix<double> conformal_energy(const Chart& chart) {
 }  // namespace
 
 std::vector<Vec2> spectral_map(const Chart& chart) {
-  constexpr int kIterations = 25;
+  constexpr int kMaxIterations = 25;
+  constexpr double kSettled = 1e-7;  // change of the boundary, relative
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(conformal_energy(chart));
   const int n = static_cast<int>(chart.points.size()), n_boundary = chart.n_boundary;
-  Eigen::VectorXd z(2 * n), load(2 * n);
+  Eigen::VectorXd z(2 * n), load(2 * n), last = Eigen::VectorXd::Zero(2 * n);
   for (int v = 0; v < n; ++v) {
     const Vec3 p = chart.points[v] - chart.points[0];
     z[2 * v] = dot(p, Vec3{1, 0.31, 0.17});
     z[2 * v + 1] = dot(p, Vec3{-0.23, 1, 0.61});
   }
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     double mean[2] = {0, 0};
     for (int v = 0; v < n_boundary; ++v)
       for (int c = 0; c < 2; ++c) mean[c] += z[2 * v + c] / n_boundary;
@@ -61,6 +62,8 @@ std::vector<Vec2> spectral_map(const Chart& chart) {
     for (int v = 0; v < n_boundary; ++v)
       for (int c = 0; c < 2; ++c) load[2 * v + c] = z[2 * v + c] - mean[c];
     load /= load.norm();
+    if ((load - last).norm() < kSettled) break;
+    last = load;
     z = factors.solve(load);
   }
   std::vector<Vec2> flat;

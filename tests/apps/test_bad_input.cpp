@@ -75,6 +75,22 @@ const BadModel kModels[] = {
     {"crossing_loops",
      kSquareLoop + "[[loop]]\nrectangle = [[0.5, 0.25], [1.5, 0.75]]",
      {"model.toml:5", "(1, 0."}},
+    {"quote_in_name",
+     "[[loop]]\nrectangle = [[0, 0], [1, 1]]\nboundary = 'a\"b'",
+     {"model.toml:3", "'boundary'", "double quotes"}},
+    {"line_break_in_name",
+     "[[loop]]\nrectangle = [[0, 0], [1, 1]]\nregion = \"a\\nb\"",
+     {"model.toml:3", "'region'", "line breaks"}},
+    {"h_max_too_small",
+     kSquareLoop + "[insertion]\nh_max = 1.05",
+     {"model.toml:6", "'h_max'", "at least 1.1"}},
+    {"h_max_too_large", kSquareLoop + "[insertion]\nh_max = 4", {"model.toml:6", "'h_max'", "at most 3"}},
+    {"rejection_of_everything",
+     kSquareLoop + "[insertion]\nrejection = 1",
+     {"model.toml:6", "'rejection'", "at most 0.95"}},
+    {"height_zero",
+     kSquareLoop + "[insertion]\nboundary_height = 0",
+     {"model.toml:6", "'boundary_height'", "above 0"}},
     {"hole_outside",
      kSquareLoop + "[[loop]]\ncircle = { centre = [3, 0], radius = 0.5 }\nhole = true",
      {"model.toml:5", "hole", "outside"}},
@@ -82,26 +98,64 @@ const BadModel kModels[] = {
 INSTANTIATE_TEST_SUITE_P(Toml, BadModels, testing::ValuesIn(kModels),
                          [](const auto& model) { return std::string(model.param.name); });
 
-class BadSizes : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+struct BadSize {
+  const char *name, *size;
+  std::vector<std::string> parts;  ///< of the message
+};
+void PrintTo(const BadSize& bad, std::ostream* out) { *out << bad.name; }
+
+class BadSizes : public testing::TestWithParam<BadSize> {};
 
 TEST_P(BadSizes, AreRefusedWithOneMessage) {
-  const auto [size, part] = GetParam();
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
-  expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh", "--size", size}), {part});
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh", "--size", GetParam().size}),
+                 GetParam().parts);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
 }
 
-INSTANTIATE_TEST_SUITE_P(OnASquare, BadSizes,
-                         testing::Values(std::pair{"0", "> 0"}, std::pair{"-0.1", "> 0"},
-                                         std::pair{"nan", "> 0"}, std::pair{"inf", "> 0"},
-                                         std::pair{"0.1*(x", "position"}, std::pair{"0.1*q", "'q'"},
-                                         std::pair{"0.1*(x - 0.5)", "positive"},
-                                         // Wrong in the middle only, which no boundary node sees.
-                                         std::pair{"0.1*((x-0.5)^2 + (y-0.5)^2 - 0.01)", "positive"},
-                                         std::pair{"boundary", "no edge lengths"},
-                                         std::pair{"1e-5", "about 1e+10 quads"},
-                                         std::pair{"1e-200", "--max-elements"}));
+const std::string kLongFormula = "0.1" + [] {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += " + 0*x";
+  return text;
+}();
+const std::string kLongMistake = kLongFormula + " + q";
+
+const BadSize kSizes[] = {
+    {"zero", "0", {"--size", "> 0"}},
+    {"negative", "-0.1", {"--size", "> 0"}},
+    {"nan", "nan", {"> 0"}},
+    {"infinite", "inf", {"> 0"}},
+    {"open_bracket", "0.1*(x", {"--size", "position"}},
+    {"unknown_variable", "0.1*q", {"'q'"}},
+    {"misspelt_word", "boundry", {"did you mean 'boundary'?"}},
+    {"negative_somewhere", "0.1*(x - 0.5)", {"--size: ", "positive"}},
+    // Wrong in the middle only, which no boundary node sees.
+    {"negative_inside", "0.1*((x-0.5)^2 + (y-0.5)^2 - 0.01)", {"--size: ", "positive"}},
+    {"no_edges", "boundary", {"no edge lengths"}},
+    {"small", "1e-5", {"about 1e+10 quads"}},
+    {"smallest", "1e-200", {"more quads than can be counted", "--max-elements"}},
+    {"long", kLongMistake.c_str(), {"...", "'q'", "position 6007"}},
+};
+INSTANTIATE_TEST_SUITE_P(OnASquare, BadSizes, testing::ValuesIn(kSizes),
+                         [](const auto& bad) { return std::string(bad.param.name); });
+
+TEST(BadFields, EvaluationFailuresSayWhereTheyWereWritten) {
+  const TemporaryFolder folder;
+  const auto model =
+      write_text(folder / "model.toml", kSquare + "size = \"0.1*(x - 0.5)\"\ncross = \"0/(x - x)\"\n");
+  const auto mesh = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", model, "-o", folder / "out.msh"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return delquad(arguments);
+  };
+  expect_refusal(mesh({}), {"model.toml:2: size field"});
+  expect_refusal(mesh({"--size", "0.1"}), {"model.toml:3: cross field"});
+  expect_refusal(mesh({"--size", "0.1", "--cross", "1/(x - x)"}), {"error: --cross: cross field"});
+  expect_refusal(mesh({"--size", "0.1", "--cross", "boundry"}), {"did you mean 'boundary'?"});
+  const ProgramResult result = mesh({"--size", kLongMistake});
+  EXPECT_LT(result.err.size(), 300u);
+}
 
 struct BadMesh {
   const char* name;
@@ -127,6 +181,7 @@ const BadMesh kMeshes[] = {
     {"two_nodes", line_mesh({{0, 0}, {1, 0}}, "rim")},
     {"coincident_nodes", line_mesh({{0, 0}, {1, 0}, {1, 0}, {0, 1}}, "rim")},
     {"bow_tie", line_mesh({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, "rim")},
+    {"quote_in_name", line_mesh({{0, 0}, {1, 0}, {0, 1}}, "r\"im")},
 };
 INSTANTIATE_TEST_SUITE_P(Msh, BadMeshes, testing::ValuesIn(kMeshes),
                          [](const auto& model) { return std::string(model.param.name); });
@@ -144,12 +199,19 @@ TEST(BadArguments, AreRefused) {
   expect_refusal(mesh({"--cross", "sin("}), {"--cross", "sin("});
   expect_refusal(mesh({"--json", folder / "nowhere" / "record.json"}), {"nowhere"});
   expect_refusal(mesh({"--max-elements", "50"}), {"about 100 quads", "50"});
+  EXPECT_EQ(mesh({"--pipeline", "F", "--max-elements", "1e6"}).exit_code, 0);
+  std::filesystem::remove(out);
+  for (const char* count : {"0", "-1", "1.5", "many", "1e30"}) {
+    const ProgramResult result = mesh({"--max-elements", count});
+    EXPECT_EQ(result.exit_code, 2) << count;
+    EXPECT_TRUE(contains(result.err, "whole number from 1 to 1e15")) << result.err;
+  }
   expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
                  {".stl", ".msh, .vtu, .obj"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
-  expect_refusal(delquad({"mesh", folder / "model.step", "-o", out, "--size", "0.1"}),
-                 {".step", ".toml", ".msh"});
+  expect_refusal(delquad({"mesh", folder / "model.iges", "-o", out, "--size", "0.1"}),
+                 {".iges", ".toml", ".msh"});
   expect_refusal(delquad({"mesh", folder / "none.toml", "-o", out, "--size", "0.1"}),
                  {"none.toml", "No such file"});
   expect_refusal(delquad({"metrics", folder / "none.msh"}), {"none.msh", "No such file"});
@@ -170,6 +232,51 @@ TEST(BadArguments, ExperimentGivenAsModelIsNamed) {
   const auto file = write_text(folder / "e.toml", "[[case]]\nname = \"a\"\n" + kSquare);
   expect_refusal(delquad({"mesh", file, "-o", folder / "out.msh", "--size", "0.1"}),
                  {"e.toml:1", "delquad run"});
+}
+
+/// Files that are the same one, by whatever name, are refused before work, and stay as they are.
+TEST(Output, SameFileTwiceIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "ring.msh", kTriangle);
+  const std::string text = read_text(model);
+  std::filesystem::create_symlink("ring.msh", folder / "link.msh");
+  std::filesystem::create_symlink("new.msh", folder / "dangling.msh");
+  std::filesystem::create_hard_link(model, folder / "hard.msh");
+  const auto before = folder.names();
+  const std::string dotted = (folder.path() / "." / "ring.msh").string();
+  for (const std::string& same :
+       {model.string(), dotted, (folder / "link.msh").string(), (folder / "hard.msh").string()}) {
+    expect_refusal(delquad({"mesh", model, "-o", same}), {"same file", "the model"});
+    expect_refusal(delquad({"mesh", model, "-o", folder / "out.msh", "--json", same}), {"same file"});
+    expect_refusal(delquad({"metrics", model, "--json", same}), {"same file", "the mesh"});
+  }
+  for (const char* same : {"new.msh", "./new.msh", "dangling.msh"})
+    expect_refusal(delquad({"mesh", model, "-o", folder / "new.msh", "--json", folder.path() / same}),
+                   {"--json", "same file as -o"});
+  EXPECT_EQ(read_text(model), text);
+  EXPECT_EQ(folder.names(), before);
+}
+
+TEST(Output, ThroughDanglingLinkIsWrittenWhereItPoints) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  std::filesystem::create_symlink("new.msh", folder / "link.msh");
+  EXPECT_EQ(delquad({"mesh", model, "-o", folder / "link.msh", "--size", "0.5"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.msh"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "new.msh"));
+}
+
+/// Through the shell, which sets up the standard output.
+TEST(Output, LostStandardOutputIsNoSuccess) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  for (const char* redirection : {"> /dev/full", ">&-"}) {
+    const std::string command = std::string(DELQUAD_PROGRAM) + " mesh " + model.string() + " --size 0.5 -o " +
+                                (folder / "out.msh").string() + " " + redirection;
+    const ProgramResult result = run_program("/bin/sh", {{"-c", command}, 0, {}});
+    EXPECT_EQ(result.exit_code, 2) << redirection;
+    EXPECT_TRUE(contains(result.err, "standard output")) << result.err;
+  }
 }
 
 TEST(Output, FullDiskLeavesNothing) {

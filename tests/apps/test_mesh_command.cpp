@@ -94,6 +94,40 @@ TEST(MeshCommand, OddBoundaryLeavesOneTriangleAndSaysWhere) {
   EXPECT_EQ(delquad({"mesh", model, "-o", folder / "out.msh", "--pipeline", "F"}).exit_code, 0);
 }
 
+TEST(MeshCommand, FlatQuadIsWarnedAbout) {
+  const TemporaryFolder folder;
+  // A node in the middle of a triangle's side: one quad, with an angle of 180 degrees.
+  write_text(folder / "flat.msh", line_mesh({{0, 0}, {1, 0}, {2, 0}, {1, 1}}, "rim"));
+  const auto model = write_text(folder / "flat.toml",
+                                "mesh = \"flat.msh\"\nsize = 10\nrecombination = { treatment = \"none\" }\n");
+  const ProgramResult result =
+      delquad({"mesh", model, "-o", folder / "out.msh", "--json", folder / "r.json"});
+  EXPECT_EQ(result.exit_code, 0);
+  const std::string warning = "flat DB: 1 quad is inverted or flat (eta 0), the first at (1, 0.25, 0)";
+  EXPECT_EQ(result.err, "warning: " + warning + "\n");
+  EXPECT_TRUE(contains(read_text(folder / "r.json"), warning));
+  const auto experiment = write_text(
+      folder / "e.toml", "pipelines = [\"DB\"]\n[[case]]\nname = \"flat\"\nmodel = \"flat.toml\"\n");
+  EXPECT_EQ(delquad({"run", experiment, "-o", folder / "results"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "results/table.md"), warning));
+}
+
+/// What the program wrote is a model again, with all of its names.
+TEST(MeshCommand, OutputFedBackKeepsItsRegions) {
+  const TemporaryFolder folder;
+  const auto model =
+      write_text(folder / "model.toml",
+                 kSquareLoop +
+                     "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.3 }\nregion = \"core\"\n"
+                     "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.1 }\n");
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "once.msh", "--size", "0.05"}).exit_code, 0);
+  ASSERT_EQ(delquad({"mesh", folder / "once.msh", "-o", folder / "twice.msh"}).exit_code, 0);
+  const Mesh once = read_mesh(folder / "once.msh"), twice = read_mesh(folder / "twice.msh");
+  EXPECT_EQ(names_of(twice.regions), (std::set<std::string>{"square", "core"}));
+  EXPECT_EQ(names_of(twice.curves), names_of(once.curves));
+  EXPECT_EQ(twice.lines.size(), once.lines.size());
+}
+
 TEST(MeshCommand, InclusionAndSecondComponent) {
   const TemporaryFolder folder;
   const auto model =

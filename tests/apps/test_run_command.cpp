@@ -48,7 +48,8 @@ TEST(RunCommand, PipelinesCanBeChosen) {
   ASSERT_EQ(delquad({"run", file, "-o", folder / "results", "--pipelines", "F,FB"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "results/square/FB/record.json"));
   EXPECT_FALSE(fs::exists(folder / "results/square/DB"));
-  EXPECT_EQ(delquad({"run", file, "-o", folder / "results", "--pipelines", "F,F"}).exit_code, 2);
+  for (const char* words : {"F,F", "D,,F", "", "D,"})
+    EXPECT_EQ(delquad({"run", file, "-o", folder / "results", "--pipelines", words}).exit_code, 2) << words;
 }
 
 TEST(RunCommand, SameBytesTwice) {
@@ -83,6 +84,35 @@ TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {
   EXPECT_TRUE(fs::exists(folder / "results/good/DB/mesh.msh"));
 }
 
+/// The larger meshes do not fit: their cells fail, with their reasons, and nothing of them is left.
+TEST(RunCommand, CellThatCannotBeWrittenFailsAlone) {
+  const TemporaryFolder folder;
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"F\", \"DB\"]\n"
+                               "[[case]]\nname = \"large\"\nsize = 0.02\n" +
+                                   kSquare + "[[case]]\nname = \"small\"\nsize = 0.25\n" + kSquare);
+  const ProgramResult result =
+      run_program(DELQUAD_PROGRAM, {{"run", file, "-o", folder / "results"}, 100'000, {}});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  const std::string table = read_text(folder / "results/table.md");
+  EXPECT_TRUE(contains(table, "large F failed: ")) << table;
+  EXPECT_TRUE(contains(table, "large/F/mesh.msh: cannot be written")) << table;
+  EXPECT_EQ(all_files(folder / "results/large/F"), std::vector<std::string>{"record.json"});
+  EXPECT_EQ(all_files(folder / "results/small/DB").size(), 4u);
+  for (const std::string& name : all_files(folder / "results")) EXPECT_FALSE(contains(name, ".tmp")) << name;
+}
+
+TEST(RunCommand, FilesOfOthersInACellStay) {
+  const TemporaryFolder folder;
+  const auto file =
+      write_text(folder / "e.toml", "pipelines = [\"D\"]\n[[case]]\nname = \"a\"\nsize = 0.5\n" + kSquare);
+  fs::create_directories(folder / "results/a/D");
+  write_text(folder / "results/a/D/notes.txt", "mine");
+  for (int k = 0; k < 2; ++k) ASSERT_EQ(delquad({"run", file, "-o", folder / "results"}).exit_code, 0);
+  EXPECT_EQ(all_files(folder / "results/a/D"),
+            (std::vector<std::string>{"mesh.msh", "mesh.vtu", "notes.txt", "picture.svg", "record.json"}));
+}
+
 TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
   const TemporaryFolder folder;
   write_text(folder / "published.toml", kPublished);
@@ -94,6 +124,8 @@ TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
     EXPECT_FALSE(fs::exists(folder / "results"));
   };
   refused(kExperiment + "[[case]]\nname = \"square\"\n" + kSquare, "second case 'square'");
+  refused(kExperiment + "[[case]]\nname = \"Square\"\n" + kSquare, "share its folder");
+  refused("[[case]]\nname = \"Table.md\"\nsize = 1\n" + kSquare, "file of results");
   refused("[[case]]\nname = \"../escape\"\nsize = 1\n" + kSquare, "names a folder");
   refused("pipeline = [\"D\"]\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "'pipelines'");
   refused("pipelines = [\"DQ\"]\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "'Q'");

@@ -80,5 +80,12 @@ TEST(RepairFace, KnowsThatTheSidesOfASeamCancel) {
   EXPECT_EQ(triangles, before);
 }
 
+TEST(IsManifold, CountsTheTrianglesOfEachSide) {
+  Triangles triangles = kWhole;
+  EXPECT_TRUE(cad::is_manifold(triangles));
+  triangles.push_back({4, 1, 5});
+  EXPECT_FALSE(cad::is_manifold(triangles));
+}
+
 }  // namespace
 }  // namespace delquad

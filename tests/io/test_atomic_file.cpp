@@ -67,6 +67,18 @@ TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
   EXPECT_EQ(folder.names(), Names{"a.txt"});
 }
 
+TEST(AtomicFile, GoesThroughLinksThatPointNowhere) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("b.txt", folder / "a.txt");
+  std::filesystem::create_symlink(folder / "c.txt", folder / "b.txt");
+  write_file_atomically(folder / "a.txt", [](std::ostream& out) { out << "text"; });
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.txt"));
+  EXPECT_EQ(read_text(folder / "c.txt"), "text");
+  std::filesystem::create_symlink("e.txt", folder / "d.txt");
+  std::filesystem::create_symlink("d.txt", folder / "e.txt");
+  expect_input_error([&] { write_file_atomically(folder / "d.txt", write_long); }, {"d.txt", "links"});
+}
+
 TEST(AtomicFile, LeavesNothingWhenTheWriterThrows) {
   const TemporaryFolder folder;
   const auto throwing = [](std::ostream& out) {

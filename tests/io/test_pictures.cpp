@@ -114,6 +114,17 @@ TEST(DrawCrosses, HasTwoStrokesACross) {
   EXPECT_NE(text.find("index -1/4"), std::string::npos);
 }
 
+TEST(DrawCrosses, MarksShrinkWithTheirNumber) {
+  const TemporaryFolder folder;
+  const Mesh square = testing_support::grid_outline(1, 1, 1, 1);
+  std::vector<SingularityMark> marks(50, {{0.5, 0.5}, 1});
+  draw_crosses(folder / "few.svg", square, {}, marks, "");
+  marks.resize(5000, {{0.5, 0.5}, 1});
+  draw_crosses(folder / "many.svg", square, {}, marks, "");
+  EXPECT_NE(read_text(folder / "few.svg").find("stroke-width=\"900\""), std::string::npos);
+  EXPECT_EQ(read_text(folder / "many.svg").find("stroke-width=\"900\""), std::string::npos);
+}
+
 TEST(DrawScalar, CutsTrianglesAlongBands) {
   const TemporaryFolder folder;
   const Mesh mesh = triangle_grid(1, 1);

@@ -101,6 +101,12 @@ TEST_F(Cases, HopelessSizesAreRefusedEarly) {
   expect_input_error([&] { prepare_case(c); }, {"about 100 quads", "99"});
 }
 
+TEST_F(Cases, MostPointsFollowMostElements) {
+  MeshingOptions options;
+  options.max_elements = 1000;
+  EXPECT_EQ(options.insertion().max_points, 4000);
+}
+
 TEST_F(Cases, PatchesShareTheirInterface) {
   const Case c = read(
       "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"

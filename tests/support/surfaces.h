@@ -12,7 +12,8 @@
 #include "geometry/surface/surface_model.h"
 #include "mesh/half_edges.h"
 
-namespace delquad::test {
+/// Surfaces made in code.
+namespace delquad::testing_support {
 
 /// One face whose outline is made of closed curves, one for each boundary loop; no corners.
 inline SurfaceModel one_face(std::vector<Vec3> points, std::vector<std::array<int, 3>> triangles) {
@@ -220,4 +221,4 @@ inline SurfaceModel double_torus(int n) {
   return CubeSurface(cubes, {}, n).rounded(n);
 }
 
-}  // namespace delquad::test
+}  // namespace delquad::testing_support

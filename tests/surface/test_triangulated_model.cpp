@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "geometry/surface/triangulated_model.h"
+#include "mesh/error.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/surface_model_checks.h"
@@ -349,6 +351,38 @@ TEST(TriangleRepair, WhatIsNoSurfaceOfTrianglesIsRefused) {
   expect_input_error([&] { model_of(Mesh{}); }, {"case.off: no triangles"});
   Mesh flat = triangle_grid(2, 2, 1, 0);
   expect_input_error([&] { model_of(flat); }, {"case.off: no triangle has an area"});
+}
+
+TEST(TriangleRepair, DamagedSurfacesBecomeSoundModelsOrAreRefused) {
+  std::mt19937 random(5);
+  int refused = 0, made = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    Mesh mesh = trial % 2 == 0 ? box(2) : can(8, 2);
+    for (unsigned changes = 1 + random() % 4; changes > 0; --changes) {
+      const size_t t = random() % mesh.triangles.size();
+      const int v = static_cast<int>(random() % mesh.points.size());
+      const size_t kind = random() % 6;
+      if (kind == 0) mesh.triangles[t][random() % 3] = v;
+      if (kind == 1) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+      if (kind == 2) mesh.points[mesh.triangles[t][0]] = mesh.points[mesh.triangles[t][1]];
+      if (kind == 3) mesh.triangle_region[t] = 0;
+      if (kind == 4)
+        mesh.points[v] = 0.5 * (mesh.points[mesh.triangles[t][0]] + mesh.points[mesh.triangles[t][1]]);
+      if (kind == 5) {
+        mesh.triangles.erase(mesh.triangles.begin() + static_cast<long>(t));
+        mesh.triangle_region.erase(mesh.triangle_region.begin() + static_cast<long>(t));
+      }
+    }
+    try {
+      const SurfaceModel model = model_of(mesh);
+      EXPECT_EQ(violations(model), kSound) << "trial " << trial;
+      ++made;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(made, 300);
 }
 
 TEST(TriangleRepair, LinesOffTheTrianglesGo) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+namespace delquad {
+
+/// Makes a cell's folder anew: `write` fills a temporary folder beside it, which then takes its place, so
+/// that the files appear together or not at all (one by one where the folder holds files of others, which
+/// stay). What an earlier run left there is removed in any case. Ctrl-C waits meanwhile. Throws InputError
+/// when something cannot be written.
+void write_cell(const std::filesystem::path& folder,
+                const std::function<void(const std::filesystem::path&)>& write);
+
+}  // namespace delquad

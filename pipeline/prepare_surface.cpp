@@ -1,0 +1,92 @@
+#include "pipeline/prepare_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cad/cad_reader.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/improve_triangulation.h"
+#include "geometry/surface/triangulated_model.h"
+#include "io/mesh_io.h"
+#include "pipeline/located.h"
+#include "pipeline/stopwatch.h"
+#include "surfaces/surface_domain.h"
+
+namespace delquad {
+namespace {
+
+const std::set<std::string> kCadFiles = {".step", ".stp", ".brep"};
+const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off"};
+
+/// Integral of dA/delta^2 over the fine triangles, by their centroids.
+double expected_quads(const Mesh& fine, const SizeField& size) {
+  double sum = 0;
+  int hint = -1;
+  for (const auto& [a, b, c] : fine.triangles) {
+    const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
+    const double delta = size.at((1.0 / 3) * (p + q + r), hint);
+    sum += norm(cross(q - p, r - p)) / 2 / (delta * delta);
+  }
+  return sum;
+}
+
+/// The model and its domain, kept as long as a patch needs them.
+struct Surface {
+  SurfaceModel model;
+  SurfaceDomain domain;
+};
+
+}  // namespace
+
+bool is_surface_file(const std::filesystem::path& path) {
+  return kCadFiles.count(path.extension().string()) + kTriangleFiles.count(path.extension().string()) > 0;
+}
+
+SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where) {
+  return located(where, [&] {
+    if (kCadFiles.count(path.extension().string())) return read_cad(path);
+    return make_surface_model(read_mesh(path), {.source = path.string()});
+  });
+}
+
+PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<const SizeField> size,
+                             const std::function<void(double quads)>& check_count) {
+  if (c.cross.text != "boundary")
+    throw InputError(c.cross.where + ": a surface takes its crosses from its curves: expected 'boundary'");
+  PreparedCase p;
+  p.size = std::move(size);
+  const Stopwatch maps;
+  p.expected_quads = expected_quads(model.fine, *p.size);
+  check_count(p.expected_quads);
+  improve_triangulation(model);
+  Flattening flattening = flatten(model);
+  if (!flattening.failed.empty()) {
+    std::string tags;
+    for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
+    throw InputError(c.where + ": these faces could not be flattened:" + tags);
+  }
+  p.seconds.emplace_back("maps", maps.seconds());
+
+  const Stopwatch curves;
+  auto surface = std::make_shared<Surface>();
+  surface->domain = make_surface_domain(model, std::move(flattening), *p.size, *make_lemon_solver());
+  surface->model = std::move(model);
+  p.warnings = surface->model.warnings;
+  p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
+  p.boundary = surface->domain.boundary;
+  p.seconds.emplace_back("domain", curves.seconds());
+
+  const Stopwatch fields;
+  for (const SurfacePatch& patch : surface->domain.patches) {
+    p.patches.push_back(
+        {patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
+         std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *p.size),
+         [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }});
+  }
+  p.seconds.emplace_back("cross field", fields.seconds());
+  return p;
+}
+
+}  // namespace delquad

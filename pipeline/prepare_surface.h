@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+#include "geometry/surface/surface_model.h"
+#include "pipeline/prepare.h"
+
+namespace delquad {
+
+/// Whether the file holds a surface by its extension: CAD (.step, .stp, .brep) or triangles (.stl, .obj,
+/// .off).
+bool is_surface_file(const std::filesystem::path& path);
+
+/// Reads a surface model; `where` goes in front of messages.
+SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where);
+
+/// Faces flattened, curves meshed once each, all patches even; cross field and size on each patch. Refuses
+/// sizes that would need more than options.max_elements through `check_count`. Throws InputError naming faces
+/// that cannot be flattened.
+PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<const SizeField> size,
+                             const std::function<void(double quads)>& check_count);
+
+}  // namespace delquad

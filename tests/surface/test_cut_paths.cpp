@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/surface/cut_planner.h"
+#include "geometry/surface/laplacian.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+
+Chart chart_of(const SurfaceModel& model) {
+  return extract_charts(model.fine, std::vector<char>(model.fine.triangles.size(), 1))[0];
+}
+
+std::vector<double> heights(const Chart& chart) {
+  std::vector<double> u;
+  for (const Vec3& p : chart.points) u.push_back(p.z);
+  return u;
+}
+
+TEST(LevelCurves, CirclesOfACylinder) {
+  const Chart chart = chart_of(cylinder(24, 10, 1, 2));
+  const auto curves = level_curves(chart, heights(chart), 0.9);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_TRUE(curves[0].path.closed);
+  EXPECT_NEAR(curves[0].path.length, 2 * std::numbers::pi, 0.02);
+  EXPECT_EQ(curves[0].crossed.size(), 48u);  // each edge between rows 4 and 5
+}
+
+TEST(LevelCurves, OpenPiecesEndOnTheBoundary) {
+  const Chart chart = chart_of(grid_surface({9, 9}, [](double u, double v) {
+    return Vec3{u, v, (2 * u - 1) * (2 * u - 1)};
+  }));
+  const auto curves = level_curves(chart, heights(chart), 0.3);
+  ASSERT_EQ(curves.size(), 2u);
+  for (const LevelCurve& c : curves) {
+    EXPECT_FALSE(c.path.closed);
+    for (const EdgePoint& end : {c.path.points.front(), c.path.points.back()})
+      EXPECT_LT(end.a, chart.n_boundary);
+  }
+}
+
+TEST(Descent, FollowsARuling) {
+  const Chart chart = chart_of(cylinder(24, 10, 1, 2));
+  std::vector<char> target(chart.points.size(), 0);
+  int start = -1;
+  for (int v = 0; v < chart.n_boundary; ++v) {
+    target[v] = chart.points[v].z < 1;
+    if (chart.points[v].z > 1) start = v;
+  }
+  const auto path = descend(chart, triangles_around(chart), heights(chart), start, target);
+  ASSERT_TRUE(path);
+  EXPECT_NEAR(path->length, 2, 1e-9);
+  EXPECT_TRUE(target[path->points.back().a]);
+}
+
+TEST(Descent, StopsInAMinimumElsewhere) {
+  const Chart chart = chart_of(grid_surface({9, 9}, [](double u, double v) {
+    return Vec3{u, v, std::hypot(u - 0.5, v - 0.5)};
+  }));
+  EXPECT_FALSE(
+      descend(chart, triangles_around(chart), heights(chart), 0, std::vector<char>(chart.points.size(), 0)));
+}
+
+TEST(CutPlanner, SeamBeginsAtACorner) {
+  const SurfaceModel model = cylinder(24, 10, 1, 2);
+  const Chart chart = chart_of(model);
+  std::vector<CutEnd> ends(model.fine.points.size(), CutEnd::kAnywhere);
+  const int corner = model.fine.lines[7][0];
+  ends[corner] = CutEnd::kCorner;
+  const auto seam = plan_seam(chart, ends);
+  ASSERT_TRUE(seam);
+  EXPECT_NEAR(seam->length, 2, 1e-9);
+  EXPECT_EQ(chart.fine_node[seam->points.front().a], corner);
+}
+
+TEST(CutPlanner, TipsAreFoundAndReached) {
+  const SurfaceModel model = cone(24, 12, 0.6);
+  const Chart chart = chart_of(model);
+  const std::vector<int> tips = sharp_tips(chart);
+  ASSERT_EQ(tips.size(), 1u);
+  EXPECT_EQ(chart.points[tips[0]], (Vec3{0, 0, 0}));
+  const auto cut =
+      plan_tip_cut(chart, tips[0], std::vector<CutEnd>(model.fine.points.size(), CutEnd::kAnywhere));
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(cut->length, 1, 5e-3);  // between two rulings the facets are nearer
+  EXPECT_TRUE(sharp_tips(chart_of(round_sphere(6))).empty());
+}
+
+TEST(CutPlanner, DivisionsAreShort) {
+  // A dumb-bell is divided at its neck.
+  const SurfaceModel bell = grid_surface({32, 60, true}, [](double u, double v) {
+    const double phi = 2 * std::numbers::pi * u, z = 6 * v - 3,
+                 r = 0.3 + 1.5 * std::pow(std::sin(z * std::numbers::pi / 3), 2);
+    return Vec3{r * std::cos(phi), r * std::sin(phi), z};
+  });
+  const auto neck = plan_division(chart_of(bell));
+  ASSERT_TRUE(neck);
+  EXPECT_TRUE(neck->closed);
+  EXPECT_LT(neck->length, 1.2 * 2 * std::numbers::pi * 0.3);
+  // A handle is opened by a loop around the tube, which separates nothing.
+  const auto loop = plan_division(chart_of(torus(60, 24, 3, 1)));
+  ASSERT_TRUE(loop);
+  EXPECT_NEAR(loop->length, 2 * std::numbers::pi, 0.3);
+}
+
+}  // namespace
+}  // namespace delquad
