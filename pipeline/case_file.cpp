@@ -149,7 +149,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
   table.finish();
-  if (!result.model && result.mesh_file.empty())
+  if (!result.model && result.mesh_file.empty() && result.surface_file.empty())
     throw InputError(file.string() + ": no model: expected 'loop', 'pattern' or 'mesh'");
   return result;
 }

@@ -84,6 +84,7 @@ void refine(std::vector<Vec2>& points, std::vector<std::array<int, 3>>& triangle
 }  // namespace
 
 void draw_case(const PreparedCase& prepared, const std::string& name, const std::filesystem::path& folder) {
+  if (!prepared.background) return;  // fields of surfaces live in the parameter planes of their patches
   std::vector<SingularityMark> marks;
   for (const Singularity& s : prepared.singularities) marks.push_back({s.at, s.index});
   draw_crosses(folder / "cross.svg", prepared.boundary, sample_crosses(prepared), marks,

@@ -98,7 +98,7 @@ class Runner {
       write_cell(folder_ / c.name / word.text, [&](const fs::path& folder) {
         write_msh(folder / "mesh.msh", result->mesh);
         write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
-        draw_mesh(folder / "picture.svg", result->mesh, label);
+        (prepared.background ? draw_mesh : draw_surface)(folder / "picture.svg", result->mesh, label);
         write_text(folder / "record.json", run_record(c, prepared, word, *result));
       });
     });

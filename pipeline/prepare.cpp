@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "pipeline/boundary_report.h"
 #include "pipeline/located_fields.h"
@@ -131,9 +132,15 @@ PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
   return domain;
 }
 
-PlanarDomain read_lines(const Case& c, PreparedCase& p) {
-  MshSurfaces surfaces;
-  const Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
+/// Triangles that do not lie in a plane of constant z.
+bool holds_surface(const Mesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](int v) { return mesh.points[v].z != mesh.points[mesh.triangles[0][0]].z; });
+  });
+}
+
+PlanarDomain read_lines(const Case& c, const Mesh& mesh, const MshSurfaces& surfaces, PreparedCase& p) {
   if (mesh.lines.empty())
     throw InputError(c.mesh_file.string() +
                      ": holds no line elements: expected the boundary of a planar domain");
@@ -144,9 +151,9 @@ PlanarDomain read_lines(const Case& c, PreparedCase& p) {
   return make_named_domain(mesh, surfaces, c.mesh_file.string());
 }
 
-PlanarDomain prepare_mesh(const Case& c, PreparedCase& p) {
+PlanarDomain prepare_mesh(const Case& c, const Mesh& mesh, const MshSurfaces& surfaces, PreparedCase& p) {
   const SizeSpec& spec = c.size;
-  PlanarDomain domain = read_lines(c, p);
+  PlanarDomain domain = read_lines(c, mesh, surfaces, p);
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = make_size(spec, [&] { return make_boundary_size(p.background, domain.boundary); });
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
@@ -177,17 +184,29 @@ std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
 
 }  // namespace
 
+namespace {
+
+PreparedCase prepare_surface_case(const Case& c, SurfaceModel model) {
+  const auto size = make_size(c.size, [&]() -> std::shared_ptr<const SizeField> {
+    throw InputError(c.where + ": a surface needs a size (a number or an expression)");
+  });
+  return prepare_surface(c, std::move(model), size, [&](double quads) { check_count(quads, c); });
+}
+
+}  // namespace
+
 PreparedCase prepare_case(const Case& c) {
-  if (!c.surface_file.empty()) {
-    const auto size = make_size(c.size, [&]() -> std::shared_ptr<const SizeField> {
-      throw InputError(c.where + ": a surface needs a size (a number or an expression)");
-    });
-    return prepare_surface(c, read_surface(c.surface_file, c.where), size,
-                           [&](double quads) { check_count(quads, c); });
+  if (!c.surface_file.empty()) return prepare_surface_case(c, read_surface(c.surface_file, c.where));
+  Mesh mesh;
+  MshSurfaces surfaces;
+  if (!c.model) {
+    mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
+    if (holds_surface(mesh))
+      return prepare_surface_case(c, make_surface_model(std::move(mesh), {.source = c.mesh_file.string()}));
   }
   PreparedCase p;
   const Stopwatch watch;
-  PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, p);
+  PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, mesh, surfaces, p);
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
   check_holes(c.holes, domain);

@@ -27,7 +27,7 @@ struct PreparedCase {
   Mesh boundary;  ///< nodes on curves, lines, curves and regions; no elements
   std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
-  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
   std::vector<Singularity> singularities;            ///< of the boundary-aligned cross field
   /// Sum of the indices of the boundary-aligned field, and what the domain's Euler characteristic makes of
   /// it, in quarters.

@@ -50,10 +50,9 @@ Json options_json(const Case& c) {
 Json domain_json(const PreparedCase& p) {
   std::size_t edges = 0;
   for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
-  Json json = {{"patches", p.patches.size()},
-               {"boundary_edges", edges},
-               {"background_triangles", p.background->triangles().triangles.size()},
-               {"expected_quads", p.expected_quads}};
+  Json json = {
+      {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.expected_quads}};
+  if (p.background) json["background_triangles"] = p.background->triangles().triangles.size();
   return json;
 }
 
@@ -132,7 +131,8 @@ Json start_record(const Case& c, const Word& word, const std::string& status) {
   return {{"case", c.name},
           {"pipeline", word.text},
           {"status", status},
-          {"model", c.model ? c.model->source : c.mesh_file.string()}};
+          {"model",
+           c.model ? c.model->source : (c.surface_file.empty() ? c.mesh_file : c.surface_file).string()}};
 }
 
 std::string print(const Json& json) {

@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "io/mesh_io.h"
+#include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// The unit cube as twelve triangles.
+const std::string kCube =
+    "OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+    "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 "
+    "4 7\n";
+
+TEST(SurfaceModels, ACubeBecomesItsGrid) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "cube.msh", "--size", "0.125",
+                            "--json", folder / "cube.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Mesh mesh = read_msh(folder / "cube.msh");
+  EXPECT_EQ(mesh.quads.size(), 6u * 64);
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh.points.size(), mesh.quads.size() + 2);  // Euler: a closed surface of genus 0
+  EXPECT_EQ(mesh.regions.size(), 6u);
+  EXPECT_EQ(mesh.curves.size(), 12u);
+}
+
+TEST(SurfaceModels, ExperimentsTakeThem) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  std::ofstream(folder / "e.toml")
+      << "title = \"cube\"\npipelines = [\"D\", \"DB\"]\n[[case]]\nname = \"cube\"\n"
+         "model = \"cube.off\"\nsize = 0.25\n";
+  const auto run = delquad({"run", folder / "e.toml", "-o", folder / "out"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* file : {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/cube/DB" / file)) << file;
+  }
+}
+
+TEST(SurfaceModels, BadOnesAreRefusedWithTheirName) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube.substr(0, 60);
+  std::ofstream(folder / "part.step") << "ISO-10303-21;\nnonsense\n";
+  for (const char* name : {"cube.off", "part.step"}) {
+    const auto run = delquad({"mesh", folder / name, "-o", folder / "out.msh", "--size", "0.1"});
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_TRUE(contains(run.err, name)) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.msh"));
+  }
+}
+
+TEST(SurfaceModels, ASizeIsNeeded) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(contains(run.err, "size")) << run.err;
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
