@@ -111,6 +111,7 @@ QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives
     const double c = 1 - sine, excess = std::max(0.0, kSteepSine - sine);
     value.cost += c + kSteep * excess * excess;
     value.least_sine = std::min(value.least_sine, sine);
+    value.flat += sine <= 0;
     if constexpr (kDerivatives) {
       const double slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
       const double first = -slope * cosine;
@@ -155,6 +156,24 @@ double QuadRelocation::cost(int v) {
   return evaluate<false>(mesh_.point(v), nullptr).cost;
 }
 
+/// A convex star has its vertex in the box around the neighbours: no step may leave that. A vertex outside
+/// may go round in a box twice as large, and from farther out only come nearer.
+bool QuadRelocation::strays(Vec2 from, Vec2 to) const {
+  Vec2 low = star_[0].end, high = low;
+  for (const Spoke& spoke : star_) {
+    low = {std::min(low.x, spoke.end.x), std::min(low.y, spoke.end.y)};
+    high = {std::max(high.x, spoke.end.x), std::max(high.y, spoke.end.y)};
+  }
+  const Vec2 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+  // Distance from the middle: 1 on the box.
+  const auto distance = [&](Vec2 p) {
+    return std::max(std::abs(p.x - middle.x) / std::max(half.x, kTiny),
+                    std::abs(p.y - middle.y) / std::max(half.y, kTiny));
+  };
+  const double before = distance(from);
+  return distance(to) > (before <= 1 ? 1 : std::max(before, 2.0));
+}
+
 double QuadRelocation::step(int v) {
   if (mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return 0;
   gather(v);
@@ -171,8 +190,9 @@ double QuadRelocation::step(int v) {
   for (int halving = 0; halving < 4; ++halving, move = 0.4 * move) {
     const Value after = evaluate<false>(at + move, nullptr);
     if (!(after.cost < before.cost)) continue;
-    // A convex star stays convex whatever the sum gains.
-    if (after.least_sine <= 0 && before.least_sine > 0) continue;
+    // Whatever the sum gains.
+    if (after.flat > (keep_convex_corners_ ? before.flat : before.flat > 0 ? after.flat : 0)) continue;
+    if (before.flat > 0 && strays(at, at + move)) continue;
     mesh_.move(v, at + move);
     return norm(move) / before.shortest;
   }
@@ -199,11 +219,13 @@ long long QuadRelocation::relax(double tolerance, int max_sweeps) {
   return moves;
 }
 
-double QuadRelocation::lift(int v) {
+double QuadRelocation::lift(int v, double enough) {
+  if (mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return 0;
   gather(v);
   const Vec2 at = mesh_.point(v);
   Value best = evaluate<false>(at, nullptr);
   const double least = best.least_sine;
+  if (least >= enough) return 0;
   Vec2 place = at;
   // Compass search for the worst corner: eight directions, a step that shrinks.
   constexpr double kDiagonal = std::numbers::sqrt2 / 2;
@@ -215,7 +237,7 @@ double QuadRelocation::lift(int v) {
     const double sine = best.least_sine;
     for (const Vec2 direction : kCompass) {
       const Value trial = evaluate<false>(centre + reach * direction, nullptr);
-      if (trial.least_sine <= best.least_sine) continue;
+      if (trial.flat > best.flat || trial.least_sine <= best.least_sine) continue;
       best = trial;
       place = centre + reach * direction;
     }
@@ -234,7 +256,7 @@ long long QuadRelocation::lift_worst(double eta, int max_sweeps) {
     for (int e = 0; e < mesh_.element_slots(); ++e) {
       if (!mesh_.is_quad(e) || least_sine(mesh_, e) >= sine) continue;
       for (int k = 0; k < 4; ++k)
-        if (const int v = mesh_.origin(4 * e + k); !mesh_.on_boundary(v) && lift(v) > 1e-3) ++moved;
+        if (lift(mesh_.origin(4 * e + k), 1) > 1e-3) ++moved;
     }
     mesh_.commit();
     moves += moved;

@@ -27,6 +27,10 @@ class QuadRelocation {
   /// Makes delta' known at the vertices that an edit created, `first` and later ones.
   void adopt_new_vertices(int first);
 
+  /// From now on no step may leave more corners around a vertex flat or reflex than there were. A convex star
+  /// stays convex in any case; a raw mesh settles better where a tangle may wander.
+  void keep_convex_corners() { keep_convex_corners_ = true; }
+
   /// Marks v for the next sweeps (no effect on boundary or dead vertices).
   void activate(int v);
   void activate_all();
@@ -40,6 +44,9 @@ class QuadRelocation {
 
   /// One Newton step of v; how far it went, as a part of its shortest edge. 0 for boundary and dead vertices.
   double step(int v);
+  /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
+  /// grew.
+  double lift(int v, double enough);
   /// The vertex's part of the objective where it is.
   double cost(int v);
 
@@ -55,6 +62,7 @@ class QuadRelocation {
     double cost = 0;
     double least_sine = 1;
     double shortest = 0;  ///< edge
+    int flat = 0;         ///< corners that do not turn left
   };
   struct Derivatives {
     Vec2 gradient;
@@ -64,9 +72,9 @@ class QuadRelocation {
   void gather(int v);
   template <bool kDerivatives>
   Value evaluate(Vec2 at, Derivatives* derivatives) const;
+  bool strays(Vec2 from, Vec2 to) const;
   void refresh_delta(int v);
   void activate_ring(int v);
-  double lift(int v);
 
   QuadTopology& mesh_;
   const ParametricSize& size_;
@@ -76,6 +84,7 @@ class QuadRelocation {
   std::vector<char> active_;
   std::vector<int> queue_, visiting_;
   std::vector<Spoke> star_;
+  bool keep_convex_corners_ = false;
 };
 
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.

@@ -202,23 +202,57 @@ void QuadTopology::remove_doublet(int v) {
   set_element(element(start[0]), corners, twins);
 }
 
-void QuadTopology::inset(int h) {
-  std::array<int, 4> corner, inner, across, face;
-  for (int k = 0, g = h; k < 4; ++k, g = next(g)) corner[k] = corner_[g], across[k] = twin_[g];
-  const Vec2 middle =
-      0.25 * (points_[corner[0]] + points_[corner[1]] + points_[corner[2]] + points_[corner[3]]);
-  for (int k = 0; k < 4; ++k) {
-    inner[k] = add_vertex(0.5 * (points_[corner[k]] + middle));
-    face[k] = add_element();
+/// The quads' half-edges whose twins belong to none of them.
+std::vector<int> QuadTopology::outline(std::span<const int> quads) const {
+  std::vector<int> sides;
+  for (const int e : quads)
+    for (int h = 4 * e; h < 4 * e + 4; ++h)
+      if (twin_[h] < 0 || std::find(quads.begin(), quads.end(), element(twin_[h])) == quads.end())
+        sides.push_back(h);
+  return sides;
+}
+
+bool QuadTopology::can_pillow(std::span<const int> quads) const {
+  if (!std::all_of(quads.begin(), quads.end(), [&](int e) { return is_quad(e); })) return false;
+  std::vector<int> origins;
+  for (const int h : outline(quads)) origins.push_back(origin(h));
+  std::sort(origins.begin(), origins.end());
+  return std::adjacent_find(origins.begin(), origins.end()) == origins.end();
+}
+
+void QuadTopology::pillow(std::span<const int> quads) {
+  const std::vector<int> sides = outline(quads);
+  const int n = static_cast<int>(sides.size()), first_vertex = vertex_slots(), first_quad = element_slots();
+  std::vector<int> corner, across;
+  for (const int h : sides) corner.push_back(origin(h)), across.push_back(twin_[h]);
+  const auto place_of = [&](int v) {
+    return static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+  };
+  std::vector<int> following, before(n);  // places along the outline
+  for (const int h : sides) following.push_back(place_of(target(h)));
+  for (int i = 0; i < n; ++i) before[following[i]] = i;
+
+  std::vector<Vec2> middle(n);
+  std::vector<int> inside(n, 0);  // quads at each corner
+  for (const int e : quads) {
+    Vec2 centre;
+    for (int k = 0; k < 4; ++k) centre += 0.25 * points_[corner_[4 * e + k]];
+    for (int k = 0; k < 4; ++k)
+      if (const int i = place_of(corner_[4 * e + k]); i < n) middle[i] += centre, ++inside[i];
   }
-  const int core = element(h);
-  set_element(core, inner, {4 * face[0] + 2, 4 * face[1] + 2, 4 * face[2] + 2, 4 * face[3] + 2});
-  for (int k = 0; k < 4; ++k) {
-    const int l = (k + 1) % 4, j = (k + 3) % 4;
-    set_element(face[k], {corner[k], corner[l], inner[l], inner[k]},
-                {across[k], 4 * face[l] + 3, 4 * core + k, 4 * face[j] + 1});
-    write(kValence, inner[k], 3);
-    add_to_valence(corner[k], 1);
+  for (int i = 0; i < n; ++i) {
+    add_vertex(0.5 * (points_[corner[i]] + (1.0 / inside[i]) * middle[i]));
+    add_element();
+    write(kValence, first_vertex + i, inside[i] + 2);
+    add_to_valence(corner[i], 2 - inside[i]);
+  }
+  for (const int e : quads)
+    for (int h = 4 * e; h < 4 * e + 4; ++h)
+      if (const int i = place_of(corner_[h]); i < n) write(kCorner, h, first_vertex + i);
+  for (int i = 0; i < n; ++i) {
+    const int l = following[i];
+    set_element(first_quad + i, {corner[i], corner[l], first_vertex + l, first_vertex + i},
+                {across[i], 4 * (first_quad + l) + 3, sides[i], 4 * (first_quad + before[i]) + 1});
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,9 +81,11 @@ class QuadTopology {
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);
 
-  /// Puts a smaller quad inside h's quad, joined to it corner by corner: one quad becomes five. The four new
-  /// vertices are the last four slots, in the order of the corners from h's origin on.
-  void inset(int h);
+  /// The outline of these quads passes no vertex twice.
+  bool can_pillow(std::span<const int> quads) const;
+  /// Shrinks the quads and fills the gap with a ring of quads, one for each side of their outline. The new
+  /// vertices, one for each on the outline, are the last slots. Of a single quad: one becomes five.
+  void pillow(std::span<const int> quads);
 
   void move(int v, Vec2 to);
 
@@ -106,6 +109,7 @@ class QuadTopology {
     Vec2 old;
   };
 
+  std::vector<int> outline(std::span<const int> quads) const;
   std::vector<int>& array(Array which);
   void write(Array which, int index, int value);
   void add_to_valence(int v, int change) { write(kValence, v, valence_[v] + change); }

@@ -14,7 +14,8 @@ struct TreatmentSummary {
   int doublets = 0;          ///< interior vertices between two quads, removed
   int diamonds = 0;          ///< quads removed by merging two opposite corners
   int swaps = 0;             ///< edges rotated within the hexagon of their two quads
-  int boundary_repairs = 0;  ///< bad quads given four new vertices: one becomes five
+  int boundary_repairs = 0;  ///< times that a ring of new quads was put around bad ones
+  int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
   int relocated = 0;         ///< moves of vertices
   double seconds = 0;
 };
@@ -24,16 +25,17 @@ struct TreatmentSummary {
 ///
 /// Differs from the paper:
 /// - an edit is chosen by what it takes off the sum of (valence - ideal)^2, largest first, boundary vertices
-/// with their own
-///   ideal; two edits may be tried together where the first alone gains nothing;
+///   with their own ideal; two edits may be tried together where the first alone gains nothing;
 /// - it is kept only if, after local relocation, the elements around are not poorer (eta below 0.3) than
-/// before;
-/// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) new vertices;
+///   before;
+/// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) a ring of new
+///   quads; those of eta 0 are in the end remeshed with their neighbourhood, see LocalRemeshing;
 /// - relocation weighs angles and edge lengths, and a last pass lifts the worst quads.
 ///
 /// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
 /// topology type; quads stay quads and leftover triangles triangles. Throws std::invalid_argument where the
-/// input is not conforming.
+/// input is not conforming. No quad of eta 0 is left unless a corner of the boundary forces it or its edges
+/// are out of all proportion to the quads beside them (some hundred times as long).
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
 

@@ -82,7 +82,7 @@ void apply(QuadTopology& mesh, const TreatmentMove& move) {
       mesh.remove_doublet(move.at);
       break;
     case TreatmentMove::kInset:
-      mesh.inset(move.at);
+      mesh.pillow(std::array<int, 1>{QuadTopology::element(move.at)});
       break;
     default:
       mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);

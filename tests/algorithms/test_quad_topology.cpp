@@ -142,13 +142,40 @@ TEST(QuadTopology, NoCollapseIntoADoubleEdge) {
   EXPECT_FALSE(mesh.can_collapse(half_edge(mesh, 0, 5)));
 }
 
-TEST(QuadTopology, InsetMakesFiveOfOne) {
+TEST(QuadTopology, PillowMakesFiveOfOne) {
   QuadTopology mesh(grid_patch(1, 1));
-  mesh.inset(0);
+  mesh.pillow(std::array<int, 1>{0});
   EXPECT_TRUE(mesh.check_invariants().empty());
   EXPECT_EQ(mesh.to_patch().quads.size(), 5u);
   for (int v = 0; v < 4; ++v) EXPECT_EQ(mesh.valence(v), 2);
   for (int v = 4; v < 8; ++v) EXPECT_EQ(mesh.valence(v), 3);
+}
+
+TEST(QuadTopology, PillowAroundSeveralQuads) {
+  const QuadPatch grid = grid_patch(4, 3);
+  const std::vector<std::vector<int>> sets = {{0, 1, 4, 5}, {5, 6}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
+  for (const auto& quads : sets) {
+    QuadTopology mesh(grid);
+    ASSERT_TRUE(mesh.can_pillow(quads));
+    const auto start = mesh.mark();
+    mesh.pillow(quads);
+    EXPECT_TRUE(mesh.check_invariants().empty());
+    const auto wrong = check_quad_patch(mesh.to_patch(), shapes::rectangle(4, 3, 4, 3), 1);
+    EXPECT_TRUE(wrong.empty()) << wrong.front();
+    mesh.rollback(start);
+    expect_same(mesh.to_patch(), grid);
+  }
+  QuadTopology mesh(grid);
+  mesh.pillow(sets[0]);
+  EXPECT_EQ(mesh.to_patch().quads.size(), 12u + 8u);
+  EXPECT_EQ(mesh.valence(0), 2);
+  EXPECT_EQ(mesh.valence(1), 2) << "two quads inside went, two of the ring came";
+  EXPECT_FALSE(QuadTopology(grid).can_pillow(std::vector<int>{0, 5})) << "they touch at a vertex";
+  QuadPatch triangle;
+  triangle.points = {{0, 0}, {1, 0}, {0, 1}};
+  triangle.triangles = {{0, 1, 2}};
+  triangle.n_boundary = 3;
+  EXPECT_FALSE(QuadTopology(triangle).can_pillow(std::vector<int>{0}));
 }
 
 TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
@@ -169,7 +196,7 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
       mesh.collapse(h);
       ++collapses;
     } else if (kind == 13 && mesh.is_quad(QuadTopology::element(h)) && mesh.to_patch().quads.size() < 60) {
-      mesh.inset(h);
+      mesh.pillow(std::array<int, 1>{QuadTopology::element(h)});
       ++insets;
     } else if (kind >= 14 && mesh.can_remove_doublet(v)) {
       mesh.remove_doublet(v);

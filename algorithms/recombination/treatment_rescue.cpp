@@ -1,0 +1,106 @@
+#include "algorithms/recombination/treatment_process.h"
+
+#include <algorithm>
+
+namespace delquad {
+
+namespace {
+
+/// Below this eta even new vertices are welcome, once nothing else helps; and in the end remeshing.
+constexpr double kBadEta = 0.15, kRemeshedEta = 0.05;
+/// How much poorness such a move must take off, and more for each unit of valence energy that it costs.
+constexpr double kLeastRelief = 0.05, kReliefPerEnergy = 0.05;
+
+}  // namespace
+
+int TreatmentProcess::rescues() {
+  int changes = 0;
+  const double poor = sine_of_eta(kPoorEta);
+  for (int e = 0; e < mesh_.element_slots(); ++e)
+    if (mesh_.is_quad(e) && least_sine(mesh_, e) < poor && rescue(e)) changes += 1 + drain();
+  return changes;
+}
+
+bool TreatmentProcess::rescue(int element) {
+  double best = kLeastRelief;
+  TreatmentMove choice{TreatmentMove::kInset, -1};
+  for_each_move(mesh_, element, [&](const TreatmentMove& move) {
+    if (!is_legal(mesh_, move)) return;
+    const int loss = std::max(-energy_.gain(move), 0);
+    const double relief = relief_of(move) - kReliefPerEnergy * loss;
+    if (relief > best) best = relief, choice = move;
+  });
+  if (choice.at < 0) return least_sine(mesh_, element) < sine_of_eta(kBadEta) && rescue_by_inset(element);
+  touched_.clear();
+  touch(touched_by(mesh_, choice));
+  perform(choice);
+  relax_touched();
+  count(choice);
+  accept();
+  return true;
+}
+
+/// How much poorness the move takes off once it has settled.
+double TreatmentProcess::relief_of(const TreatmentMove& move) {
+  touched_.clear();
+  touch(touched_by(mesh_, move));
+  const auto start = mesh_.mark();
+  relax_touched();
+  const double before = poorness();
+  perform(move);
+  relax_touched();
+  const double after = poorness();
+  mesh_.rollback(start);
+  return before - after;
+}
+
+/// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
+bool TreatmentProcess::rescue_by_inset(int element) {
+  const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
+  const TreatmentSummary summary = summary_;
+  const auto start = mesh_.mark();
+  touched_.clear();
+  touch(touched_by(mesh_, inset));
+  const double before = poorness();
+  perform(inset);
+  relax_touched();
+  count(inset);
+  revocable_ = true;
+  accept();
+  const std::vector<int> around = touched_;
+  drain();
+  revocable_ = false;
+  touched_ = around;
+  relax_touched();
+  if (before - poorness() < kLeastRelief) {
+    mesh_.rollback(start);
+    summary_ = summary;
+    return false;
+  }
+  accept();
+  return true;
+}
+
+/// The last resort: the neighbourhoods of bad quads.
+int TreatmentProcess::remeshings() {
+  int changes = 0;
+  const double bad = sine_of_eta(kRemeshedEta);
+  for (int e = 0; e < mesh_.element_slots(); ++e) {
+    hopeless_.resize(mesh_.element_slots(), 0);
+    if (!mesh_.is_quad(e) || hopeless_[e] || least_sine(mesh_, e) >= bad) continue;
+    hopeless_[e] = !remeshing_.improve(e, kLeastRelief);
+    if (hopeless_[e]) continue;
+    touched_.assign(remeshing_.touched().begin(), remeshing_.touched().end());
+    if (remeshing_.ring_quads() > 0) {
+      ++summary_.boundary_repairs;
+      summary_.ring_quads += remeshing_.ring_quads();
+    } else if (remeshing_.move().at >= 0) {
+      count(remeshing_.move());
+    }
+    accept();
+    changes += 1 + drain();
+  }
+  return changes;
+}
+
+}  // namespace delquad
