@@ -38,7 +38,6 @@ class LocalRemeshing {
   void add_pillow(std::vector<int> quads);
   void list_near_edits(int quad);
   void list_far_edits(int quad);
-  bool legal(const Edit& edit) const;
   void perform(const Edit& edit);
   void settle();
   /// Keeps the best of the edits, or the first one that takes off enough.

@@ -34,8 +34,8 @@ struct TreatmentSummary {
 ///
 /// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
 /// topology type; quads stay quads and leftover triangles triangles. Throws std::invalid_argument where the
-/// input is not conforming. No quad of eta 0 is left unless a corner of the boundary forces it or its edges
-/// are out of all proportion to the quads beside them (some hundred times as long).
+/// input is not conforming. Quads of eta 0 may be left where edges of the boundary are some hundred times as
+/// long as the quads beside them, or where corners of about one degree crowd.
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
 
