@@ -48,7 +48,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
 void add_mesh(CLI::App& app, MeshArguments& arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar model");
   mesh->add_option("model", arguments.model, "curves and loops (.toml) or line elements (.msh)")->required();
-  mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu or .obj)")->required();
+  mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp or .mesh)")
+      ->required();
   mesh->add_option("--size", arguments.size, kSizeHelp);
   mesh->add_option("--cross", arguments.cross,
                    "directions: 'boundary', 'gradient' or an angle expression (radians)");

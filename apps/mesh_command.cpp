@@ -14,18 +14,8 @@
 #include "pipeline/runner.h"
 
 namespace delquad {
-namespace {
-
-void check_extension(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension != ".msh" && extension != ".vtu" && extension != ".obj")
-    throw InputError(path.string() + ": unknown mesh format '" + extension + "'; known: .msh, .vtu, .obj");
-}
-
-}  // namespace
-
 int mesh_command(const MeshArguments& arguments) {
-  check_extension(arguments.output);
+  check_mesh_format(arguments.output);
   const Word word = parse_word(arguments.pipeline);
   Case c = read_model_case(arguments.model);
   c.options.max_elements = arguments.max_elements;

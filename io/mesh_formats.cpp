@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "io/mesh_io.h"
 #include "mesh/error.h"
@@ -21,6 +22,25 @@ std::string extension(const std::filesystem::path& path) {
                    "': expected " + known);
 }
 
+void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh) {
+  std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
+                          std::numeric_limits<double>::quiet_NaN());
+  const std::vector<double> of_quads = quad_etas(mesh);
+  eta.insert(eta.end(), of_quads.begin(), of_quads.end());
+  write_vtu(path, mesh, {{"eta", eta}});
+}
+
+using Writer = void (*)(const std::filesystem::path&, const Mesh&);
+
+const std::map<std::string, Writer>& writers() {
+  static const std::map<std::string, Writer> all = {{".msh", write_msh},
+                                                    {".vtu", write_vtu_with_eta},
+                                                    {".obj", write_obj},
+                                                    {".inp", write_inp},
+                                                    {".mesh", write_medit}};
+  return all;
+}
+
 }  // namespace
 
 Mesh read_mesh(const std::filesystem::path& path) {
@@ -32,16 +52,13 @@ Mesh read_mesh(const std::filesystem::path& path) {
   unknown(path, ".msh, .obj, .off or .stl");
 }
 
+void check_mesh_format(const std::filesystem::path& path) {
+  if (!writers().count(extension(path))) unknown(path, ".msh, .vtu, .obj, .inp or .mesh");
+}
+
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
-  const std::string kind = extension(path);
-  if (kind == ".msh") return write_msh(path, mesh);
-  if (kind == ".obj") return write_obj(path, mesh);
-  if (kind != ".vtu") unknown(path, ".msh, .vtu or .obj");
-  std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
-                          std::numeric_limits<double>::quiet_NaN());
-  const std::vector<double> of_quads = quad_etas(mesh);
-  eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}});
+  check_mesh_format(path);
+  writers().at(extension(path))(path, mesh);
 }
 
 }  // namespace delquad

@@ -63,7 +63,15 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {});
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
-/// By extension: .msh, .vtu (with eta per quad), .obj. InputError for any other, naming those known.
+/// Abaqus input: shells S4 and S3, or CPS4 and CPS3 when all z are equal. Regions are ELSETs and NSETs,
+/// curves NSETs, by their names as far as Abaqus takes them (letters, digits, underscores), else "region_" or
+/// "curve_" and the tag.
+void write_inp(const std::filesystem::path& path, const Mesh& mesh);
+/// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
+void write_medit(const std::filesystem::path& path, const Mesh& mesh);
+/// InputError when write_mesh() knows no format for the path's extension, naming those known.
+void check_mesh_format(const std::filesystem::path& path);
+/// By extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh. Throws as check_mesh_format().
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace delquad

@@ -40,7 +40,7 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
 TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare + "size = \"0.05 + 0.1*x\"\n");
-  for (const char* name : {"out.msh", "out.vtu", "out.obj"}) {
+  for (const char* name : {"out.msh", "out.vtu", "out.obj", "out.inp", "out.mesh"}) {
     ASSERT_EQ(delquad({"mesh", model, "-o", folder / name}).exit_code, 0) << name;
     EXPECT_GT(std::filesystem::file_size(folder / name), 1000u) << name;
   }

@@ -163,7 +163,7 @@ TEST(MeshFormats, AreToldByExtension) {
   write_mesh(folder / "a.vtu", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.vtu").find("Name=\"eta\""), std::string::npos);
   expect_input_error([&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
-                     {"a.stl", "'.stl'", ".msh, .vtu or .obj"});
+                     {"a.stl", "'.stl'", ".msh, .vtu, .obj, .inp or .mesh"});
   expect_input_error([&] { read_mesh(folder / "a.vtu"); }, {"a.vtu", ".msh, .obj, .off or .stl"});
 }
 

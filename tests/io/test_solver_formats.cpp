@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include "io/mesh_io.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::quad_grid;
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
+using testing_support::write_text;
+
+/// Two quads and two triangles on a bent surface, in two regions, with names that Abaqus cannot hold.
+Mesh bent() {
+  Mesh mesh = quad_grid(3, 1, 0.1, 1.0 / 3);
+  mesh.points[0].z = 0.7;
+  const auto quad = mesh.quads[2];
+  mesh.quads.pop_back();
+  mesh.quad_region = {0, 0};
+  mesh.triangles = {{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}};
+  mesh.triangle_region = {1, 1};
+  mesh.regions = {{1, {"Blech", "all parts"}}, {7, {"all parts", "blech"}}};
+  mesh.curves[0].names = {"3 côtés"};
+  mesh.curves[2].names = {};
+  return mesh;
+}
+
+TEST(AbaqusInp, IsTheDocumentedFormat) {
+  const TemporaryFolder folder;
+  write_inp(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
+  EXPECT_EQ(read_text(folder / "a.inp"), R"(*HEADING
+Quad mesh by Delquad
+*NODE
+1, 0, 0, 0
+2, 0.5, 0, 0
+3, 0, 2, 0
+4, 0.5, 2, 0
+*ELEMENT, TYPE=CPS4
+1, 1, 2, 4, 3
+*ELSET, ELSET=inside
+1
+*NSET, NSET=east
+2, 4
+*NSET, NSET=inside
+1, 2, 3, 4
+*NSET, NSET=north
+3, 4
+*NSET, NSET=south
+1, 2
+*NSET, NSET=west
+1, 3
+)");
+}
+
+TEST(AbaqusInp, NamesBecomeLabels) {
+  const TemporaryFolder folder;
+  write_inp(folder / "a.inp", bent());
+  const std::string text = read_text(folder / "a.inp");
+  for (const char* line :
+       {"TYPE=S3\n1, ", "TYPE=S4\n3, ", "ELSET=Blech\n3, 4\n", "ELSET=all_parts\n1, 2, 3, 4\n",
+        "ELSET=blech_2\n1, 2\n", "NSET=SET_3_c__t__s\n", "NSET=curve_3\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+const std::string kPython = "/usr/bin/python3";
+
+testing_support::ProgramResult run_python(std::vector<std::string> arguments) {
+  testing_support::ProgramOptions options;
+  options.arguments = std::move(arguments);
+  return testing_support::run_program(kPython, options);
+}
+
+// Read back by an independent program, which compares with the MSH file of the same mesh.
+TEST(SolverFormats, MeshioReadsTheSameMesh) {
+  if (run_python({"-c", "import meshio"}).exit_code != 0)
+    GTEST_SKIP() << "meshio is not installed for " << kPython;
+  const TemporaryFolder folder;
+  const auto script = write_text(folder / "compare.py", R"(
+import sys, meshio, numpy as np
+msh, other = meshio.read(sys.argv[1]), meshio.read(sys.argv[2])
+for kind in ('triangle', 'quad'):
+    a, b = (m.points[np.vstack([c.data for c in m.cells if c.type == kind])].tolist() for m in (msh, other))
+    assert a == b, (kind, a, b)
+if sys.argv[2].endswith('.mesh'):
+    for kind in ('line', 'triangle', 'quad'):
+        a = np.concatenate([r for c, r in zip(msh.cells, msh.cell_data['gmsh:geometrical']) if c.type == kind])
+        b = np.concatenate([r for c, r in zip(other.cells, other.cell_data['medit:ref']) if c.type == kind])
+        assert a.tolist() == b.tolist(), (kind, a, b)
+else:
+    sizes = {k: sum(len(x) for x in v) for k, v in other.cell_sets.items()}
+    assert sizes == {'Blech': 2, 'all_parts': 4, 'blech_2': 2}, sizes
+    sizes = {k: len(v) for k, v in other.point_sets.items()}
+    assert sizes['SET_3_c__t__s'] == 4 and sizes['curve_3'] == 4 and sizes['east'] == 2, sizes
+)");
+  Mesh reference = bent();
+  reference.curves[2].names = {
+      "north"};  // meshio refuses an MSH file with a nameless curve beside named ones
+  write_msh(folder / "a.msh", reference);
+  for (const char* name : {"a.inp", "a.mesh"}) {
+    write_mesh(folder / name, bent());
+    const auto result = run_python({script, folder / "a.msh", folder / name});
+    EXPECT_EQ(result.exit_code, 0) << name << ": " << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace delquad
