@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace delquad {
 
 /// Exit codes of the program, besides kInterrupted.
-inline constexpr int kDone = 0, kInternalError = 1, kBadInput = 2, kTrianglesLeft = 3;
+inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3;
 
 struct RunArguments {
   std::filesystem::path experiment, folder;
@@ -31,5 +32,12 @@ struct MetricsArguments {
   std::string size;  ///< empty: none
 };
 int metrics_command(const MetricsArguments& arguments);
+
+struct CompareArguments {
+  std::filesystem::path before, after;  ///< folders of results
+  std::vector<std::string> metrics = {"eta_mean", "eta_worst", "d4", "tau", "percent_quads"};
+  double tolerance = 0.01;  ///< part of a value by which it may change
+};
+int compare_command(const CompareArguments& arguments);
 
 }  // namespace delquad

@@ -69,15 +69,30 @@ void add_metrics(CLI::App& app, MetricsArguments& arguments) {
   metrics->add_option("--json", arguments.json, "record to write");
 }
 
+void add_compare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App* compare =
+      app.add_subcommand("compare", "Compare the results of two runs; exit code 1 when something got worse");
+  compare->add_option("before", arguments.before, "folder of results")->required();
+  compare->add_option("after", arguments.after, "folder of results to judge")->required();
+  compare->add_option("--metrics", arguments.metrics, "keys of records, or 'seconds'")
+      ->delimiter(',')
+      ->capture_default_str();
+  compare->add_option("--tolerance", arguments.tolerance, "part of a value by which it may change")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(1);
   RunArguments run;
   MeshArguments mesh;
   MetricsArguments metrics;
+  CompareArguments compare;
   add_run(app, run);
   add_mesh(app, mesh);
   add_metrics(app, metrics);
+  add_compare(app, compare);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -85,6 +100,7 @@ int run_program(int argc, char** argv) {
   }
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
+  if (app.got_subcommand("compare")) return compare_command(compare);
   return metrics_command(metrics);
 }
 

@@ -1,0 +1,80 @@
+#include "pipeline/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::TemporaryFolder;
+using testing_support::write_text;
+
+CellRecord cell(const std::string& word, double eta, double seconds = 1) {
+  return {"plate", word, "", {{"eta_mean", eta}, {"d_max", 5}, {"seconds", seconds}}};
+}
+
+TEST(Compare, JudgesByDirectionAndTolerance) {
+  const std::vector<CellRecord> before = {cell("FB", 0.8), cell("DB", 0.9, 2)};
+  const std::vector<CellRecord> after = {cell("FB", 0.7), cell("DB", 0.905, 1)};
+  const Comparison c = compare_records(before, after, {"eta_mean", "seconds"}, 0.01);
+  ASSERT_EQ(c.changes.size(), 4u);
+  EXPECT_EQ(c.changes[0].verdict, Verdict::kRegressed);
+  EXPECT_EQ(c.changes[1].verdict, Verdict::kUnchanged);
+  EXPECT_EQ(c.changes[2].verdict, Verdict::kUnchanged) << "half a percent";
+  EXPECT_EQ(c.changes[3].verdict, Verdict::kImproved) << "less time";
+  EXPECT_TRUE(c.regressed());
+  EXPECT_NE(to_text(c).find("regressed  plate FB: eta_mean 0.8 -> 0.7"), std::string::npos) << to_text(c);
+  EXPECT_FALSE(compare_records(before, before, {"eta_mean", "seconds"}, 0).regressed());
+}
+
+TEST(Compare, TellsWhatIsMissingFailedAndNew) {
+  CellRecord broken = cell("D", 0);
+  broken.values.clear();
+  broken.failure = "no size";
+  const std::vector<CellRecord> before = {cell("D", 0.8), cell("F", 0.8)};
+  const Comparison c = compare_records(before, {broken, cell("DB", 1)}, {"eta_mean"}, 0.01);
+  EXPECT_EQ(c.missing, std::vector<std::string>{"plate F"});
+  EXPECT_EQ(c.failed, std::vector<std::string>{"plate D: no size"});
+  EXPECT_EQ(c.added, std::vector<std::string>{"plate DB"});
+  EXPECT_TRUE(c.regressed());
+  EXPECT_EQ(compare_records({broken}, {cell("D", 1)}, {"eta_mean"}, 0.01).recovered,
+            std::vector<std::string>{"plate D"});
+  EXPECT_FALSE(compare_records({broken}, {broken}, {"eta_mean"}, 0.01).regressed());
+}
+
+TEST(Compare, AValueThatIsNoLongerDefinedIsARegression) {
+  EXPECT_TRUE(compare_records({cell("D", 0.5)}, {cell("D", std::nan(""))}, {"eta_mean"}, 1).regressed());
+  EXPECT_FALSE(compare_records({cell("D", std::nan(""))}, {cell("D", 0.5)}, {"eta_mean"}, 1).regressed());
+}
+
+TEST(Compare, RefusesMetricsWithoutADirection) {
+  for (const char* metric : {"n_quads", "beauty"})
+    expect_input_error([&] { compare_records({}, {}, {metric}, 0.1); }, {metric, "eta_mean", "seconds"});
+}
+
+TEST(ReadRecords, RefusesWhatIsNoRecord) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { read_records(folder / "nowhere"); }, {"nowhere"});
+  expect_input_error([&] { read_records(folder / ""); }, {"no record.json"});
+  std::filesystem::create_directories(folder / "a" / "b");
+  const std::string good =
+      R"({"case": "a", "pipeline": "D", "status": "ok", "metrics": {"tau": null, "d4": 90}, "meshing_seconds": 2})";
+  write_text(folder / "a" / "record.json", good);
+  const auto records = read_records(folder / "");
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_TRUE(std::isnan(records[0].values.at("tau")));
+  EXPECT_EQ(records[0].values.at("seconds"), 2);
+  write_text(folder / "a" / "b" / "record.json", good);
+  expect_input_error([&] { read_records(folder / ""); }, {"another record of a D"});
+  for (const char* text : {"", "{}", "[1]", "{\"case\": 3}", "\x01"}) {
+    write_text(folder / "a" / "b" / "record.json", text);
+    expect_input_error([&] { read_records(folder / ""); }, {"b/record.json", "no record"});
+  }
+}
+
+}  // namespace
+}  // namespace delquad
