@@ -33,9 +33,8 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return exact::orient2d(a, b, c);
 }
 
-/// +1 when d lies strictly inside the circle through the counterclockwise triangle a, b, c, 0 on it, -1
-/// outside.
-inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+/// As in_circle(), but 0 also where rounding leaves the sign open: never slow, and right when not 0.
+inline int in_circle_or_unsure(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 ad = a - d, bd = b - d, cd = c - d;
   const double bc1 = bd.x * cd.y, bc2 = cd.x * bd.y;
   const double ca1 = cd.x * ad.y, ca2 = ad.x * cd.y;
@@ -47,7 +46,14 @@ inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
                            (std::abs(ab1) + std::abs(ab2)) * c_lift;
   const double bound = exact::kInCircleBound * permanent;
   if (std::abs(det) > bound && bound > exact::kUnderflowGuard) return det > 0 ? 1 : -1;
-  return exact::in_circle(a, b, c, d);
+  return 0;
+}
+
+/// +1 when d lies strictly inside the circle through the counterclockwise triangle a, b, c, 0 on it, -1
+/// outside.
+inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const int sign = in_circle_or_unsure(a, b, c, d);
+  return sign != 0 ? sign : exact::in_circle(a, b, c, d);
 }
 
 }  // namespace delquad
