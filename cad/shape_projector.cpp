@@ -18,7 +18,7 @@
 #include <variant>
 
 #include "cad/nearest_point.h"
-#include "cad/nearest_triangle.h"
+#include "mesh/nearest_triangle.h"
 
 namespace delquad::cad {
 
@@ -63,8 +63,9 @@ class FaceProjector {
           *elementary_);
     }
     const NearestTriangle::Found found = triangles_->find(x);
+    const auto& vertices = triangles_->triangle(found.triangle);
     Vec2 uv{0, 0};
-    for (int k = 0; k < 3; ++k) uv += found.weights[k] * uv_[found.vertices[k]];
+    for (int k = 0; k < 3; ++k) uv += found.weights[k] * uv_[vertices[k]];
     return to_vec(nearest_point(*surface_, to_pnt(x), uv.x, uv.y, tolerance));
   }
 

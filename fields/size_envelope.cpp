@@ -9,8 +9,6 @@ namespace delquad {
 
 namespace {
 
-constexpr int kLeafSize = 8;
-
 bool by_place(const SizeEnvelope::Sample& a, const SizeEnvelope::Sample& b) {
   return std::tie(a.at.x, a.at.y, a.delta) < std::tie(b.at.x, b.at.y, b.delta);
 }
@@ -33,61 +31,25 @@ SizeEnvelope::SizeEnvelope(std::vector<Sample> samples, double slope)
 }
 
 void SizeEnvelope::build() {
-  nodes_.clear();
-  if (!samples_.empty()) build(0, static_cast<int>(samples_.size()));
-}
-
-int SizeEnvelope::build(int begin, int end) {
-  const int index = static_cast<int>(nodes_.size());
-  Node node{{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, INFINITY, begin, end, -1};
-  for (int i = begin; i < end; ++i) {
-    const auto& [p, delta] = samples_[i];
-    node.low = {std::min(node.low.x, p.x), std::min(node.low.y, p.y)};
-    node.high = {std::max(node.high.x, p.x), std::max(node.high.y, p.y)};
-    node.least = std::min(node.least, delta);
+  std::vector<Box<Vec2>> boxes;
+  boxes.reserve(samples_.size());
+  for (const Sample& s : samples_) boxes.push_back({s.at, s.at});
+  tree_ = BoxTree<Vec2>(boxes);
+  least_.clear();
+  for (const auto& node : tree_.nodes()) {
+    least_.push_back(INFINITY);
+    for (const int i : tree_.items(node)) least_.back() = std::min(least_.back(), samples_[i].delta);
   }
-  nodes_.push_back(node);
-  if (end - begin <= kLeafSize) return index;
-
-  const bool by_x = node.high.x - node.low.x > node.high.y - node.low.y;
-  const int middle = begin + (end - begin) / 2;
-  std::nth_element(samples_.begin() + begin, samples_.begin() + middle, samples_.begin() + end,
-                   [by_x](const Sample& a, const Sample& b) {
-                     return by_x ? by_place(a, b) : std::tie(a.at.y, a.at.x) < std::tie(b.at.y, b.at.x);
-                   });
-  build(begin, middle);
-  const int right = build(middle, end);
-  nodes_[index].right = right;
-  return index;
-}
-
-double SizeEnvelope::bound(const Node& node, Vec2 x) const {
-  const double dx = std::max({node.low.x - x.x, 0.0, x.x - node.high.x});
-  const double dy = std::max({node.low.y - x.y, 0.0, x.y - node.high.y});
-  return node.least + slope_ * norm(Vec2{dx, dy});
 }
 
 double SizeEnvelope::limit(Vec2 x, double delta) const {
-  if (nodes_.empty()) return delta;
-  std::vector<std::pair<double, int>> stack;
-  const auto push = [&](int index) { stack.emplace_back(bound(nodes_[index], x), index); };
-  push(0);
-  while (!stack.empty()) {
-    const auto [least, index] = stack.back();
-    stack.pop_back();
-    if (least >= delta) continue;
-    const Node& node = nodes_[index];
-    if (node.right >= 0) {
-      push(node.right);
-      push(index + 1);
-      if (stack.back().first > stack[stack.size() - 2].first)
-        std::swap(stack.back(), stack[stack.size() - 2]);
-      continue;
-    }
-    for (int i = node.begin; i < node.end; ++i) {
-      delta = std::min(delta, samples_[i].delta + slope_ * norm(x - samples_[i].at));
-    }
-  }
+  tree_.search(
+      delta,
+      [&](const BoxTree<Vec2>::Node& node) {
+        const auto index = static_cast<std::size_t>(&node - tree_.nodes().data());
+        return least_[index] + slope_ * std::sqrt(node.box.distance2(x));
+      },
+      [&](int i) { delta = std::min(delta, samples_[i].delta + slope_ * norm(x - samples_[i].at)); });
   return delta;
 }
 

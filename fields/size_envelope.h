@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "mesh/box_tree.h"
 #include "mesh/vec.h"
 
 namespace delquad {
@@ -20,19 +21,12 @@ class SizeEnvelope {
   double limit(Vec2 x, double delta) const;
 
  private:
-  struct Node {
-    Vec2 low, high;
-    double least;    ///< of the samples in the box
-    int begin, end;  ///< range of samples_
-    int right;       ///< second child, the first being the next node; -1: a leaf
-  };
   void build();
-  int build(int begin, int end);
-  double bound(const Node& node, Vec2 x) const;
 
   double slope_;
   std::vector<Sample> samples_;
-  std::vector<Node> nodes_;
+  BoxTree<Vec2> tree_;
+  std::vector<double> least_;  ///< of the samples in each node of the tree
 };
 
 }  // namespace delquad

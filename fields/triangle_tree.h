@@ -1,12 +1,11 @@
 #pragma once
 
-#include <vector>
-
+#include "mesh/box_tree.h"
 #include "mesh/patch.h"
 
 namespace delquad {
 
-/// Bounding boxes of triangles in a binary tree: finds triangles by place, whatever their grading.
+/// Finds triangles by place, whatever their grading.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriPatch& tri);
@@ -21,15 +20,7 @@ class TriangleTree {
   Nearest nearest(const TriPatch& tri, Vec2 u) const;
 
  private:
-  struct Node {
-    Vec2 low, high;
-    int begin, end;  ///< range of order_
-    int right;       ///< second child, the first being the next node; -1: a leaf
-  };
-  int build(const TriPatch& tri, int begin, int end);
-
-  std::vector<int> order_;
-  std::vector<Node> nodes_;
+  BoxTree<Vec2> tree_;
 };
 
 }  // namespace delquad

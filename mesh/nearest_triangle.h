@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "mesh/box_tree.h"
+#include "mesh/vec.h"
+
+namespace delquad {
+
+/// Finds the triangle nearest to a point of space.
+class NearestTriangle {
+ public:
+  /// Throws std::invalid_argument without triangles.
+  NearestTriangle(std::vector<Vec3> points, std::vector<std::array<int, 3>> triangles);
+
+  struct Found {
+    int triangle = -1;                ///< the first of several; -1: none within the reach
+    std::array<double, 3> weights{};  ///< of its vertices in the nearest point; sum 1
+    double distance = std::numeric_limits<double>::infinity();
+  };
+  /// Triangles further than `reach` from x are not looked at.
+  Found find(const Vec3& x, double reach = std::numeric_limits<double>::infinity()) const;
+  const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
+
+ private:
+  std::vector<Vec3> points_;
+  std::vector<std::array<int, 3>> triangles_;
+  BoxTree<Vec3> tree_;
+};
+
+/// Weights of the vertices in the point of the triangle that is nearest to x.
+std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
+
+}  // namespace delquad
