@@ -40,4 +40,10 @@ struct CompareArguments {
 };
 int compare_command(const CompareArguments& arguments);
 
+struct InfoArguments {
+  std::filesystem::path model, json;
+  std::string size;  ///< empty: none
+};
+int info_command(const InfoArguments& arguments);
+
 }  // namespace delquad

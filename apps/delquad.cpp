@@ -82,6 +82,16 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
       ->capture_default_str();
 }
 
+void add_info(CLI::App& app, InfoArguments& arguments) {
+  CLI::App* info = app.add_subcommand("info", "Tell what a model consists of and what is hard to mesh in it");
+  info->add_option(
+          "model", arguments.model,
+          "CAD (.step, .stp, .brep), triangles (.stl, .obj, .off, .msh) or a planar model (.toml, .msh)")
+      ->required();
+  info->add_option("--size", arguments.size, "wanted edge length, a number: name what is smaller");
+  info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(1);
@@ -93,6 +103,8 @@ int run_program(int argc, char** argv) {
   add_mesh(app, mesh);
   add_metrics(app, metrics);
   add_compare(app, compare);
+  InfoArguments info;
+  add_info(app, info);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -101,6 +113,7 @@ int run_program(int argc, char** argv) {
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);
+  if (app.got_subcommand("info")) return info_command(info);
   return metrics_command(metrics);
 }
 

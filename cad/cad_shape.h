@@ -33,6 +33,7 @@ struct CadShape {
   TopoDS_Shape shape;
   FaceNames names;
   double diagonal = 0;  ///< of the bounding box
+  std::string unit;     ///< of lengths; empty: unknown
   std::vector<std::string> warnings;
 };
 

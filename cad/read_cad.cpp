@@ -107,6 +107,7 @@ SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) 
 
   SurfaceModel model;
   model.source = path.string();
+  model.unit = cad.unit;
   model.warnings = std::move(cad.warnings);
   model.fine = std::move(welded.mesh);
   model.corners = std::move(welded.corners);

@@ -48,6 +48,7 @@ std::string to_bytes(const CadShape& cad) {
   std::ostringstream out;
   put(out, cad.diagonal);
   put(out, cad.warnings);
+  put(out, std::vector<std::string>{cad.unit});
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
   // The shape last: its reader looks ahead. The names are in the order of its faces, so they come by number.
@@ -67,6 +68,7 @@ CadShape from_bytes(const std::string& bytes) {
   BinTools::Read(cad.shape, shape);
   cad.diagonal = get<double>(in);
   cad.warnings = get_texts(in);
+  cad.unit = get_texts(in).at(0);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f)
     for (const std::string& name : get_texts(in)) cad.names.add(faces(f), name);

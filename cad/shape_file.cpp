@@ -74,6 +74,7 @@ CadShape read_step(const std::filesystem::path& path) {
   }
   cad.shape = reader.OneShape();
   cad.names = step_names(reader);
+  cad.unit = "mm";  // what the kernel converts to
   return cad;
 }
 

@@ -132,14 +132,6 @@ PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
   return domain;
 }
 
-/// Triangles that do not lie in a plane of constant z.
-bool holds_surface(const Mesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
-    return std::any_of(t.begin(), t.end(),
-                       [&](int v) { return mesh.points[v].z != mesh.points[mesh.triangles[0][0]].z; });
-  });
-}
-
 PlanarDomain read_lines(const Case& c, const Mesh& mesh, const MshSurfaces& surfaces, PreparedCase& p) {
   if (mesh.lines.empty())
     throw InputError(c.mesh_file.string() +

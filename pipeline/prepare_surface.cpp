@@ -44,6 +44,13 @@ bool is_surface_file(const std::filesystem::path& path) {
   return kCadFiles.count(path.extension().string()) + kTriangleFiles.count(path.extension().string()) > 0;
 }
 
+bool holds_surface(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.triangles, [&](const auto& t) {
+    return std::ranges::any_of(
+        t, [&](int v) { return mesh.points[v].z != mesh.points[mesh.triangles[0][0]].z; });
+  });
+}
+
 SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where) {
   return located(where, [&] {
     if (kCadFiles.count(path.extension().string())) return read_cad(path);

@@ -11,6 +11,9 @@ namespace delquad {
 /// .off).
 bool is_surface_file(const std::filesystem::path& path);
 
+/// Whether some triangle does not lie in the plane of constant z of the first.
+bool holds_surface(const Mesh& mesh);
+
 /// Reads a surface model; `where` goes in front of messages.
 SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where);
 

@@ -1,0 +1,269 @@
+#include "geometry/surface/model_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "geometry/surface/chart.h"
+#include "geometry/surface/surface_messages.h"
+#include "mesh/box_tree.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+/// Degrees below which two curves that meet bound a corner, not a strip.
+constexpr double kCornerAngle = 60;
+/// Cosine between the inward directions of two sides, up to which they look at each other; and that between
+/// either direction and the way across.
+constexpr double kOpposite = -0.7, kAcross = 0.9;
+
+std::array<int, 2> sorted_ends(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+double triangle_area(const Mesh& mesh, int t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+}
+
+/// Whether every number stands there an even number of times.
+bool in_pairs(std::vector<int> numbers) {
+  std::ranges::sort(numbers);
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    if (i + 1 == numbers.size() || numbers[i] != numbers[i + 1]) return false;
+  return true;
+}
+
+/// A side of a chart's boundary.
+struct BoundarySide {
+  Vec3 from, to, inwards;  ///< unit direction into the chart
+  int curve;
+};
+
+Vec3 nearest_on(const BoundarySide& side, const Vec3& x) {
+  const Vec3 d = side.to - side.from;
+  const double length2 = dot(d, d);
+  const double t = length2 > 0 ? std::clamp(dot(x - side.from, d) / length2, 0.0, 1.0) : 0;
+  return side.from + t * d;
+}
+
+/// Least distance between sides that look at each other, but for those of pairs of curves in `corners`.
+double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::array<int, 2>>& corners) {
+  std::vector<Box<Vec3>> boxes;
+  for (const BoundarySide& s : sides) boxes.push_back(Box<Vec3>::around({s.from, s.to}));
+  const BoxTree<Vec3> tree(boxes);
+  double least2 = kInf;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const BoundarySide& side = sides[i];
+    const Vec3 x = 0.5 * (side.from + side.to);
+    tree.nearest(x, least2, [&](int j) {
+      const BoundarySide& other = sides[j];
+      if (dot(side.inwards, other.inwards) > kOpposite) return;
+      const Vec3 way = nearest_on(other, x) - x;
+      const double gap2 = dot(way, way), gap = std::sqrt(gap2);
+      if (gap2 >= least2 || dot(way, side.inwards) < kAcross * gap ||
+          dot(way, other.inwards) > -kAcross * gap)
+        return;
+      if (std::ranges::binary_search(corners, sorted_ends(side.curve, other.curve))) return;
+      least2 = gap2;
+    });
+  }
+  return std::sqrt(least2);
+}
+
+class Reporter {
+ public:
+  explicit Reporter(const SurfaceModel& model)
+      : model_(model), mesh_(model.fine), sides_(sorted_half_edges(mesh_)) {
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      line_curve_[sorted_ends(mesh_.lines[l][0], mesh_.lines[l][1])] = mesh_.line_curve[l];
+  }
+
+  ModelReport run() {
+    measure_box();
+    measure_curves();
+    measure_faces();
+    find_shells();
+    return std::move(report_);
+  }
+
+ private:
+  void measure_box() {
+    report_.low = report_.high = mesh_.points.at(0);
+    for (const Vec3& p : mesh_.points) {
+      report_.low = lower(report_.low, p);
+      report_.high = upper(report_.high, p);
+    }
+    report_.diagonal = norm(report_.high - report_.low);
+    report_.vertices = static_cast<int>(model_.corners.size());
+  }
+
+  void measure_curves() {
+    report_.curves.resize(mesh_.curves.size());
+    std::vector<std::vector<int>> ends(mesh_.curves.size());
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      const auto& [a, b] = mesh_.lines[l];
+      CurveReport& curve = report_.curves[mesh_.line_curve[l]];
+      curve.length += norm(mesh_.points[b] - mesh_.points[a]);
+      ends[mesh_.line_curve[l]].insert(ends[mesh_.line_curve[l]].end(), {a, b});
+    }
+    for (std::size_t c = 0; c < ends.size(); ++c) report_.curves[c].closed = in_pairs(ends[c]);
+    std::vector<char> seen(mesh_.curves.size(), 0);
+    for_each_edge(std::span(sides_), [&](std::span<const HalfEdge> edge) {
+      const auto line = line_curve_.find({edge[0].lo, edge[0].hi});
+      if (line == line_curve_.end() || seen[line->second]) return;
+      seen[line->second] = 1;
+      auto& faces = report_.curves[line->second].faces;
+      for (const HalfEdge& side : edge) faces.push_back(mesh_.triangle_region[side.element]);
+      std::ranges::sort(faces);
+    });
+    for (const CurveReport& curve : report_.curves)
+      if (curve.faces.size() == 1) report_.free_length += curve.length;
+  }
+
+  void measure_faces() {
+    report_.faces.resize(mesh_.regions.size());
+    for (FaceReport& face : report_.faces) face.width = kInf;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const double area = triangle_area(mesh_, static_cast<int>(t));
+      report_.faces[mesh_.triangle_region[t]].area += area;
+      report_.area += area;
+    }
+    std::vector<Chart> charts = extract_charts(mesh_, std::vector<char>(mesh_.triangles.size(), 1));
+    std::ranges::stable_sort(charts, {}, &Chart::face);
+    for (const Chart& chart : charts) add_chart(chart);
+    for (std::size_t c = 0; c < report_.curves.size(); ++c)
+      for (const int f : report_.curves[c].faces) {
+        auto& curves = report_.faces[f].curves;
+        if (curves.empty() || curves.back() != static_cast<int>(c)) curves.push_back(static_cast<int>(c));
+      }
+  }
+
+  void add_chart(const Chart& chart) {
+    FaceReport& face = report_.faces[chart.face];
+    ++face.pieces;
+    face.loops += static_cast<int>(chart.loops.size());
+    face.handles += genus(chart);
+    if (chart.loops.empty()) return;
+    std::vector<Vec3> inwards(chart.n_boundary);  // of the side that begins at each vertex of a loop
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        if (chart.neighbours[t][k] >= 0) continue;
+        const int a = chart.triangles[t][(k + 1) % 3], b = chart.triangles[t][(k + 2) % 3];
+        const Vec3 side = chart.points[b] - chart.points[a];
+        const Vec3 in = cross(cross(side, chart.points[chart.triangles[t][k]] - chart.points[a]), side);
+        const double length = norm(in);
+        if (length > 0) inwards[a] = (1 / length) * in;
+      }
+    std::vector<BoundarySide> sides;
+    std::vector<std::array<int, 2>> sharp;
+    const std::vector<double> defects = angle_defects(chart);
+    double perimeter = 0;
+    for (const auto& loop : chart.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int before = loop[i > 0 ? i - 1 : loop.size() - 1], a = loop[i],
+                  b = loop[i + 1 < loop.size() ? i + 1 : 0];
+        const int curve = curve_of(chart, a, b);
+        sides.push_back({chart.points[a], chart.points[b], inwards[a], curve});
+        perimeter += norm(chart.points[b] - chart.points[a]);
+        if (!std::ranges::binary_search(model_.corners, chart.fine_node[a])) continue;
+        const CornerReport corner{chart.face,
+                                  {curve_of(chart, before, a), curve},
+                                  chart.points[a],
+                                  (std::numbers::pi - defects[a]) * 180 / std::numbers::pi};
+        report_.corners.push_back(corner);
+        if (corner.angle < kCornerAngle) sharp.push_back(sorted_ends(corner.curves[0], corner.curves[1]));
+      }
+    }
+    std::ranges::sort(sharp);
+    const std::vector<double> areas = triangle_areas(chart);
+    const double diameter = 4 * std::accumulate(areas.begin(), areas.end(), 0.0) / perimeter;
+    face.width = std::min({face.width, diameter, least_gap(sides, sharp)});
+  }
+
+  int curve_of(const Chart& chart, int a, int b) const {
+    return line_curve_.at(sorted_ends(chart.fine_node[a], chart.fine_node[b]));
+  }
+
+  void find_shells() {
+    const int n_faces = static_cast<int>(mesh_.regions.size());
+    std::vector<int> parent(n_faces);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int f) {
+      while (parent[f] != f) f = parent[f] = parent[parent[f]];
+      return f;
+    };
+    for (const CurveReport& curve : report_.curves)
+      for (std::size_t k = 1; k < curve.faces.size(); ++k) {
+        const int a = root(curve.faces[0]), b = root(curve.faces[k]);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+    std::vector<int> shell_of(n_faces, -1);
+    for (int f = 0; f < n_faces; ++f) {
+      int& shell = shell_of[root(f)];
+      if (shell < 0) {
+        shell = static_cast<int>(report_.shells.size());
+        report_.shells.push_back({{}, 0, 0, true});
+      }
+      report_.shells[shell].faces.push_back(f);
+      report_.shells[shell].area += report_.faces[f].area;
+      shell_of[f] = shell;
+    }
+    count_cells(shell_of);
+  }
+
+  void count_cells(const std::vector<int>& shell_of) {
+    const auto shell_of_triangle = [&](int t) -> ShellReport& {
+      return report_.shells[shell_of[mesh_.triangle_region[t]]];
+    };
+    for_each_edge(std::span(sides_), [&](std::span<const HalfEdge> edge) {
+      ShellReport& shell = shell_of_triangle(edge[0].element);
+      --shell.euler_characteristic;
+      if (edge.size() < 2) shell.closed = false;
+    });
+    std::vector<int> last_shell(mesh_.points.size(), -1);  // by shell, so that each counts a point once
+    std::vector<std::vector<int>> triangles(report_.shells.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      triangles[shell_of[mesh_.triangle_region[t]]].push_back(static_cast<int>(t));
+    for (std::size_t s = 0; s < triangles.size(); ++s)
+      for (const int t : triangles[s]) {
+        ++report_.shells[s].euler_characteristic;
+        for (const int v : mesh_.triangles[t]) {
+          if (last_shell[v] == static_cast<int>(s)) continue;
+          last_shell[v] = static_cast<int>(s);
+          ++report_.shells[s].euler_characteristic;
+        }
+      }
+  }
+
+  const SurfaceModel& model_;
+  const Mesh& mesh_;
+  std::vector<HalfEdge> sides_;
+  std::map<std::array<int, 2>, int> line_curve_;  ///< of each line, by its ends
+  ModelReport report_;
+};
+
+}  // namespace
+
+ModelReport report_model(const SurfaceModel& model) { return Reporter(model).run(); }
+
+std::string topology(const FaceReport& face) {
+  std::string text;
+  if (face.handles > 0) {
+    text = counted(face.handles, "handle") + ", " + counted(face.loops, "loop");
+  } else if (face.loops == 0) {
+    text = "closed";
+  } else {
+    const int holes = face.loops - face.pieces;
+    text = holes == 0 ? "disk" : holes == 1 ? "annulus" : fmt::format("disk with {} holes", holes);
+  }
+  return face.pieces > 1 ? fmt::format("{} pieces, {}", face.pieces, text) : text;
+}
+
+}  // namespace delquad
