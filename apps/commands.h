@@ -46,4 +46,11 @@ struct InfoArguments {
 };
 int info_command(const InfoArguments& arguments);
 
+struct ExampleArguments {
+  std::string name;  ///< empty: none
+  std::filesystem::path output;
+  bool list = false;
+};
+int example_command(const ExampleArguments& arguments);
+
 }  // namespace delquad

@@ -92,6 +92,14 @@ void add_info(CLI::App& app, InfoArguments& arguments) {
   info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
 }
 
+void add_example(CLI::App& app, ExampleArguments& arguments) {
+  CLI::App* example = app.add_subcommand("example", "Write a CAD model that the program makes itself");
+  CLI::Option* list = example->add_flag("--list", arguments.list, "names of the examples");
+  example->add_option("name", arguments.name, "which one")->excludes(list);
+  example->add_option("-o,--output", arguments.output, "CAD file to write (.step, .stp or .brep)")
+      ->excludes(list);
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(1);
@@ -99,12 +107,14 @@ int run_program(int argc, char** argv) {
   MeshArguments mesh;
   MetricsArguments metrics;
   CompareArguments compare;
+  InfoArguments info;
+  ExampleArguments example;
   add_run(app, run);
   add_mesh(app, mesh);
   add_metrics(app, metrics);
   add_compare(app, compare);
-  InfoArguments info;
   add_info(app, info);
+  add_example(app, example);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -114,6 +124,7 @@ int run_program(int argc, char** argv) {
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);
+  if (app.got_subcommand("example")) return example_command(example);
   return metrics_command(metrics);
 }
 

@@ -83,8 +83,7 @@ void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape&
   }
 }
 
-CadShape prepare(const std::filesystem::path& path, const CadOptions& options) {
-  CadShape cad = read_shape(path);
+CadShape prepare(CadShape cad, const CadOptions& options) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
   heal_shape(cad, kSewing * cad.diagonal);
@@ -95,9 +94,9 @@ CadShape prepare(const std::filesystem::path& path, const CadOptions& options) {
   return cad;
 }
 
-std::string answer(const std::filesystem::path& path, const CadOptions& options) {
+std::string answer(const std::function<CadShape()>& make, const CadOptions& options) {
   try {
-    return kShape + to_bytes(prepare(path, options));
+    return kShape + to_bytes(prepare(make(), options));
   } catch (const Standard_Failure& failure) {
     return kMessage + fmt::format("damaged: the CAD kernel gave up: {} {}", failure.DynamicType()->Name(),
                                   failure.GetMessageString());
@@ -108,17 +107,24 @@ std::string answer(const std::filesystem::path& path, const CadOptions& options)
   }
 }
 
+CadShape prepare_apart(const std::function<CadShape()>& make, const CadOptions& options, unsigned seconds) {
+  const auto bytes = run_apart([&] { return answer(make, options); }, seconds);
+  if (!bytes || bytes->empty()) throw InputError("damaged: the CAD kernel crashes or finds no end");
+  if (bytes->front() == kMessage) throw InputError(bytes->substr(1));
+  return from_bytes(bytes->substr(1));
+}
+
 }  // namespace
 
 CadShape prepare_shape(const std::filesystem::path& path, const CadOptions& options) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   const auto megabytes = unknown ? 0u : static_cast<unsigned>(size >> 20);
-  const auto bytes =
-      run_apart([&] { return answer(path, options); }, kSeconds + kSecondsPerMegabyte * megabytes);
-  if (!bytes || bytes->empty()) throw InputError("damaged: the CAD kernel crashes or finds no end");
-  if (bytes->front() == kMessage) throw InputError(bytes->substr(1));
-  return from_bytes(bytes->substr(1));
+  return prepare_apart([&] { return read_shape(path); }, options, kSeconds + kSecondsPerMegabyte * megabytes);
+}
+
+CadShape prepare_shape(const std::function<CadShape()>& make, const CadOptions& options) {
+  return prepare_apart(make, options, kSeconds);
 }
 
 }  // namespace delquad::cad

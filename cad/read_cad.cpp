@@ -8,6 +8,8 @@
 
 #include "cad/agree_faces.h"
 #include "cad/cad_reader.h"
+#include "cad/example_models.h"
+#include "cad/examples/shapes.h"
 #include "cad/prepare_shape.h"
 #include "cad/shape_projector.h"
 #include "cad/tessellate.h"
@@ -92,8 +94,7 @@ void report_edges(SurfaceModel& model) {
     model.warnings.push_back("more than two faces meet on curves: " + list_curves(mesh, crowded));
 }
 
-SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) {
-  CadShape cad = prepare_shape(path, options);
+SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
                                    edges = parts(cad.shape, TopAbs_EDGE);
   std::vector<FaceMesh> meshes = face_meshes(cad, faces);
@@ -106,7 +107,7 @@ SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) 
   }
 
   SurfaceModel model;
-  model.source = path.string();
+  model.source = source;
   model.unit = cad.unit;
   model.warnings = std::move(cad.warnings);
   model.fine = std::move(welded.mesh);
@@ -118,18 +119,37 @@ SurfaceModel read(const std::filesystem::path& path, const CadOptions& options) 
   return model;
 }
 
+/// An example whose faces have its own name first, as those of a product in a STEP file.
+CadShape make_product(const std::string& name) {
+  const CadShape example = make_example(name);
+  CadShape product;
+  product.shape = example.shape;
+  product.unit = "mm";
+  const TopTools_IndexedMapOfShape faces = parts(example.shape, TopAbs_FACE);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    product.names.add(faces(f), name);
+    for (const std::string& own : example.names.of(faces(f))) product.names.add(faces(f), own);
+  }
+  return product;
+}
+
 }  // namespace
 
 }  // namespace cad
 
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
   try {
-    return cad::read(path, options);
+    return cad::make_model(path.string(), cad::prepare_shape(path, options), options);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(path.string())) throw;
     throw InputError(fmt::format("{}: {}", path.string(), message));
   }
+}
+
+SurfaceModel read_example(const std::string& name, const CadOptions& options) {
+  check_example(name);
+  return cad::make_model(name, cad::prepare_shape([&] { return cad::make_product(name); }, options), options);
 }
 
 }  // namespace delquad

@@ -34,12 +34,15 @@ struct Case {
   std::optional<PlanarModel> model;    ///< analytic curves, or else
   std::vector<DeclaredHole> holes;     ///< loops of the model that must not bound a region from outside
   std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else
-  std::filesystem::path surface_file;  ///< CAD or triangles
+  std::filesystem::path surface_file;  ///< CAD or triangles, or else
+  std::string example;                 ///< a model that the program makes itself
   SizeSpec size;
   CrossSpec cross;
   MeshingOptions options;
   std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
 };
+
+bool has_model(const Case& c);
 
 /// The value of a text that is a number and nothing else.
 std::optional<double> as_number(const std::string& text);

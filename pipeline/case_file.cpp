@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "cad/example_models.h"
 #include "pipeline/located.h"
 #include "pipeline/model_file.h"
 #include "pipeline/prepare_surface.h"
@@ -92,12 +93,17 @@ void read_model_keys(const TomlTable& table, Case& target) {
     throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
   if (table.has("model") && (drawn || table.has("mesh")))
     throw InputError(table.where("model") + ": 'model' and a model of the case's own exclude each other");
+  if (table.has("example") && (drawn || table.has("mesh") || table.has("model")))
+    throw InputError(table.where("example") + ": 'example' and another model exclude each other");
   if (table.has("model")) {
     Case other =
         located(table.where("model"), [&] { return read_model_case(folder / table.text("model"), target); });
     other.name = target.name;
     other.where = target.where;
     target = std::move(other);
+  } else if (table.has("example")) {
+    target.example = table.text("example");
+    located(table.where("example"), [&] { check_example(target.example); });
   } else if (table.has("mesh")) {
     target.mesh_file = folder / table.text("mesh");
     if (target.mesh_file.extension() != ".msh")
@@ -110,6 +116,10 @@ void read_model_keys(const TomlTable& table, Case& target) {
 }
 
 }  // namespace
+
+bool has_model(const Case& c) {
+  return c.model || !c.mesh_file.empty() || !c.surface_file.empty() || !c.example.empty();
+}
 
 std::optional<double> as_number(const std::string& text) {
   double value = 0;
@@ -149,8 +159,8 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
   table.finish();
-  if (!result.model && result.mesh_file.empty() && result.surface_file.empty())
-    throw InputError(file.string() + ": no model: expected 'loop', 'pattern' or 'mesh'");
+  if (!has_model(result))
+    throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh' or 'example'");
   return result;
 }
 

@@ -115,9 +115,9 @@ Case read_case(const TomlTable& table, const Case& defaults, const Experiment& e
   read_case_keys(table, c);
   check_comparisons(table, c, experiment.published);
   table.finish();
-  if (!c.model && c.mesh_file.empty() && c.surface_file.empty())
+  if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
-                     "' has no model: expected 'loop', 'pattern', 'mesh' or 'model'");
+                     "' has no model: expected 'loop', 'pattern', 'mesh', 'example' or 'model'");
   return c;
 }
 

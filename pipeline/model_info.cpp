@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "cad/example_models.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
@@ -67,6 +68,7 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 }
 
 SurfaceModel load(const Case& c) {
+  if (!c.example.empty()) return located(c.where, [&] { return read_example(c.example); });
   if (!c.surface_file.empty()) return read_surface(c.surface_file, c.where);
   if (c.model) {
     const double edge = kPlanarEdge * diagonal_of(*c.model);

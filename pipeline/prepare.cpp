@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cad/example_models.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "pipeline/boundary_report.h"
@@ -188,6 +189,8 @@ PreparedCase prepare_surface_case(const Case& c, SurfaceModel model) {
 }  // namespace
 
 PreparedCase prepare_case(const Case& c) {
+  if (!c.example.empty())
+    return prepare_surface_case(c, located(c.where, [&] { return read_example(c.example); }));
   if (!c.surface_file.empty()) return prepare_surface_case(c, read_surface(c.surface_file, c.where));
   Mesh mesh;
   MshSurfaces surfaces;

@@ -127,12 +127,15 @@ void add_origin(Json& json) {
                      {"processors", std::thread::hardware_concurrency()}};
 }
 
+/// The file of the model, or the name of the example.
+std::string source_of(const Case& c) {
+  if (c.model) return c.model->source;
+  if (!c.example.empty()) return "example " + c.example;
+  return (c.surface_file.empty() ? c.mesh_file : c.surface_file).string();
+}
+
 Json start_record(const Case& c, const Word& word, const std::string& status) {
-  return {{"case", c.name},
-          {"pipeline", word.text},
-          {"status", status},
-          {"model",
-           c.model ? c.model->source : (c.surface_file.empty() ? c.mesh_file : c.surface_file).string()}};
+  return {{"case", c.name}, {"pipeline", word.text}, {"status", status}, {"model", source_of(c)}};
 }
 
 std::string print(const Json& json) {
