@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/parallel.h"
+
 namespace delquad {
 
 /// Exit codes of the program, besides kInterrupted.
@@ -14,6 +16,7 @@ struct RunArguments {
   std::filesystem::path experiment, folder;
   std::optional<std::string> pipelines;  ///< words separated by commas; else those of the file
   long long max_elements = 50'000'000;
+  int threads = thread_count();
   bool allow_triangles = false;
 };
 int run_command(const RunArguments& arguments);
@@ -23,6 +26,7 @@ struct MeshArguments {
   std::string size, cross;  ///< empty: as the model says
   std::string pipeline = "DB";
   long long max_elements = 50'000'000;
+  int threads = thread_count();
   bool allow_triangles = false;
 };
 int mesh_command(const MeshArguments& arguments);

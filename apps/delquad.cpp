@@ -18,6 +18,9 @@ using namespace delquad;
 
 constexpr const char* kSizeHelp = "wanted edge length: a number, an expression in x, y, z, or 'boundary'";
 constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads than this";
+constexpr const char* kThreadsHelp =
+    "threads, whatever their number the result is the same; default: all cores";
+constexpr int kMostThreads = 1024;
 constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
 
 /// A whole number, which may be written as 1e6.
@@ -42,6 +45,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   run->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
       ->transform(kCount);
+  run->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
   run->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
 }
 
@@ -59,6 +63,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
       ->transform(kCount);
+  mesh->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
 }
 

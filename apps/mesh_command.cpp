@@ -12,9 +12,11 @@
 #include "pipeline/interrupt.h"
 #include "pipeline/record.h"
 #include "pipeline/runner.h"
+#include "pipeline/stopwatch.h"
 
 namespace delquad {
 int mesh_command(const MeshArguments& arguments) {
+  set_thread_count(arguments.threads);
   check_mesh_format(arguments.output);
   const Word word = parse_word(arguments.pipeline);
   Case c = read_model_case(arguments.model);
@@ -32,11 +34,13 @@ int mesh_command(const MeshArguments& arguments) {
   progress.step(c.name + ": boundary and fields");
   const PreparedCase prepared = prepare_case(c);
   for (const std::string& warning : prepared.warnings) progress.message("warning: " + warning);
-  const RunResult result = run_word(c, prepared, word, progress);
+  RunResult result = run_word(c, prepared, word, progress);
   for (const std::string& warning : result.warnings) progress.message("warning: " + warning);
   {
     const Uninterrupted whole;
+    const Stopwatch writing;
     write_mesh(arguments.output, result.mesh);
+    result.log.add_seconds("write", writing.work_seconds());
     if (!arguments.json.empty())
       write_file_atomically(arguments.json,
                             [&](std::ostream& out) { out << run_record(c, prepared, word, result); });
@@ -46,6 +50,7 @@ int mesh_command(const MeshArguments& arguments) {
              result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
              result.seconds);
   print_metrics(result.metrics);
+  print_seconds(prepared, result.log);
   if (word.result != PatchForm::kQuads || result.mesh.triangles.empty() || arguments.allow_triangles)
     return kDone;
   fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",

@@ -25,6 +25,7 @@ std::vector<std::string> split(const std::string& list) {
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
+  set_thread_count(arguments.threads);
   Experiment experiment = read_experiment(arguments.experiment);
   if (arguments.pipelines)
     experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });

@@ -20,6 +20,7 @@
 #include "pipeline/linf_study.h"
 #include "pipeline/record.h"
 #include "pipeline/runner.h"
+#include "pipeline/stopwatch.h"
 
 namespace delquad {
 namespace {
@@ -96,9 +97,11 @@ class Runner {
     const std::string failure = guarded(label, [&] {
       result = run_word(c, prepared, word, progress_);
       write_cell(folder_ / c.name / word.text, [&](const fs::path& folder) {
+        const Stopwatch writing;
         write_msh(folder / "mesh.msh", result->mesh);
         write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
         (prepared.background ? draw_mesh : draw_surface)(folder / "picture.svg", result->mesh, label);
+        result->log.add_seconds("write", writing.work_seconds());
         write_text(folder / "record.json", run_record(c, prepared, word, *result));
       });
     });

@@ -179,34 +179,40 @@ std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
 
 namespace {
 
-PreparedCase prepare_surface_case(const Case& c, SurfaceModel model) {
+PreparedCase prepare_surface_case(const Case& c, SurfaceModel model, const Stopwatch& reading) {
+  const double read_seconds = reading.seconds();
   const auto size = make_size(c.size, [&]() -> std::shared_ptr<const SizeField> {
     throw InputError(c.where + ": a surface needs a size (a number or an expression)");
   });
-  return prepare_surface(c, std::move(model), size, [&](double quads) { check_count(quads, c); });
+  PreparedCase p = prepare_surface(c, std::move(model), size, [&](double quads) { check_count(quads, c); });
+  p.seconds.insert(p.seconds.begin(), {"read", read_seconds});
+  return p;
 }
 
 }  // namespace
 
 PreparedCase prepare_case(const Case& c) {
+  const Stopwatch reading;
   if (!c.example.empty())
-    return prepare_surface_case(c, located(c.where, [&] { return read_example(c.example); }));
-  if (!c.surface_file.empty()) return prepare_surface_case(c, read_surface(c.surface_file, c.where));
+    return prepare_surface_case(c, located(c.where, [&] { return read_example(c.example); }), reading);
+  if (!c.surface_file.empty()) return prepare_surface_case(c, read_surface(c.surface_file, c.where), reading);
   Mesh mesh;
   MshSurfaces surfaces;
+  PreparedCase p;
   if (!c.model) {
     mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
     if (holds_surface(mesh))
-      return prepare_surface_case(c, make_surface_model(std::move(mesh), {.source = c.mesh_file.string()}));
+      return prepare_surface_case(c, make_surface_model(std::move(mesh), {.source = c.mesh_file.string()}),
+                                  reading);
+    p.seconds.emplace_back("read", reading.seconds());
   }
-  PreparedCase p;
   const Stopwatch watch;
   PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, mesh, surfaces, p);
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
   check_holes(c.holes, domain);
   p.boundary = std::move(domain.boundary);
-  p.seconds.emplace_back("domain", watch.seconds());
+  p.seconds.emplace_back("curves", watch.seconds());
 
   const Stopwatch fields;
   const auto cross = make_cross(c, p);
@@ -217,7 +223,7 @@ PreparedCase prepare_case(const Case& c) {
         {std::move(domain.patches[i]), domain.patch_region[i], cross, size, [z](Vec2 u, int&) {
            return Vec3{u.x, u.y, z};
          }});
-  p.seconds.emplace_back("cross field", fields.seconds());
+  p.seconds.emplace_back("fields", fields.seconds());
   return p;
 }
 

@@ -34,7 +34,8 @@ struct PreparedCase {
   std::optional<std::pair<int, int>> index_sum_and_expected;
   double expected_quads = 0;  ///< integral of dA/delta^2
   std::vector<std::string> warnings;
-  std::vector<std::pair<std::string, double>> seconds;  ///< by step
+  /// By step ("read", "maps", "curves", "fields"), as in StageLog.
+  std::vector<std::pair<std::string, double>> seconds;
 };
 
 /// Boundary, background mesh and fields of a case. Throws InputError for models and fields that cannot be

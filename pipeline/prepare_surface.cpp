@@ -10,6 +10,7 @@
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
+#include "mesh/parallel.h"
 #include "pipeline/located.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_domain.h"
@@ -74,7 +75,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
     for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
     throw InputError(c.where + ": these faces could not be flattened:" + tags);
   }
-  p.seconds.emplace_back("maps", maps.seconds());
+  p.seconds.emplace_back("maps", maps.work_seconds());
 
   const Stopwatch curves;
   auto surface = std::make_shared<Surface>();
@@ -83,16 +84,22 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.warnings = surface->model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
   p.boundary = surface->domain.boundary;
-  p.seconds.emplace_back("domain", curves.seconds());
+  p.seconds.emplace_back("curves", curves.work_seconds());
 
+  const std::vector<SurfacePatch>& patches = surface->domain.patches;
   const Stopwatch fields;
-  for (const SurfacePatch& patch : surface->domain.patches) {
-    p.patches.push_back(
-        {patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
-         std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *p.size),
-         [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }});
-  }
-  p.seconds.emplace_back("cross field", fields.seconds());
+  p.patches.resize(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        const SurfacePatch& patch = patches[i];
+        p.patches[i] = {
+            patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
+            std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *p.size),
+            [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }};
+      },
+      [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
+  p.seconds.emplace_back("fields", fields.work_seconds());
   return p;
 }
 

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "build_info.h"
+#include "mesh/parallel.h"
 
 namespace delquad {
 namespace {
@@ -159,6 +160,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   auto seconds = prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
+  json["threads"] = thread_count();
   json["seconds"] = seconds_json(seconds);
   json["meshing_seconds"] = result.seconds;
   json["peak_memory_bytes"] = result.peak_memory;

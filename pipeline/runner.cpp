@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "mesh/error.h"
+#include "mesh/parallel.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
@@ -19,15 +20,25 @@ long long peak_memory() {
   return 1024LL * usage.ru_maxrss;
 }
 
-/// Mesh node of each point of a patch; nodes are made for the points inside.
-std::vector<int> add_points(const std::vector<Vec2>& points, const PreparedPatch& patch, Mesh& mesh) {
-  std::vector<int> node = patch.boundary.point_node;
-  const std::size_t n_boundary = node.size();
-  node.reserve(points.size());
+const std::vector<Vec2>& points_of(const PatchMesh& patch) {
+  return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
+}
+
+/// The points inside a patch, in space.
+std::vector<Vec3> lift_inside(const PreparedPatch& patch, const std::vector<Vec2>& points) {
+  std::vector<Vec3> lifted;
   int hint = -1;
-  for (std::size_t i = n_boundary; i < points.size(); ++i) {
+  for (std::size_t i = patch.boundary.points.size(); i < points.size(); ++i)
+    lifted.push_back(patch.lift(points[i], hint));
+  return lifted;
+}
+
+/// Mesh node of each point of a patch; nodes are made for the points inside.
+std::vector<int> add_points(const std::vector<Vec3>& inside, const PreparedPatch& patch, Mesh& mesh) {
+  std::vector<int> node = patch.boundary.point_node;
+  for (const Vec3& x : inside) {
     node.push_back(static_cast<int>(mesh.points.size()));
-    mesh.points.push_back(patch.lift(points[i], hint));
+    mesh.points.push_back(x);
   }
   return node;
 }
@@ -70,22 +81,61 @@ void warn_of_bad_quads(const std::string& label, RunResult& result) {
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
 
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches) {
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches, StageLog* log) {
+  const Stopwatch projection;
+  std::vector<std::vector<Vec3>> inside(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) { inside[i] = lift_inside(prepared.patches[i], points_of(patches[i])); },
+      [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
   Mesh mesh = prepared.boundary;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
     const int region = prepared.patches[i].region;
+    const auto node = add_points(inside[i], prepared.patches[i], mesh);
     if (patch.form == PatchForm::kTriangles) {
-      const auto node = add_points(patch.triangles.points, prepared.patches[i], mesh);
       add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
     } else {
-      const auto node = add_points(patch.quads.points, prepared.patches[i], mesh);
       add_elements(patch.quads.triangles, node, region, mesh.triangles, mesh.triangle_region);
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
   }
+  if (log != nullptr) log->add_seconds("projection", projection.work_seconds());
   return mesh;
 }
+
+namespace {
+
+/// Area over the square of a mean boundary edge.
+double rough_quads(const PatchBoundary& boundary) {
+  double double_area = 0, length = 0;
+  for (const auto& [i, j] : boundary.edges) {
+    const Vec2 a = boundary.points[i], b = boundary.points[j];
+    double_area += cross(a, b);
+    length += norm(b - a);
+  }
+  const double edge = length / static_cast<double>(boundary.edges.size());
+  return double_area / 2 / (edge * edge);
+}
+
+/// Takes every patch through one stage.
+void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
+               std::vector<PatchMesh>& patches, StageLog& log) {
+  std::vector<StageLog> logs(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        const PreparedPatch& patch = prepared.patches[i];
+        stage.run({patch.boundary, *patch.cross, *patch.size, c.options}, patches[i], logs[i]);
+      },
+      [&](std::size_t i) {
+        return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
+                                                       : static_cast<double>(points_of(patches[i]).size());
+      });
+  for (const StageLog& one : logs) log.add(one);
+}
+
+}  // namespace
 
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
   const Stopwatch watch;
@@ -93,23 +143,20 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
   RunResult result;
   for (const Stage* stage : word.stages) {
     progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      const PreparedPatch& patch = prepared.patches[i];
-      stage->run({patch.boundary, *patch.cross, *patch.size, c.options}, patches[i], result.log);
-    }
+    run_stage(*stage, c, prepared, patches, result.log);
     if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
       throw InputError(
           fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
                       result.log.insertion->inserted, c.options.max_elements));
   }
-  result.mesh = assemble(prepared, patches);
+  result.mesh = assemble(prepared, patches, &result.log);
   patches.clear();
   result.seconds = watch.seconds();
   progress.step(fmt::format("{} {}: metrics", c.name, word.text));
   check_sound(result.mesh);
   const Stopwatch measuring;
   result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
-  result.log.add_seconds("metrics", measuring.seconds());
+  result.log.add_seconds("metrics", measuring.work_seconds());
   result.peak_memory = peak_memory();
   warn_of_bad_quads(c.name + " " + word.text, result);
   return result;

@@ -27,7 +27,8 @@ int run_steps(const Word& word);
 /// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
 
-/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow.
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches);
+/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow. `log` receives
+/// the time of bringing them back to space, as "projection".
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches, StageLog* log = nullptr);
 
 }  // namespace delquad

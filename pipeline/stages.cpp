@@ -61,7 +61,7 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
   add(log.recombination, summary);
-  log.add_seconds("recombination", recombination.seconds());
+  log.add_seconds("matching", recombination.seconds());
   if (in.options.treatment == Treatment::kNone) return;
 
   const Stopwatch treatment;
@@ -99,6 +99,14 @@ void StageLog::add_seconds(const std::string& step, double s) {
     seconds.emplace_back(step, s);
   else
     at->second += s;
+}
+
+void StageLog::add(const StageLog& other) {
+  for (const auto& [step, s] : other.seconds) add_seconds(step, s);
+  if (other.insertion) delquad::add(insertion, *other.insertion);
+  if (other.insertion) h_max = other.h_max;
+  if (other.recombination) delquad::add(recombination, *other.recombination);
+  if (other.treatment) delquad::add(treatment, *other.treatment);
 }
 
 std::span<const Stage> stage_registry() {

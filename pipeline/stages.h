@@ -28,14 +28,18 @@ struct StageInput {
   const MeshingOptions& options;
 };
 
-/// What the stages did, summed over the patches.
+/// What the stages did: on one patch, or summed over patches.
 struct StageLog {
-  std::vector<std::pair<std::string, double>> seconds;  ///< by step, in order of first use
+  /// By step, in order of first use: the times of all threads added up, so that they can be compared whatever
+  /// the number of threads.
+  std::vector<std::pair<std::string, double>> seconds;
   std::optional<FrontalSummary> insertion;
   double h_max = 0;  ///< that insertion used: the option's or the strategy's own
   std::optional<RecombineSummary> recombination;
   std::optional<TreatmentSummary> treatment;
   void add_seconds(const std::string& step, double s);
+  /// Adds what was done on another patch.
+  void add(const StageLog& other);
 };
 
 /// One letter of a pipeline word: takes a patch from one form to another.

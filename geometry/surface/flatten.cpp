@@ -13,6 +13,7 @@
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
+#include "mesh/parallel.h"
 
 namespace delquad {
 
@@ -170,8 +171,15 @@ class Flattener {
   void flatten_open(int round) {
     const std::vector<CutEnd> ends = cut_ends();
     std::vector<Planned> planned;
-    for (Chart& chart : extract_charts(mesh_, open_)) {
-      Outcome outcome = ChartWork(chart, ends, options_, tolerance_, round).run();
+    std::vector<Chart> charts = extract_charts(mesh_, open_);
+    std::vector<Outcome> outcomes(charts.size());
+    parallel_for(
+        charts.size(),
+        [&](std::size_t i) { outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, round).run(); },
+        [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      Chart& chart = charts[i];
+      Outcome& outcome = outcomes[i];
       if (outcome.cut && round < kMaxRounds) {
         planned.push_back({std::move(chart), std::move(outcome)});
         continue;

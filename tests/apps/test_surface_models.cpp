@@ -30,6 +30,40 @@ TEST(SurfaceModels, ACubeBecomesItsGrid) {
   EXPECT_EQ(mesh.curves.size(), 12u);
 }
 
+TEST(SurfaceModels, EveryNumberOfThreadsGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  // A slab of 4 x 3 pillars of many heights: 64 faces of many sizes.
+  std::ofstream off(folder / "slab.off");
+  off << "OFF\n" << 8 * 12 << " " << 12 * 12 << " 0\n";
+  for (int i = 0; i < 12; ++i)
+    for (int k = 0; k < 8; ++k)
+      off << 2 * (i % 4) + (k & 1) << " " << 2 * (i / 4) + ((k >> 1) & 1) << " " << (k >> 2) * (1 + 0.3 * i)
+          << "\n";
+  for (int i = 0; i < 12; ++i)
+    for (const char* t : {"0 2 1", "1 2 3", "4 5 6", "5 7 6", "0 1 4", "1 5 4", "2 6 3", "3 6 7", "0 4 2",
+                          "2 4 6", "1 3 5", "3 7 5"})
+      off << "3 " << 8 * i + t[0] - '0' << " " << 8 * i + t[2] - '0' << " " << 8 * i + t[4] - '0' << "\n";
+  off.close();
+  std::string first;
+  for (const char* threads : {"1", "2", "4"}) {
+    const auto run = delquad({"mesh", folder / "slab.off", "-o", folder / "slab.msh", "--size", "0.13",
+                              "--threads", threads, "--json", folder / "slab.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string bytes = read_text(folder / "slab.msh");
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes, first) << threads << " threads";
+    const std::string record = read_text(folder / "slab.json");
+    for (const char* step : {"read", "maps", "curves", "fields", "insertion", "matching", "treatment",
+                             "projection", "metrics", "write"}) {
+      EXPECT_TRUE(contains(record, "\"" + std::string(step) + "\": ")) << step;
+      EXPECT_TRUE(contains(run.out, step)) << step;
+    }
+  }
+  EXPECT_EQ(delquad({"mesh", folder / "slab.off", "-o", folder / "x.msh", "--size", "1", "--threads", "0"})
+                .exit_code,
+            2);
+}
+
 TEST(SurfaceModels, ExperimentsTakeThem) {
   const TemporaryFolder folder;
   std::ofstream(folder / "cube.off") << kCube;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace delquad {
+
+/// Threads that parallel_for() uses from now on, at least 1; at the start as many as the machine has cores.
+/// Not while a parallel_for() runs.
+void set_thread_count(int threads);
+int thread_count();
+
+/// Calls work(i) once for each i in [0, n), on thread_count() threads, and returns when all are done. `cost`
+/// (any unit) tells which are to begin first, so that the large ones do not end up alone; equal costs begin
+/// in order. Each call must write only to what belongs to its own i: then the result is the same for every
+/// number of threads. Where calls throw, the others run nevertheless, and the exception of the smallest i is
+/// thrown on. Calls may use parallel_for() themselves.
+void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
+                  const std::function<double(std::size_t)>& cost = {});
+
+/// Seconds by which the parallel_for() calls of this thread so far took longer than the clock on the wall
+/// says, when the times of their work(i) are added up (nested calls included). For measuring: see Stopwatch.
+double parallel_surplus();
+
+}  // namespace delquad
