@@ -1,6 +1,8 @@
 # Installs what is missing, then calls the CMake presets.
 PRESET ?= release
 RESULTS ?= results
+# Models that are no part of the project; experiments without theirs are skipped.
+DATA ?= ../shared/data
 CMAKE_FLAGS ?=
 
 .PHONY: packages build test paper bench
@@ -18,7 +20,7 @@ test: build
 # Every experiment: tables and pictures under $(RESULTS)/.
 paper: build
 	@for e in experiments/*.toml; do \
-	  build/$(PRESET)/delquad run $$e -o $(RESULTS)/$$(basename $$e .toml) || exit $$?; \
+	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(RESULTS)/$$(basename $$e .toml) || exit $$?; \
 	done
 	@echo "Tables and pictures lie in $(RESULTS)/."
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/parallel.h"
+#include "pipeline/case.h"
 
 namespace delquad {
 
@@ -14,6 +15,7 @@ inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput =
 
 struct RunArguments {
   std::filesystem::path experiment, folder;
+  std::filesystem::path data = kDataFolder;
   std::optional<std::string> pipelines;  ///< words separated by commas; else those of the file
   long long max_elements = 50'000'000;
   int threads = thread_count();
@@ -24,6 +26,8 @@ int run_command(const RunArguments& arguments);
 struct MeshArguments {
   std::filesystem::path model, output, json;
   std::string size, cross;  ///< empty: as the model says
+  std::string compound;     ///< empty: as the model says
+  std::optional<double> feature_angle, weld_tolerance;
   std::string pipeline = "DB";
   long long max_elements = 50'000'000;
   int threads = thread_count();

@@ -41,6 +41,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       app.add_subcommand("run", "Run an experiment: every pipeline on every case, with tables and pictures");
   run->add_option("experiment", arguments.experiment, "experiment file (.toml)")->required();
   run->add_option("-o,--output", arguments.folder, "folder for the results")->required();
+  run->add_option("--data", arguments.data, "folder of the models that cases call data")
+      ->capture_default_str();
   run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
   run->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
@@ -50,13 +52,22 @@ void add_run(CLI::App& app, RunArguments& arguments) {
 }
 
 void add_mesh(CLI::App& app, MeshArguments& arguments) {
-  CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar model");
-  mesh->add_option("model", arguments.model, "curves and loops (.toml) or line elements (.msh)")->required();
+  CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
+  mesh->add_option("model", arguments.model,
+                   "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off) or CAD "
+                   "(.step, .stp, .brep)")
+      ->required();
   mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp or .mesh)")
       ->required();
   mesh->add_option("--size", arguments.size, kSizeHelp);
   mesh->add_option("--cross", arguments.cross,
                    "directions: 'boundary', 'gradient' or an angle expression (radians)");
+  mesh->add_option("--compound", arguments.compound,
+                   "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
+  mesh->add_option("--feature-angle", arguments.feature_angle,
+                   "degrees by which triangles must turn for a curve between them, and curves for a corner");
+  mesh->add_option("--weld", arguments.weld_tolerance,
+                   "join ends of open edges of a triangulation up to this part of its diagonal");
   mesh->add_option("--pipeline", arguments.pipeline, "letters of stages: F or D, then B")
       ->capture_default_str();
   mesh->add_option("--json", arguments.json, "record to write");

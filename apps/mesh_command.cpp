@@ -15,6 +15,22 @@
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
+namespace {
+
+void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
+  const auto given = [&](const char* option) { return surface.where = option; };
+  if (!arguments.compound.empty()) {
+    surface.compounds = parse_compounds(arguments.compound, given("--compound"));
+    surface.groups.clear();
+  }
+  if (arguments.feature_angle)
+    surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
+  if (arguments.weld_tolerance)
+    surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
+}
+
+}  // namespace
+
 int mesh_command(const MeshArguments& arguments) {
   set_thread_count(arguments.threads);
   check_mesh_format(arguments.output);
@@ -22,6 +38,7 @@ int mesh_command(const MeshArguments& arguments) {
   Case c = read_model_case(arguments.model);
   c.options.max_elements = arguments.max_elements;
   if (!arguments.size.empty()) c.size = {arguments.size, {}, 0, "--size"};
+  set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
   check_distinct({{"the model", arguments.model},
                   {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},

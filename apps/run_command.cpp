@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& list) {
 
 int run_command(const RunArguments& arguments) {
   set_thread_count(arguments.threads);
-  Experiment experiment = read_experiment(arguments.experiment);
+  Experiment experiment = read_experiment(arguments.experiment, arguments.data);
   if (arguments.pipelines)
     experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });
   for (Case& c : experiment.cases) c.options.max_elements = arguments.max_elements;

@@ -157,6 +157,15 @@ Vec2 TomlTable::point(const std::string& key) const {
   return data_->point(data_->need(key, kWhat), key, kWhat);
 }
 
+Vec3 TomlTable::space_point(const std::string& key) const {
+  const std::string what = "a point [x, y] or [x, y, z]";
+  const toml::node& node = data_->need(key, what);
+  const toml::array* x = node.as_array();
+  if (!x || x->size() < 2 || x->size() > 3) data_->expected(node, key, what);
+  const auto at = [&](std::size_t i) { return data_->number(*x->get(i), key, what); };
+  return {at(0), at(1), x->size() == 3 ? at(2) : 0};
+}
+
 std::vector<Vec2> TomlTable::points(const std::string& key) const {
   constexpr const char* kWhat = "a list of points [[x, y], ...]";
   std::vector<Vec2> result;
@@ -170,6 +179,20 @@ std::vector<double> TomlTable::numbers(const std::string& key) const {
   std::vector<double> result;
   for (const toml::node& node : data_->array(data_->need(key, kWhat), key, kWhat))
     result.push_back(data_->number(node, key, kWhat));
+  return result;
+}
+
+std::vector<std::vector<int>> TomlTable::integer_lists(const std::string& key) const {
+  const std::string what = "a list of lists of integers [[1, 2], ...]";
+  std::vector<std::vector<int>> result;
+  for (const toml::node& list : data_->array(data_->need(key, what), key, what)) {
+    result.emplace_back();
+    for (const toml::node& node : data_->array(list, key, what)) {
+      const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+      if (!value || !std::in_range<int>(*value)) data_->expected(node, key, what);
+      result.back().push_back(static_cast<int>(*value));
+    }
+  }
   return result;
 }
 

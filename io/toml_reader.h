@@ -45,9 +45,13 @@ class TomlTable {
   std::string expression(const std::string& key) const;
   /// [x, y]
   Vec2 point(const std::string& key) const;
+  /// [x, y, z], or [x, y] with z = 0
+  Vec3 space_point(const std::string& key) const;
   /// [[x, y], ...]
   std::vector<Vec2> points(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
+  /// [[n, ...], ...], of the range of int.
+  std::vector<std::vector<int>> integer_lists(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   TomlTable table(const std::string& key) const;
   std::optional<TomlTable> optional_table(const std::string& key) const;

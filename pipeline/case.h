@@ -10,6 +10,7 @@
 #include "geometry/planar_model.h"
 #include "pipeline/model_file.h"
 #include "pipeline/options.h"
+#include "pipeline/surface_spec.h"
 
 namespace delquad {
 
@@ -27,6 +28,9 @@ struct CrossSpec {
   std::string where;
 };
 
+/// Where data lies, seen from the folder that the program is called in, unless it is told otherwise.
+inline constexpr const char* kDataFolder = "../shared/data";
+
 /// A model with its fields and options: what a pipeline works on.
 struct Case {
   std::string name;
@@ -36,13 +40,18 @@ struct Case {
   std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else
   std::filesystem::path surface_file;  ///< CAD or triangles, or else
   std::string example;                 ///< a model that the program makes itself
+  bool may_be_absent = false;          ///< the model's file is data that the case is skipped without
+  SurfaceSpec surface;                 ///< of a mesh of triangles, surface_file or example
   SizeSpec size;
   CrossSpec cross;
   MeshingOptions options;
+  std::filesystem::path data_folder;           ///< that the key `data` counts from; empty: it is not allowed
   std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
 };
 
 bool has_model(const Case& c);
+/// The file that the case's model is read from; empty: none.
+const std::filesystem::path& model_path(const Case& c);
 
 /// The value of a text that is a number and nothing else.
 std::optional<double> as_number(const std::string& text);

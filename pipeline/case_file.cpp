@@ -30,10 +30,9 @@ double number_between(const TomlTable& table, const std::string& key, double lea
 }
 
 SizeSource read_source(const TomlTable& table) {
-  const Vec2 at = table.point("at");
-  const Vec2 to = table.has("to") ? table.point("to") : at;
-  SizeSource source{{at.x, at.y, 0},
-                    {to.x, to.y, 0},
+  const Vec3 at = table.space_point("at");
+  SizeSource source{at,
+                    table.has("to") ? table.space_point("to") : at,
                     table.positive_number("near"),
                     table.positive_number("far"),
                     number_at_least(table, "radius_near", 0, 0),
@@ -86,30 +85,62 @@ void read_recombination(const TomlTable& table, MeshingOptions& options) {
   table.finish();
 }
 
+void drop_model(Case& target) {
+  target.model.reset();
+  target.holes.clear();
+  target.mesh_file.clear();
+  target.surface_file.clear();
+  target.example.clear();
+  target.may_be_absent = false;
+}
+
+/// A file of lines, triangles or CAD as the case's model, if its extension says so.
+bool set_model_file(const std::filesystem::path& file, Case& target) {
+  drop_model(target);
+  if (file.extension() != ".msh" && !is_surface_file(file)) return false;
+  (file.extension() == ".msh" ? target.mesh_file : target.surface_file) = file;
+  return true;
+}
+
+void read_data(const TomlTable& table, Case& target) {
+  if (target.data_folder.empty())
+    throw InputError(table.where("data") + ": 'data' is for cases of experiments: expected 'model'");
+  const std::filesystem::path file = target.data_folder / table.text("data");
+  if (!set_model_file(file, target))
+    throw InputError(table.where("data") + ": '" + file.string() +
+                     "' is no data: expected a .msh, .step, .stp, .brep, .stl, .obj or .off file");
+  target.may_be_absent = true;
+}
+
 void read_model_keys(const TomlTable& table, Case& target) {
   const std::filesystem::path folder = table.file().parent_path();
   const bool drawn = has_planar_model(table);
   if (table.has("mesh") && drawn)
     throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
-  if (table.has("model") && (drawn || table.has("mesh")))
-    throw InputError(table.where("model") + ": 'model' and a model of the case's own exclude each other");
-  if (table.has("example") && (drawn || table.has("mesh") || table.has("model")))
-    throw InputError(table.where("example") + ": 'example' and another model exclude each other");
-  if (table.has("model")) {
+  int models = (drawn || table.has("mesh")) ? 1 : 0;
+  for (const char* key : {"model", "data", "example"})
+    if (table.has(key) && ++models > 1)
+      throw InputError(fmt::format("{}: '{}' and another model exclude each other", table.where(key), key));
+  if (table.has("data")) {
+    read_data(table, target);
+  } else if (table.has("model")) {
     Case other =
         located(table.where("model"), [&] { return read_model_case(folder / table.text("model"), target); });
     other.name = target.name;
     other.where = target.where;
     target = std::move(other);
   } else if (table.has("example")) {
+    drop_model(target);
     target.example = table.text("example");
     located(table.where("example"), [&] { check_example(target.example); });
   } else if (table.has("mesh")) {
+    drop_model(target);
     target.mesh_file = folder / table.text("mesh");
     if (target.mesh_file.extension() != ".msh")
       throw InputError(table.where("mesh") + ": '" + target.mesh_file.string() + "' is not a .msh file");
   } else if (drawn) {
     ModelFile file = read_planar_model(table);
+    drop_model(target);
     target.model = std::move(file.model);
     target.holes = std::move(file.holes);
   }
@@ -128,8 +159,13 @@ std::optional<double> as_number(const std::string& text) {
   return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
+const std::filesystem::path& model_path(const Case& c) {
+  return c.surface_file.empty() ? c.mesh_file : c.surface_file;
+}
+
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
+  if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
   if (table.has("size")) target.size = read_size(table);
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
   if (const auto insertion = table.optional_table("insertion")) read_insertion(*insertion, target.options);
@@ -143,10 +179,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   Case result = defaults;
   result.name = file.stem().string();
   result.where = file.string();
-  if (file.extension() == ".msh" || is_surface_file(file)) {
-    (file.extension() == ".msh" ? result.mesh_file : result.surface_file) = file;
-    return result;
-  }
+  if (set_model_file(file, result)) return result;
   if (file.extension() != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), .step, .stp, .brep, "
@@ -155,12 +188,12 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (table.has("case"))
     throw InputError(table.where("case") +
                      ": this is an experiment with cases of its own: run it with 'delquad run'");
-  if (table.has("model"))
+  if (table.has("model") && std::filesystem::path(table.text("model")).extension() == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
   table.finish();
   if (!has_model(result))
-    throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh' or 'example'");
+    throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh', 'model' or 'example'");
   return result;
 }
 

@@ -14,9 +14,14 @@ namespace {
 
 const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
 
-void check_metric(const TomlTable& table, const std::string& key, const std::string& metric) {
-  std::vector<std::string> known;
-  for (const Metric& m : metric_registry()) known.push_back(m.key);
+std::vector<std::string> metric_keys() {
+  std::vector<std::string> keys;
+  for (const Metric& m : metric_registry()) keys.push_back(m.key);
+  return keys;
+}
+
+void check_known(const TomlTable& table, const std::string& key, const std::string& metric,
+                 const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), metric) != known.end()) return;
   const auto near = nearest_name(metric, known);
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" +
@@ -26,12 +31,14 @@ void check_metric(const TomlTable& table, const std::string& key, const std::str
 std::vector<PublishedRow> read_published(const std::filesystem::path& file) {
   const TomlTable top = TomlTable::read(file);
   const std::string source = top.text("source");
+  std::vector<std::string> columns = metric_keys();
+  for (const StepTime& time : step_times_of_tables()) columns.push_back(time.key);
   std::vector<PublishedRow> rows;
   for (const TomlTable& table : top.tables("row")) {
     PublishedRow row{table.text("name"), source, {}};
     for (const std::string& key : table.keys()) {
       if (key == "name") continue;
-      check_metric(table, key, key);
+      check_known(table, key, key, columns);
       row.values[key] = table.number(key);
     }
     rows.push_back(std::move(row));
@@ -43,7 +50,7 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file) {
 ExpectedRatio read_ratio(const TomlTable& table) {
   ExpectedRatio ratio{table.text("metric"), table.text("numerator"), table.text("denominator"),
                       table.positive_number("expected"), table.text("source", "")};
-  check_metric(table, "metric", ratio.metric);
+  check_known(table, "metric", ratio.metric, metric_keys());
   located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
   located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
   table.finish();
@@ -117,13 +124,26 @@ Case read_case(const TomlTable& table, const Case& defaults, const Experiment& e
   table.finish();
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
-                     "' has no model: expected 'loop', 'pattern', 'mesh', 'example' or 'model'");
+                     "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
   return c;
 }
 
 }  // namespace
 
-Experiment read_experiment(const std::filesystem::path& file) {
+const std::vector<StepTime>& step_times_of_tables() {
+  static const std::vector<StepTime> times = {{"seconds_read", "read s", "read"},
+                                              {"seconds_maps", "maps s", "maps"},
+                                              {"seconds_curves", "curves s", "curves"},
+                                              {"seconds_fields", "fields s", "fields"},
+                                              {"seconds_insertion", "insertion s", "insertion"},
+                                              {"seconds_matching", "matching s", "matching"},
+                                              {"seconds_treatment", "treatment s", "treatment"},
+                                              {"seconds_projection", "projection s", "projection"},
+                                              {"seconds_total", "total s", ""}};
+  return times;
+}
+
+Experiment read_experiment(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
   Experiment experiment;
   experiment.file = file;
@@ -132,11 +152,13 @@ Experiment read_experiment(const std::filesystem::path& file) {
   experiment.words = located(table.where("pipelines"), [&] { return parse_words(words); });
   if (table.has("reference"))
     experiment.published = read_published(file.parent_path() / table.text("reference"));
+  experiment.step_times = table.flag("step_times", false);
   if (const auto ratio = table.optional_table("ratio")) experiment.ratio = read_ratio(*ratio);
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
 
   Case defaults;  // what the file says for every case
   defaults.where = file.string();
+  defaults.data_folder = data;
   read_case_keys(table, defaults);
   for (const TomlTable& c : table.tables("case"))
     experiment.cases.push_back(read_case(c, defaults, experiment));

@@ -33,7 +33,8 @@ const std::vector<std::pair<const char*, int>> kColumns = {
     {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0}, {"eta_worst", 3}, {"eta_mean", 3},
     {"d4", 1},         {"d_min", 0},   {"d_max", 0},       {"tau", 1},       {"percent_quads", 1}};
 
-std::vector<TableColumn> table_columns() {
+/// With a column for each step's time, or one for the stages of the pipeline.
+std::vector<TableColumn> table_columns(bool step_times) {
   std::vector<TableColumn> columns;
   for (const auto& [key, digits] : kColumns) {
     const auto metrics = metric_registry();
@@ -41,8 +42,26 @@ std::vector<TableColumn> table_columns() {
         std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.key == key; });
     columns.push_back({key, at == metrics.end() ? key : at->title, digits});
   }
-  columns.push_back({kSeconds, "s", 2});
+  if (!step_times) {
+    columns.push_back({kSeconds, "s", 2});
+    return columns;
+  }
+  for (const StepTime& step : step_times_of_tables()) columns.push_back({step.key, step.title, 2});
   return columns;
+}
+
+/// Seconds by column, of the steps that the cells of a case share and of the pipeline's own.
+void add_step_times(const PreparedCase& prepared, const RunResult& result, TableRow& row) {
+  double total = 0;
+  for (const StepTime& time : step_times_of_tables()) {
+    for (const auto* seconds : {&prepared.seconds, &result.log.seconds})
+      for (const auto& [step, s] : *seconds)
+        if (step == time.step) {
+          row.values[time.key] += s;
+          total += s;
+        }
+    if (*time.step == 0) row.values[time.key] = total;
+  }
 }
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -54,7 +73,7 @@ class Runner {
   Runner(const Experiment& experiment, const fs::path& folder, Progress& progress)
       : experiment_(experiment), folder_(folder), progress_(progress) {
     outcome_.table.title = experiment.title;
-    outcome_.table.columns = table_columns();
+    outcome_.table.columns = table_columns(experiment.step_times);
   }
 
   ExperimentOutcome run() {
@@ -66,11 +85,29 @@ class Runner {
   }
 
  private:
+  /// Whether the case is left out because its data is not there.
+  bool skip_case(const Case& c) {
+    if (!c.may_be_absent || fs::exists(model_path(c))) return false;
+    const std::string reason = "data not found, skipped: " + model_path(c).string();
+    progress_.message(c.name + ": " + reason);
+    outcome_.table.notes.push_back(c.name + ": " + reason);
+    progress_.skip(1);
+    for (const Word& word : experiment_.words) {
+      progress_.skip(run_steps(word));
+      outcome_.table.rows.push_back({c.name, word.text, {}, {}, "", "", "data not found"});
+      write_reason(c, word, "skipped", reason);
+    }
+    return true;
+  }
+
   void run_case(const Case& c) {
+    if (skip_case(c)) return;
     progress_.step(c.name + ": boundary and fields");
     std::optional<PreparedCase> prepared;
     const std::string failure = guarded(c.name, [&] { prepared = prepare_case(c); });
     if (prepared) {
+      if (as_number(c.size.base) && c.size.sources.empty())
+        outcome_.table.notes.push_back(fmt::format("{}: uniform delta = {}", c.name, c.size.base));
       for (const std::string& warning : prepared->warnings) progress_.message("warning: " + warning);
       const std::string undrawn = guarded(c.name, [&] {
         const fs::path folder = folder_ / c.name;
@@ -108,7 +145,10 @@ class Runner {
     if (!failure.empty()) return add_failure(c, word, failure);
     for (const std::string& warning : result->warnings) outcome_.table.notes.push_back("warning: " + warning);
     TableRow row{c.name, word.text, result->metrics.values, {}, "", ""};
-    row.values[kSeconds] = result->seconds;
+    if (experiment_.step_times)
+      add_step_times(prepared, *result, row);
+    else
+      row.values[kSeconds] = result->seconds;
     compare(c, word, row);
     outcome_.table.rows.push_back(std::move(row));
     if (word.result == PatchForm::kQuads)
@@ -127,11 +167,15 @@ class Runner {
 
   void add_failure(const Case& c, const Word& word, const std::string& reason) {
     outcome_.table.rows.push_back({c.name, word.text, {}, {}, "", reason});
+    write_reason(c, word, "failed", reason);
+  }
+
+  void write_reason(const Case& c, const Word& word, const std::string& status, const std::string& reason) {
     try {
       write_cell(folder_ / c.name / word.text, [&](const fs::path& folder) {
-        write_text(folder / "record.json", failure_record(c, word, reason));
+        write_text(folder / "record.json", failure_record(c, word, status, reason));
       });
-    } catch (const InputError& error) {  // it has failed already; the table says why
+    } catch (const InputError& error) {  // there is no result; the table says why
       progress_.message(fmt::format("error: {} {}: {}", c.name, word.text, error.what()));
     }
   }

@@ -5,9 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cad/example_models.h"
 #include "geometry/surface/curve_chains.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "mesh/box_tree.h"
 #include "mesh/constrained_delaunay.h"
@@ -68,15 +66,14 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 }
 
 SurfaceModel load(const Case& c) {
-  if (!c.example.empty()) return located(c.where, [&] { return read_example(c.example); });
-  if (!c.surface_file.empty()) return read_surface(c.surface_file, c.where);
+  if (!c.surface_file.empty() || !c.example.empty()) return read_surface(c);
   if (c.model) {
     const double edge = kPlanarEdge * diagonal_of(*c.model);
     return as_model(make_domain(*c.model, [edge](const Vec3&) { return edge; }), c.model->source);
   }
   MshSurfaces surfaces;
   Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
-  if (holds_surface(mesh)) return make_surface_model(std::move(mesh), {.source = c.mesh_file.string()});
+  if (holds_surface(mesh)) return make_model(c.surface, std::move(mesh), c.mesh_file.string());
   return as_model(make_named_domain(mesh, surfaces, c.mesh_file.string()), c.mesh_file.string());
 }
 

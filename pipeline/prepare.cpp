@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cad/example_models.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "pipeline/boundary_report.h"
 #include "pipeline/located_fields.h"
@@ -193,19 +191,20 @@ PreparedCase prepare_surface_case(const Case& c, SurfaceModel model, const Stopw
 
 PreparedCase prepare_case(const Case& c) {
   const Stopwatch reading;
-  if (!c.example.empty())
-    return prepare_surface_case(c, located(c.where, [&] { return read_example(c.example); }), reading);
-  if (!c.surface_file.empty()) return prepare_surface_case(c, read_surface(c.surface_file, c.where), reading);
+  if (!c.surface_file.empty() || !c.example.empty()) return prepare_surface_case(c, read_surface(c), reading);
   Mesh mesh;
   MshSurfaces surfaces;
   PreparedCase p;
   if (!c.model) {
     mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
     if (holds_surface(mesh))
-      return prepare_surface_case(c, make_surface_model(std::move(mesh), {.source = c.mesh_file.string()}),
-                                  reading);
+      return prepare_surface_case(c, make_model(c.surface, std::move(mesh), c.mesh_file.string()), reading);
     p.seconds.emplace_back("read", reading.seconds());
   }
+  if (!c.surface.where.empty())
+    throw InputError(
+        c.surface.where +
+        ": the model is planar: compounds, feature angles, welding and mirrors are for surfaces");
   const Stopwatch watch;
   PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, mesh, surfaces, p);
   p.expected_quads = expected_quads(*p.background, *p.size);

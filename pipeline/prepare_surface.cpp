@@ -6,9 +6,9 @@
 #include <set>
 
 #include "cad/cad_reader.h"
+#include "cad/example_models.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
@@ -52,10 +52,13 @@ bool holds_surface(const Mesh& mesh) {
   });
 }
 
-SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where) {
-  return located(where, [&] {
-    if (kCadFiles.count(path.extension().string())) return read_cad(path);
-    return make_surface_model(read_mesh(path), {.source = path.string()});
+SurfaceModel read_surface(const Case& c) {
+  const std::filesystem::path& path = c.surface_file;
+  return located(c.where, [&] {
+    if (c.example.empty() && !kCadFiles.count(path.extension().string()))
+      return make_model(c.surface, read_mesh(path), path.string());
+    check_for_cad(c.surface);
+    return make_compounds(c.surface, c.example.empty() ? read_cad(path) : read_example(c.example));
   });
 }
 

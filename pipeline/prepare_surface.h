@@ -14,8 +14,8 @@ bool is_surface_file(const std::filesystem::path& path);
 /// Whether some triangle does not lie in the plane of constant z of the first.
 bool holds_surface(const Mesh& mesh);
 
-/// Reads a surface model; `where` goes in front of messages.
-SurfaceModel read_surface(const std::filesystem::path& path, const std::string& where);
+/// Reads the surface model of a case, with its compounds.
+SurfaceModel read_surface(const Case& c);
 
 /// Faces flattened, curves meshed once each, all patches even; cross field and size on each patch. Refuses
 /// sizes that would need more than options.max_elements through `check_count`. Throws InputError naming faces

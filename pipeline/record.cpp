@@ -34,9 +34,38 @@ Json size_json(const SizeSpec& size) {
   return json;
 }
 
+Json compound_json(const SurfaceSpec& surface) {
+  switch (surface.compounds) {
+    case Compounds::kNone:
+      return Json();
+    case Compounds::kTangent:
+      return "tangent";
+    case Compounds::kAll:
+      return "all";
+    case Compounds::kGroups:
+      return surface.groups;
+  }
+  return Json();
+}
+
+Json surface_json(const SurfaceSpec& surface) {
+  Json json = {{"compound", compound_json(surface)},
+               {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
+               {"feature_angle", surface.feature_angle ? Json(*surface.feature_angle) : Json()},
+               {"weld_tolerance", surface.weld_tolerance ? Json(*surface.weld_tolerance) : Json()},
+               {"mirror", Json()}};
+  if (surface.mirror)
+    json["mirror"] = {{"point", point_json(surface.mirror->point)},
+                      {"normal", point_json(surface.mirror->normal)},
+                      {"tolerance", surface.mirror->tolerance},
+                      {"join", surface.mirror->join}};
+  return json;
+}
+
 Json options_json(const Case& c) {
   const MeshingOptions& o = c.options;
-  return {{"size", size_json(c.size)},
+  return {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
+          {"size", size_json(c.size)},
           {"cross", c.cross.text},
           {"h_max", o.frontal.h_max > 0 ? Json(o.frontal.h_max) : Json()},
           {"rejection", o.frontal.rejection},
@@ -132,7 +161,7 @@ void add_origin(Json& json) {
 std::string source_of(const Case& c) {
   if (c.model) return c.model->source;
   if (!c.example.empty()) return "example " + c.example;
-  return (c.surface_file.empty() ? c.mesh_file : c.surface_file).string();
+  return model_path(c).string();
 }
 
 Json start_record(const Case& c, const Word& word, const std::string& status) {
@@ -169,8 +198,9 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   return print(json);
 }
 
-std::string failure_record(const Case& c, const Word& word, const std::string& reason) {
-  Json json = start_record(c, word, "failed");
+std::string failure_record(const Case& c, const Word& word, const std::string& status,
+                           const std::string& reason) {
+  Json json = start_record(c, word, status);
   json["reason"] = reason;
   json["options"] = options_json(c);
   add_origin(json);

@@ -41,7 +41,8 @@ Rendered render(const Table& table) {
     std::vector<std::string> line = {row.group, row.name};
     for (const TableColumn& column : table.columns) {
       const bool first = line.size() == 2;
-      line.push_back(row.failure.empty() ? cell(row, column) : first ? "failed" : "");
+      const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
+      line.push_back(missing.empty() ? cell(row, column) : first ? missing : "");
     }
     result.lines.push_back(std::move(line));
     compared = compared || !row.published.empty();
@@ -80,6 +81,11 @@ std::string tex_escaped(const std::string& text) {
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
+}
+
+std::string status(const TableRow& row) {
+  if (!row.failure.empty()) return "failed: " + row.failure;
+  return row.skipped.empty() ? "ok" : "skipped: " + row.skipped;
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
@@ -137,8 +143,8 @@ std::string to_csv(const Table& table) {
     text += fmt::format(",{0},{0}_published,{0}_difference", column.key);
   text += "\n";
   for (const TableRow& row : table.rows) {
-    text += csv_quoted(row.group) + "," + csv_quoted(row.name) + "," +
-            csv_quoted(row.failure.empty() ? "ok" : "failed: " + row.failure) + "," + csv_quoted(row.source);
+    text += csv_quoted(row.group) + "," + csv_quoted(row.name) + "," + csv_quoted(status(row)) + "," +
+            csv_quoted(row.source);
     for (const TableColumn& column : table.columns) {
       const double ours = value_or_nan(row.values, column.key),
                    published = value_or_nan(row.published, column.key);
@@ -160,9 +166,9 @@ std::string to_json(const Table& table) {
   Json json = {{"title", table.title}, {"rows", Json::array()}, {"notes", table.notes}};
   for (const TableRow& row : table.rows) {
     Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
-    if (!row.failure.empty()) {
-      line["status"] = "failed";
-      line["reason"] = row.failure;
+    if (!row.failure.empty() || !row.skipped.empty()) {
+      line["status"] = row.failure.empty() ? "skipped" : "failed";
+      line["reason"] = row.failure.empty() ? row.skipped : row.failure;
     } else {
       line["status"] = "ok";
       line["values"] = object(row.values);

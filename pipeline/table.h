@@ -18,6 +18,7 @@ struct TableRow {
   std::map<std::string, double> published;  ///< to compare with, as printed there
   std::string source;                       ///< where the published values stand; empty: none
   std::string failure;                      ///< why there are no values; empty: none
+  std::string skipped = {};                 ///< why it was left out; empty: it was not
 };
 
 /// Results beside published ones.

@@ -225,6 +225,23 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   return direction;
 }
 
+/// What became of curves shorter than `length`. `members`: the former curves of each curve.
+void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
+                         const Groups& members, std::vector<std::string>& warnings) {
+  for (const auto& curves : members) {
+    for (const int curve : curves) {
+      if (!(lengths[curve] < length)) continue;
+      std::string others;
+      for (const int other : curves) {
+        if (other != curve) others += fmt::format("{}{}", others.empty() ? "" : ", ", old[other].tag);
+      }
+      const std::string name = fmt::format("curve {}, {:.3g} long,", old[curve].tag, lengths[curve]);
+      warnings.push_back(others.empty() ? name + " is a short one, but continues no other smoothly"
+                                        : name + " became one with curve " + others);
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const CompoundOptions& options) {
@@ -311,7 +328,9 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
     }
     if (straightest >= 0) corner[straightest] = 0;
   }
+  const std::vector<Entity> old = mesh.curves;
   Groups curves = rechain(model, corner);
+  report_short_curves(old, lengths, length, curves, model.warnings);
   wrap_projector(model, each_alone(model.fine.regions.size()), std::move(curves));
   return model;
 }

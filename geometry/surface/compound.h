@@ -25,6 +25,7 @@ std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double a
 
 /// Makes each curve shorter than `length` one with a neighbour that it continues: where only these two curves
 /// meet, with the same names, and turn by less than the feature angle; the straighter of both ends is taken.
+/// The model's warnings name what became one, and the short curves that continue no other.
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {});
 
 }  // namespace delquad

@@ -90,8 +90,9 @@ TEST(Experiments, RatiosAreNoted) {
       "1.1547 }\n[[case]]\nname = \"a\"\nsize = 0.05\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
   Progress progress;
   const ExperimentOutcome outcome = run_experiment(read_experiment(file), folder / "out", progress);
-  ASSERT_EQ(outcome.table.notes.size(), 1u);
-  EXPECT_NE(outcome.table.notes[0].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[0];
+  ASSERT_EQ(outcome.table.notes.size(), 2u);
+  EXPECT_EQ(outcome.table.notes[0], "a: uniform delta = 0.05");
+  EXPECT_NE(outcome.table.notes[1].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[1];
   expect_input_error(
       [&] {
         read_experiment(testing_support::write_text(
