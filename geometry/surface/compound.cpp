@@ -8,10 +8,12 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/error.h"
+#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 
@@ -21,32 +23,56 @@ using Groups = std::vector<std::vector<int>>;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// Projects to the nearest of the faces or curves that became one.
+/// Projects to those of the faces that became one on whose fine triangles the nearest point lies, and to the
+/// nearest of the curves. (The nearest of all faces would not do: beyond their edges, surfaces go on.)
 class CompoundProjector final : public SurfaceProjector {
  public:
-  CompoundProjector(std::shared_ptr<const SurfaceProjector> base, Groups faces, Groups curves)
-      : base_(std::move(base)), faces_(std::move(faces)), curves_(std::move(curves)) {}
+  /// `fine`: the former triangulation, its regions the base's faces.
+  CompoundProjector(std::shared_ptr<const SurfaceProjector> base, const Mesh& fine, const Groups& faces,
+                    Groups curves)
+      : base_(std::move(base)), members_(faces.size()), curves_(std::move(curves)) {
+    std::vector<int> face_of(fine.regions.size());
+    for (size_t face = 0; face < faces.size(); ++face) {
+      for (const int member : faces[face]) face_of[member] = static_cast<int>(face);
+      members_[face].only = faces[face].size() == 1 ? faces[face][0] : -1;
+    }
+    std::vector<std::vector<std::array<int, 3>>> triangles(faces.size());
+    for (size_t t = 0; t < fine.triangles.size(); ++t) {
+      Members& members = members_[face_of[fine.triangle_region[t]]];
+      if (members.only >= 0) continue;
+      triangles[face_of[fine.triangle_region[t]]].push_back(fine.triangles[t]);
+      members.of_triangle.push_back(fine.triangle_region[t]);
+    }
+    for (size_t face = 0; face < faces.size(); ++face) {
+      if (members_[face].only < 0) members_[face].triangles.emplace(fine.points, std::move(triangles[face]));
+    }
+  }
 
   Vec3 to_face(int face, const Vec3& x) const override {
-    return nearest(faces_[face], x, [&](int member) { return base_->to_face(member, x); });
+    const Members& members = members_[face];
+    if (members.only >= 0) return base_->to_face(members.only, x);
+    return base_->to_face(members.of_triangle[members.triangles->find(x).triangle], x);
   }
   Vec3 to_curve(int curve, const Vec3& x) const override {
-    return nearest(curves_[curve], x, [&](int member) { return base_->to_curve(member, x); });
-  }
-
- private:
-  template <class Project>
-  static Vec3 nearest(const std::vector<int>& members, const Vec3& x, Project project) {
-    Vec3 best = project(members[0]);
+    const std::vector<int>& members = curves_[curve];
+    Vec3 best = base_->to_curve(members[0], x);
     for (size_t i = 1; i < members.size(); ++i) {
-      const Vec3 other = project(members[i]);
+      const Vec3 other = base_->to_curve(members[i], x);
       if (norm(other - x) < norm(best - x)) best = other;
     }
     return best;
   }
 
+ private:
+  struct Members {
+    int only = -1;  ///< the only face, else -1 and:
+    std::optional<NearestTriangle> triangles;
+    std::vector<int> of_triangle;  ///< the face of each
+  };
+
   std::shared_ptr<const SurfaceProjector> base_;
-  Groups faces_, curves_;  // members of each
+  std::vector<Members> members_;  // of each face
+  Groups curves_;                 // members of each
 };
 
 /// Sets of faces that grow together; each is known by its least face.
@@ -203,9 +229,10 @@ Groups each_alone(size_t n) {
   return groups;
 }
 
-void wrap_projector(SurfaceModel& model, Groups faces, Groups curves) {
+/// `former`: the triangulation that the groups' faces are of.
+void wrap_projector(SurfaceModel& model, const Mesh& former, const Groups& faces, Groups curves) {
   if (!model.projector) return;
-  model.projector = std::make_shared<CompoundProjector>(model.projector, std::move(faces), std::move(curves));
+  model.projector = std::make_shared<CompoundProjector>(model.projector, former, faces, std::move(curves));
 }
 
 /// Directions of each face at points of its curves: area vectors of its triangles there, summed.
@@ -250,9 +277,10 @@ SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const Compo
   const std::vector<char> changed = drop_inner_lines(model.fine, group_of);
   for (size_t p = 0; p < corner.size(); ++p) corner[p] = corner[p] && !changed[p];
   mark_turns(model.fine, radians(options.feature_angle), changed, corner);
-  Groups faces = join_faces(model.fine, group_of);
+  const Mesh former = model.fine;
+  const Groups faces = join_faces(model.fine, group_of);
   Groups curves = rechain(model, corner);
-  wrap_projector(model, std::move(faces), std::move(curves));
+  wrap_projector(model, former, faces, std::move(curves));
   return model;
 }
 
@@ -331,7 +359,7 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
   const std::vector<Entity> old = mesh.curves;
   Groups curves = rechain(model, corner);
   report_short_curves(old, lengths, length, curves, model.warnings);
-  wrap_projector(model, each_alone(model.fine.regions.size()), std::move(curves));
+  wrap_projector(model, model.fine, each_alone(model.fine.regions.size()), std::move(curves));
   return model;
 }
 

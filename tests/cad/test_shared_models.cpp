@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cad/cad_reader.h"
+#include "geometry/surface/compound.h"
 #include "tests/cad/surface_counts.h"
 
 namespace delquad {
@@ -122,6 +123,20 @@ TEST(SharedHood, HasItsOutlineAndSlivers) {
     } else {
       EXPECT_GT(length[c], 2) << tag;
     }
+  }
+}
+
+TEST(SharedHood, ACompoundProjectsToTheFaceUnderneath) {
+  const auto path = data_folder() / "capot.brep";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "data not found: " << path;
+  const SurfaceModel parts = read_cad(path);
+  const SurfaceModel whole = make_compound(parts, tangent_groups(parts, 180));
+  ASSERT_EQ(whole.fine.regions.size(), 1u);
+  const Mesh& mesh = parts.fine;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 x = 1.0 / 3 * (mesh.points[a] + mesh.points[b] + mesh.points[c]);
+    EXPECT_EQ(whole.projector->to_face(0, x), parts.projector->to_face(mesh.triangle_region[t], x)) << t;
   }
 }
 

@@ -55,7 +55,7 @@ TEST(SurfaceExperiments, HoodReachesThePublishedRows) {
     EXPECT_LE(values(table, word).at("d_max"), kMostValence);
     EXPECT_EQ(values(table, word).at("percent_quads"), 100);
   }
-  EXPECT_EQ(table.notes[0], "hood: uniform delta = 31.95");
+  EXPECT_EQ(table.notes[0], "hood: uniform delta = 31.952");
 }
 
 TEST(SurfaceExperiments, FalconReachesThePublishedRow) {

@@ -145,11 +145,13 @@ TEST(Compound, ProjectsToTheNearestMember) {
   EXPECT_EQ(make_compound(model, {{0, 1}}).projector, nullptr);
   model.projector = std::make_shared<Planes>();
   const SurfaceModel whole = make_compound(model, {{0, 2, 1}});
-  EXPECT_EQ(whole.projector->to_face(0, {1.9, 5, 6}), (Vec3{2, 5, 6}));
-  EXPECT_EQ(whole.projector->to_face(0, {0.6, 5, 6}), (Vec3{1, 5, 6}));
+  // The member whose triangles are nearest: the strip's faces meet at x = 1 and about x = 2.
+  EXPECT_EQ(whole.projector->to_face(0, {1.9, 0.5, 0.2}), (Vec3{1, 0.5, 0.2}));
+  EXPECT_EQ(whole.projector->to_face(0, {2.1, 0.5, 0.2}), (Vec3{2, 0.5, 0.2}));
+  EXPECT_EQ(whole.projector->to_face(0, {0.6, 0.5, 0.2}), (Vec3{0, 0.5, 0.2}));
   const SurfaceModel pair = make_compound(model, {{1, 2}});
-  EXPECT_EQ(pair.projector->to_face(0, {1.9, 5, 6}), (Vec3{0, 5, 6}));
-  EXPECT_EQ(pair.projector->to_face(1, {0.1, 5, 6}), (Vec3{1, 5, 6}));
+  EXPECT_EQ(pair.projector->to_face(0, {1.9, 0.5, 0.2}), (Vec3{0, 0.5, 0.2}));
+  EXPECT_EQ(pair.projector->to_face(1, {0.1, 0.5, 0.2}), (Vec3{1, 0.5, 0.2}));
 
   // Each new curve goes to the former curves that lie under its lines.
   for (size_t c = 0; c < whole.fine.curves.size(); ++c) {
