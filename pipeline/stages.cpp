@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "algorithms/insertion/packing.h"
 #include "mesh/error.h"
 #include "pipeline/stopwatch.h"
 
@@ -13,6 +14,7 @@ void add(std::optional<FrontalSummary>& sum, const FrontalSummary& s) {
   if (!sum) sum.emplace();
   if (s.termination != FrontalTermination::kResolved) sum->termination = s.termination;
   sum->inserted += s.inserted;
+  sum->packed += s.packed;
   sum->rejected += s.rejected;
   sum->unresolved += s.unresolved;
   sum->layers = std::max(sum->layers, s.layers);
@@ -44,10 +46,12 @@ void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
   sum->seconds += s.seconds;
 }
 
-void insert_points(const PointPlacement& placement, const StageInput& in, PatchMesh& patch, StageLog& log) {
+/// `mesh`: mesh_frontal or mesh_packing.
+void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
+                   PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   FrontalSummary summary;
-  patch.triangles = mesh_frontal(in.boundary, placement, in.cross, in.size, in.options.insertion(), &summary);
+  patch.triangles = mesh(in.boundary, placement, in.cross, in.size, in.options.insertion(), &summary);
   patch.form = PatchForm::kTriangles;
   add(log.insertion, summary);
   log.h_max = in.options.frontal.h_max > 0 ? in.options.frontal.h_max : placement.default_h_max();
@@ -113,11 +117,15 @@ std::span<const Stage> stage_registry() {
   static const std::vector<Stage> stages = {
       {'F', "L2 insertion", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(*make_l2_frontal(), in, patch, log);
+         insert_points(mesh_frontal, *make_l2_frontal(), in, patch, log);
        }},
       {'D', "L-infinity insertion", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(*make_linf_delquad(in.options.linf), in, patch, log);
+         insert_points(mesh_frontal, *make_linf_delquad(in.options.linf), in, patch, log);
+       }},
+      {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(mesh_packing, *make_linf_delquad(in.options.linf), in, patch, log);
        }},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
   };

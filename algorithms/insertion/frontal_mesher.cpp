@@ -5,6 +5,7 @@
 #include <cmath>
 #include <queue>
 
+#include "algorithms/insertion/vertex_fields.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/delaunay_kernel.h"
 
@@ -14,14 +15,6 @@ namespace {
 
 constexpr unsigned char kAllTried = 7;  // one bit a side
 constexpr std::array<int, 3> kNext = {1, 2, 0}, kPrev = {2, 0, 1};
-
-/// Fields at a vertex, asked for once; the hints say where its neighbourhood lies in the fields' background
-/// meshes.
-struct VertexFields {
-  Cross cross;  ///< of unit length
-  double delta;
-  int cross_hint, size_hint;
-};
 
 struct TriangleState {
   double h = 0;             ///< dimensionless size
@@ -43,15 +36,15 @@ struct FrontEntry {
 
 class FrontalMesher {
  public:
-  FrontalMesher(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+  FrontalMesher(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
                 const ParametricSize& size, const FrontalOptions& options)
       : placement_(placement),
         cross_(cross),
         size_(size),
         options_(options),
         h_max_(options.h_max > 0 ? options.h_max : placement.default_h_max()),
-        kernel_(constrained_delaunay(boundary)) {
-    VertexFields last{{}, 0, -1, -1};
+        kernel_(initial) {
+    VertexFields last;
     for (const Vec2 u : kernel_.points()) vertices_.push_back(last = sample(u, last));
     states_.resize(kernel_.triangles().size());
     for (int t = 0; t < static_cast<int>(states_.size()); ++t) classify_new(t);
@@ -81,15 +74,7 @@ class FrontalMesher {
 
  private:
   VertexFields sample(Vec2 u, const VertexFields& near) const {
-    VertexFields f = near;
-    f.cross = unit(cross_.at(u, f.cross_hint));
-    f.delta = size_.at(u, f.size_hint);
-    return f;
-  }
-
-  static Cross unit(Cross z) {
-    const double length = std::sqrt(z.c * z.c + z.s * z.s);
-    return length > 0 ? Cross{z.c / length, z.s / length} : Cross{};
+    return sample_fields(cross_, size_, u, near);
   }
 
   bool resolved(int t) const { return states_[t].h <= h_max_; }
@@ -274,9 +259,18 @@ class FrontalMesher {
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
   const auto start = std::chrono::steady_clock::now();
-  FrontalMesher mesher(boundary, placement, cross, size, options);
+  TriPatch patch = fill_frontal(constrained_delaunay(boundary), placement, cross, size, options, summary);
+  if (summary)
+    summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return patch;
+}
+
+TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
+  const auto start = std::chrono::steady_clock::now();
+  FrontalMesher mesher(initial, placement, cross, size, options);
   FrontalSummary done = mesher.run();
-  TriPatch patch = mesher.result(static_cast<int>(boundary.points.size()));
+  TriPatch patch = mesher.result(initial.n_boundary);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (summary) *summary = done;
   return patch;

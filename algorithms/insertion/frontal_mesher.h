@@ -24,6 +24,7 @@ enum class FrontalTermination { kResolved, kMaxPoints };
 struct FrontalSummary {
   FrontalTermination termination = FrontalTermination::kResolved;
   long long inserted = 0;    ///< points
+  long long packed = 0;      ///< of these, by packing (P)
   long long rejected = 0;    ///< candidate points refused
   long long unresolved = 0;  ///< triangles left above h_max because every candidate was refused
   int layers = 0;
@@ -33,6 +34,11 @@ struct FrontalSummary {
 /// Frontal Delaunay mesher [paper, section 5]: layer by layer, largest active triangle first, one strategy
 /// for where the point goes. Connects by the ordinary (L2) constrained Delaunay kernel, as the paper does.
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options = {},
+                      FrontalSummary* summary = nullptr);
+
+/// The same, from a constrained Delaunay triangulation that may have points inside already.
+TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 

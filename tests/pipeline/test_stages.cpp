@@ -16,6 +16,7 @@ TEST(Words, AreReadFromLeftToRight) {
   EXPECT_EQ(fb.stages[0]->letter, 'F');
   EXPECT_EQ(fb.stages[1]->letter, 'B');
   EXPECT_EQ(fb.result, PatchForm::kQuads);
+  EXPECT_EQ(parse_word("PB").result, PatchForm::kQuads);
 }
 
 TEST(Words, MistakesNameTheLetter) {

@@ -1,0 +1,116 @@
+#include "algorithms/insertion/packing.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "algorithms/insertion/linf_geometry.h"
+#include "algorithms/insertion/vertex_fields.h"
+#include "mesh/constrained_delaunay.h"
+#include "mesh/delaunay_kernel.h"
+
+namespace delquad {
+
+namespace {
+
+/// Of the four directions of the frame, the one nearest to d.
+Vec2 nearest_direction(const Frame& frame, Vec2 d) {
+  const Vec2 local = frame.to_local(d);
+  if (std::abs(local.x) >= std::abs(local.y)) return local.x >= 0 ? frame.e1 : -frame.e1;
+  return local.y >= 0 ? frame.e2 : -frame.e2;
+}
+
+class Packer {
+ public:
+  Packer(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
+         const FrontalOptions& options)
+      : cross_(cross), size_(size), options_(options), kernel_(constrained_delaunay(boundary)) {
+    VertexFields last;
+    for (const Vec2 u : kernel_.points()) vertices_.push_back(last = sample(u, last));
+    triangle_.resize(vertices_.size(), -1);
+    for (int t = 0; t < static_cast<int>(kernel_.triangles().size()); ++t) {
+      for (const int v : kernel_.triangles()[t].v) triangle_[v] = t;
+    }
+  }
+
+  /// The vertices' own order is the queue: each is appended when it is inserted.
+  FrontalSummary run() {
+    for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
+      const Frame frame = Frame::from_cross(vertices_[v].cross);
+      for (const Vec2 d : {frame.e1, frame.e2, -frame.e1, -frame.e2}) {
+        if (summary_.inserted >= options_.max_points) {
+          summary_.termination = FrontalTermination::kMaxPoints;
+          return summary_;
+        }
+        ++(propose(v, d) ? summary_.inserted : summary_.rejected);
+      }
+    }
+    return summary_;
+  }
+
+  TriPatch result(int n_boundary) const { return kernel_.to_patch(n_boundary); }
+
+ private:
+  VertexFields sample(Vec2 u, const VertexFields& near) const {
+    return sample_fields(cross_, size_, u, near);
+  }
+
+  bool propose(int v, Vec2 d) {
+    const Vec2 from = kernel_.points()[v];
+    const VertexFields middle = sample(from + 0.5 * vertices_[v].delta * d, vertices_[v]);
+    const Frame frame = Frame::from_cross(middle.cross);
+    const Vec2 x = from + middle.delta * nearest_direction(frame, d);
+    const int holder = kernel_.locate(x, triangle_[v]);
+    if (holder < 0 || !kernel_.find_cavity(x, holder) || !acceptable(x, frame, middle.delta)) return false;
+
+    vertices_.push_back(sample(x, middle));
+    triangle_.push_back(-1);
+    for (const int t : kernel_.insert(x)) {
+      for (const int w : kernel_.triangles()[t].v) triangle_[w] = t;
+    }
+    return true;
+  }
+
+  bool acceptable(Vec2 x, const Frame& frame, double delta) const {
+    const auto& p = kernel_.points();
+    for (const auto& e : kernel_.shell()) {
+      if (linf_norm(frame.to_local(p[e.a] - x)) < options_.rejection * delta) return false;
+      if (e.outer >= 0) continue;
+      const Vec2 ab = p[e.b] - p[e.a];
+      if (::delquad::cross(ab, x - p[e.a]) < options_.boundary_height * delta * norm(ab)) return false;
+    }
+    return true;
+  }
+
+  const CrossField& cross_;
+  const ParametricSize& size_;
+  const FrontalOptions& options_;
+  DelaunayKernel kernel_;
+  std::vector<VertexFields> vertices_;
+  std::vector<int> triangle_;  ///< one around each vertex
+  FrontalSummary summary_;
+};
+
+}  // namespace
+
+TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
+  const auto start = std::chrono::steady_clock::now();
+  const int n_boundary = static_cast<int>(boundary.points.size());
+  Packer packer(boundary, cross, size, options);
+  const FrontalSummary packed = packer.run();
+  FrontalOptions left = options;
+  left.max_points -= packed.inserted;
+  FrontalSummary done;
+  TriPatch patch = fill_frontal(packer.result(n_boundary), filler, cross, size, left, &done);
+  done.packed = packed.inserted;
+  done.inserted += packed.inserted;
+  done.rejected += packed.rejected;
+  if (packed.termination != FrontalTermination::kResolved) done.termination = packed.termination;
+  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (summary) *summary = done;
+  return patch;
+}
+
+}  // namespace delquad

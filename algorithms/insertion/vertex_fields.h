@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+
+#include "fields/cross_field.h"
+#include "fields/size_field.h"
+
+namespace delquad {
+
+/// Fields at a vertex, asked for once; the hints say where its neighbourhood lies in the fields' background
+/// meshes.
+struct VertexFields {
+  Cross cross;  ///< of unit length; (1, 0) where the field vanishes
+  double delta = 0;
+  int cross_hint = -1, size_hint = -1;
+};
+
+/// The fields at u, found from those of a point nearby.
+inline VertexFields sample_fields(const CrossField& cross, const ParametricSize& size, Vec2 u,
+                                  const VertexFields& near) {
+  VertexFields f = near;
+  const Cross z = cross.at(u, f.cross_hint);
+  const double length = std::sqrt(z.c * z.c + z.s * z.s);
+  f.cross = length > 0 ? Cross{z.c / length, z.s / length} : Cross{};
+  f.delta = size.at(u, f.size_hint);
+  return f;
+}
+
+}  // namespace delquad
