@@ -61,14 +61,14 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
       ->required();
   mesh->add_option("--size", arguments.size, kSizeHelp);
   mesh->add_option("--cross", arguments.cross,
-                   "directions: 'boundary', 'gradient' or an angle expression (radians)");
+                   "directions: 'boundary', 'size-aware', 'gradient' or an angle expression (radians)");
   mesh->add_option("--compound", arguments.compound,
                    "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
   mesh->add_option("--feature-angle", arguments.feature_angle,
                    "degrees by which triangles must turn for a curve between them, and curves for a corner");
   mesh->add_option("--weld", arguments.weld_tolerance,
                    "join ends of open edges of a triangulation up to this part of its diagonal");
-  mesh->add_option("--pipeline", arguments.pipeline, "letters of stages: F or D, then B")
+  mesh->add_option("--pipeline", arguments.pipeline, "letters of stages: F, D or P, then B")
       ->capture_default_str();
   mesh->add_option("--json", arguments.json, "record to write");
   mesh->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)

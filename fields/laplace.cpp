@@ -12,10 +12,9 @@ namespace {
 // have no reliable area in floating point. The matrix stays positive definite whatever the areas.
 constexpr double kLeastArea = 1e-12;
 
-using Local = std::array<std::array<double, 3>, 3>;
+}  // namespace
 
-/// Products of the triangle's sides over twice its area.
-Local stiffness(const TriPatch& tri, int t) {
+LocalStiffness local_stiffness(const TriPatch& tri, int t) {
   const auto& v = tri.triangles[t];
   Vec2 side[3];
   double longest2 = 0;
@@ -24,14 +23,12 @@ Local stiffness(const TriPatch& tri, int t) {
     longest2 = std::max(longest2, dot(side[k], side[k]));
   }
   const double area = std::max(cross(side[0], side[1]), kLeastArea * longest2);
-  Local matrix;
+  LocalStiffness matrix;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) matrix[i][j] = dot(side[i], side[j]) / area;
   }
   return matrix;
 }
-
-}  // namespace
 
 void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
                    const std::vector<char>& fixed, std::span<std::vector<double>> columns) {
@@ -46,7 +43,7 @@ void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& d
   entries.reserve(6 * tri.triangles.size());
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-    const Local local = stiffness(tri, static_cast<int>(t));
+    const LocalStiffness local = local_stiffness(tri, static_cast<int>(t));
     for (int i = 0; i < 3; ++i) {
       const int r = row[dofs[t][i]];
       if (r < 0) continue;

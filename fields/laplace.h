@@ -8,6 +8,12 @@
 
 namespace delquad {
 
+/// Products of a triangle's sides (each opposite to its vertex) over twice its area: twice the stiffness
+/// matrix of the continuous linear element, half that of the Crouzeix-Raviart element. Positive semi-definite
+/// also for slivers.
+using LocalStiffness = std::array<std::array<double, 3>, 3>;
+LocalStiffness local_stiffness(const TriPatch& tri, int t);
+
 /// Extends values harmonically by finite elements linear on each triangle. dofs[t][k] numbers the unknown of
 /// triangle t at its vertex k (continuous elements) or at the middle of its side opposite to vertex k
 /// (Crouzeix-Raviart elements): both have the same matrix, up to a factor. Each column holds a value per

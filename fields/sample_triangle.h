@@ -18,6 +18,15 @@ inline double longest_side(const Corners& c) {
   return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
 }
 
+/// Slope of the function that is linear on the triangle (counterclockwise) and has these values at its
+/// corners; zero on a triangle without area.
+inline Vec2 slope(const Corners& c, const std::array<double, 3>& values) {
+  const double twice_area = cross(c[1] - c[0], c[2] - c[0]);
+  if (!(twice_area > 0)) return {0, 0};
+  return (1 / twice_area) *
+         ((values[1] - values[0]) * perp(c[0] - c[2]) + (values[2] - values[0]) * perp(c[1] - c[0]));
+}
+
 /// Middles of the sides, each opposite to the corner of its index.
 inline Corners middles(const Corners& c) {
   return {0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), 0.5 * (c[0] + c[1])};

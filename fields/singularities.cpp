@@ -11,12 +11,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Turn of the phase from one side to another, in (-pi, pi) or half a turn; the opposite one the other way
-/// round.
-double phase_step(const std::vector<double>& phase, int from, int to) {
-  if (from > to) return -phase_step(phase, to, from);
+/// Turn of the phase from one side to another: `expected` and a rest in (-pi, pi) or half a turn; the
+/// opposite one the other way round.
+double phase_step(const std::vector<double>& phase, int from, int to, double expected) {
+  if (from > to) return -phase_step(phase, to, from, -expected);
   const double step = phase[to] - phase[from];
-  return step > kPi ? step - 2 * kPi : step <= -kPi ? step + 2 * kPi : step;
+  const double rest = std::remainder(step - expected, 2 * kPi);
+  return expected + (rest <= -kPi ? rest + 2 * kPi : rest);
 }
 
 int turns(double angle) { return static_cast<int>(std::lround(angle / (2 * kPi))); }
@@ -77,7 +78,8 @@ void cancel_pairs(const BackgroundMesh& background, std::vector<int>& of_triangl
 }  // namespace
 
 FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
-                                 const std::vector<Cross>& crosses) {
+                                 const std::vector<Cross>& crosses,
+                                 const std::vector<std::array<double, 3>>& expected) {
   const TriPatch& tri = background.triangles();
   std::vector<double> phase;
   phase.reserve(crosses.size());
@@ -91,8 +93,9 @@ FieldTopology find_singularities(const BackgroundMesh& background, const Sides& 
     for (int k = 0; k < 3; ++k) {
       // Counterclockwise in the triangle, past the middles of the two sides at vertex k; clockwise around
       // that vertex.
-      const double step =
-          phase_step(phase, sides.of_triangle[t][(k + 2) % 3], sides.of_triangle[t][(k + 1) % 3]);
+      const int from = (k + 2) % 3, to = (k + 1) % 3;
+      const double step = phase_step(phase, sides.of_triangle[t][from], sides.of_triangle[t][to],
+                                     expected.empty() ? 0 : expected[t][to] - expected[t][from]);
       sum -= step;
       around[tri.triangles[t][k]] += step;
     }

@@ -22,7 +22,7 @@ struct SizeSpec {
   std::string where;     ///< for messages
 };
 
-/// The wanted directions: "boundary", "gradient" or an angle expression in x, y, z (radians).
+/// The wanted directions: "boundary", "size-aware", "gradient" or an angle expression in x, y, z (radians).
 struct CrossSpec {
   std::string text = "boundary";
   std::string where;

@@ -33,14 +33,17 @@ std::vector<CrossGlyph> sample_crosses(const PreparedCase& p) {
   const int across = std::clamp(static_cast<int>(detail), kFewestAcross, kMostAcross);
   const double step = std::max(high.x - low.x, high.y - low.y) / across;
   std::vector<CrossGlyph> glyphs;
-  int where = -1, hint = -1;
+  int where = -1;
   for (int j = 0; j < across; ++j)
     for (int i = 0; i < across; ++i) {
       const Vec2 u = low + Vec2{(i + 0.5) * step, (j + 0.5) * step};
       if (u.x > high.x || u.y > high.y) continue;
-      const Vec2 inside = position(*p.background, p.background->locate(u, where));
+      const BackgroundMesh::Location at = p.background->locate(u, where);
+      const Vec2 inside = position(*p.background, at);
       if (norm(inside - u) > 1e-9 * step * across) continue;  // outside: the location is the nearest one
-      glyphs.push_back({u, p.patches[0].cross->at(u, hint).angle(), 0.8 * step});
+      const CrossField& cross = *p.patches[p.background->triangle_patch()[at.triangle]].cross;
+      int hint = -1;
+      glyphs.push_back({u, cross.at(u, hint).angle(), 0.8 * step});
     }
   return glyphs;
 }

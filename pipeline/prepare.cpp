@@ -11,6 +11,7 @@
 #include "pipeline/located_fields.h"
 #include "pipeline/named_domain.h"
 #include "pipeline/prepare_surface.h"
+#include "pipeline/size_aware.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr const char* kFromBoundary = "boundary";
 constexpr const char* kFromGradient = "gradient";
+constexpr const char* kSizeAware = "size-aware";
 /// Central differences for the direction of grad delta, in diagonals of the domain: far above rounding of the
 /// coordinates, far below any feature that a mesh could show.
 constexpr double kGradientStep = 1e-6;
@@ -152,24 +154,29 @@ PlanarDomain prepare_mesh(const Case& c, const Mesh& mesh, const MshSurfaces& su
   return domain;
 }
 
+/// Says so when the indices of a cross field do not add up to the Euler characteristic.
+void check_index_sum(const Case& c, PreparedCase& p) {
+  const auto [sum, expected] = *p.index_sum_and_expected;
+  if (sum == expected) return;
+  p.warnings.push_back(
+      fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
+                  "characteristic is {}/4",
+                  c.name, sum, expected));
+}
+
+/// The field of the whole domain.
 std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
   const std::string& text = c.cross.text;
   if (text == kFromGradient) return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
-  if (text != kFromBoundary)
+  if (text != kFromBoundary && text != kSizeAware)
     return located(c.cross.where, [&] {
-      return std::make_shared<LocatedCross>(
-          formula_or_word(text, {kFromBoundary, kFromGradient}, [&] { return make_expression_cross(text); }),
-          c.cross.where);
+      return std::make_shared<LocatedCross>(formula_or_word(text, {kFromBoundary, kFromGradient, kSizeAware},
+                                                            [&] { return make_expression_cross(text); }),
+                                            c.cross.where);
     });
   auto field = std::make_shared<HarmonicCrossField>(p.background);
   p.singularities = field->singularities();
-  const int expected = 4 * field->euler_characteristic();
-  p.index_sum_and_expected = {field->index_sum(), expected};
-  if (field->index_sum() != expected)
-    p.warnings.push_back(
-        fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
-                    "characteristic is {}/4",
-                    c.name, field->index_sum(), expected));
+  p.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
   return field;
 }
 
@@ -222,7 +229,9 @@ PreparedCase prepare_case(const Case& c) {
         {std::move(domain.patches[i]), domain.patch_region[i], cross, size, [z](Vec2 u, int&) {
            return Vec3{u.x, u.y, z};
          }});
-  p.seconds.emplace_back("fields", fields.seconds());
+  if (c.cross.text == kSizeAware) make_crosses_size_aware(p);
+  if (p.index_sum_and_expected) check_index_sum(c, p);
+  p.seconds.emplace_back("fields", fields.work_seconds());
   return p;
 }
 

@@ -28,10 +28,13 @@ struct PreparedCase {
   std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
-  std::vector<Singularity> singularities;            ///< of the boundary-aligned cross field
-  /// Sum of the indices of the boundary-aligned field, and what the domain's Euler characteristic makes of
+  std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
+  /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
   /// it, in quarters.
   std::optional<std::pair<int, int>> index_sum_and_expected;
+  /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
+  /// of it.
+  std::optional<std::pair<double, double>> dislocations;
   double expected_quads = 0;  ///< integral of dA/delta^2
   std::vector<std::string> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.

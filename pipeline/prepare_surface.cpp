@@ -12,6 +12,7 @@
 #include "io/mesh_io.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
+#include "pipeline/size_aware.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_domain.h"
 
@@ -64,8 +65,10 @@ SurfaceModel read_surface(const Case& c) {
 
 PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<const SizeField> size,
                              const std::function<void(double quads)>& check_count) {
-  if (c.cross.text != "boundary")
-    throw InputError(c.cross.where + ": a surface takes its crosses from its curves: expected 'boundary'");
+  const bool size_aware = c.cross.text == "size-aware";
+  if (!size_aware && c.cross.text != "boundary")
+    throw InputError(c.cross.where +
+                     ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
   PreparedCase p;
   p.size = std::move(size);
   const Stopwatch maps;
@@ -102,6 +105,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
             [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }};
       },
       [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
+  if (size_aware) make_crosses_size_aware(p);
   p.seconds.emplace_back("fields", fields.work_seconds());
   return p;
 }

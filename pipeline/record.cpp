@@ -94,6 +94,9 @@ Json cross_json(const PreparedCase& p) {
     json["index_sum_quarters"] = p.index_sum_and_expected->first;
     json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
   }
+  if (p.dislocations)
+    json["expected_dislocations"] = {{"boundary", p.dislocations->first},
+                                     {"size_aware", p.dislocations->second}};
   return json;
 }
 
@@ -116,6 +119,7 @@ Json insertion_json(const FrontalSummary& s, double h_max) {
   return {{"h_max", h_max},
           {"termination", s.termination == FrontalTermination::kResolved ? "resolved" : "max_points"},
           {"inserted", s.inserted},
+          {"packed", s.packed},
           {"rejected", s.rejected},
           {"unresolved", s.unresolved},
           {"layers", s.layers},

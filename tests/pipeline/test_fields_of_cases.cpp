@@ -58,6 +58,46 @@ TEST_F(Cases, AnalyticCrosses) {
                      {"c.toml:3", "atan(x"});
 }
 
+TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
+  const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
+  const Case c = read(lewis + "size = \"0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n");
+  const PreparedCase p = prepare_case(c);
+  ASSERT_TRUE(p.dislocations);
+  EXPECT_LT(p.dislocations->second, 0.6 * p.dislocations->first);
+  EXPECT_EQ(p.index_sum_and_expected, std::pair(4, 4));
+  EXPECT_GT(p.singularities.size(), 4u);
+  Progress progress;
+  for (const char* word : {"DB", "PB"}) {
+    Case aligned = c;
+    aligned.cross.text = "boundary";
+    const auto before = run_word(aligned, prepare_case(aligned), parse_word(word), progress).metrics.values;
+    const auto after = run_word(c, p, parse_word(word), progress).metrics.values;
+    for (const char* metric : {"eta_mean", "d4", "tau"})
+      EXPECT_GT(after.at(metric), before.at(metric)) << word;
+  }
+}
+
+TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
+  // Two patches: a square and the square inside it.
+  const std::string text =
+      square_ +
+      "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = \"in\", "
+      "count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
+  const PreparedCase aligned = prepare_case(read(text)),
+                     aware = prepare_case(read(text + "cross = \"size-aware\"\n"));
+  ASSERT_EQ(aware.patches.size(), 2u);
+  EXPECT_EQ(aware.index_sum_and_expected, aligned.index_sum_and_expected);
+  EXPECT_EQ(aware.dislocations->first, aware.dislocations->second);
+  int hint = -1, other = -1;
+  for (std::size_t i = 0; i < aware.patches.size(); ++i) {
+    for (const Vec2 u : aware.patches[i].boundary.points) {
+      const Cross a = aligned.patches[i].cross->at(u, hint), b = aware.patches[i].cross->at(u, other);
+      EXPECT_EQ(a.c, b.c);
+      EXPECT_EQ(a.s, b.s);
+    }
+  }
+}
+
 TEST_F(Cases, OptionsReachTheStages) {
   const Case c = read(
       square_ +
