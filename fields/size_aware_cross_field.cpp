@@ -17,10 +17,12 @@ namespace delquad {
 
 namespace {
 
-/// Times of diffusion, in elements of the background mesh, from the first step to the last: the singularities
-/// find their places first within their neighbourhood, then to an element.
+/// Times of diffusion, in elements (pairs of triangles) of the background mesh, from the first step to the
+/// last: the singularities find their places first within their neighbourhood, then to an element.
 constexpr double kLongest = 1600, kShortest = 2;
 constexpr int kSteps = 10;
+/// What each triangle gives to each of its sides: a sixth of an element.
+constexpr double kMass = 0.5 / 3;
 /// Relative residual of each step: its result is brought back to unit length, and only the last step's stays.
 constexpr double kTolerance = 1e-4;
 
@@ -38,11 +40,6 @@ Complex normalised(Complex z, Complex instead) {
 
 double twice_area(const TriPatch& tri, const std::array<int, 3>& v) {
   return cross(tri.points[v[1]] - tri.points[v[0]], tri.points[v[2]] - tri.points[v[0]]);
-}
-
-/// 1/delta^2 in the middle of a triangle's side.
-double density(const SizeConnection& connection, const std::array<int, 3>& v, int side) {
-  return std::exp(-connection.log_size(v[(side + 1) % 3]) - connection.log_size(v[(side + 2) % 3]));
 }
 
 /// The start field in the middles of all sides, of unit length; tangents on the boundary.
@@ -66,9 +63,9 @@ std::vector<Complex> sample_sides(const BackgroundMesh& background, const Sides&
   return z;
 }
 
-/// The diffusion (mass/tau + stiffness) of crosses in the metric |du|^2/delta^2, their values on the boundary
-/// being given. The stiffness of each triangle is taken between values carried to its centroid, so that it is
-/// positive semi-definite whatever its angles.
+/// The diffusion (mass/tau + stiffness) of crosses that turn as grids of size delta do, their values on the
+/// boundary being given; time is counted in elements wherever they are. The stiffness of each triangle is
+/// taken between values carried to its centroid, so that it is positive semi-definite whatever its angles.
 class CrossDiffusion {
  public:
   CrossDiffusion(const BackgroundMesh& background, const Sides& sides, const SizeConnection& connection,
@@ -86,13 +83,12 @@ class CrossDiffusion {
     fixed_.setZero(2 * n);
     stiffness_.resize(2 * n, 2 * n);
     assemble(tri, sides, connection);
-    element_ = mass_.sum() / static_cast<double>(tri.triangles.size());
   }
 
   /// One step of diffusion over `tau` elements, then back to unit length.
   void step(double tau) {
     if (mass_.size() == 0) return;
-    const Vector weight = mass_ / (tau * element_);
+    const Vector weight = mass_ / tau;
     Matrix matrix = stiffness_;
     matrix.diagonal() += weight;
     Vector now(mass_.size());
@@ -120,9 +116,8 @@ class CrossDiffusion {
       for (int i = 0; i < 3; ++i) {
         const int r = row_[side[i]];
         if (r < 0) continue;
-        const double mass = twice_area(tri, tri.triangles[t]) / 6 * density(connection, tri.triangles[t], i);
-        mass_[2 * r] += mass;
-        mass_[2 * r + 1] += mass;
+        mass_[2 * r] += kMass;
+        mass_[2 * r + 1] += kMass;
         for (int j = 0; j < 3; ++j) {
           const Complex value = 2 * local[i][j] * unit(turns[i] - turns[j]);
           if (const int c = row_[side[j]]; c >= 0) {
@@ -150,7 +145,6 @@ class CrossDiffusion {
   Vector mass_;
   Vector fixed_;  ///< what the boundary's values contribute
   Matrix stiffness_;
-  double element_;  ///< mean area of two triangles in the metric
 };
 
 /// 1/delta, the mean over a triangle.

@@ -19,9 +19,9 @@ namespace delquad {
 /// edges as in HarmonicCrossField, transport within each triangle by SizeConnection.
 class SizeAwareCrossField final : public CrossField {
  public:
-  /// `background`: one patch; it must resolve delta' (elements of a few delta' where it varies). `start`:
-  /// what the iteration starts from and what the field is, exactly, where delta' hardly varies: by too little
-  /// over the whole patch for a single row of quads to end.
+  /// `background`: one patch; its elements must be small against the length over which delta' varies.
+  /// `start`: what the iteration starts from and what the field is, exactly, where delta' hardly varies: by
+  /// too little over the whole patch for a single row of quads to end.
   SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background, const ParametricSize& size,
                       std::shared_ptr<const CrossField> start);
   ~SizeAwareCrossField() override;

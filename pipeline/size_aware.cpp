@@ -1,33 +1,77 @@
 #include "pipeline/size_aware.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/point_placement.h"
 #include "fields/size_aware_cross_field.h"
+#include "mesh/constrained_delaunay.h"
 #include "mesh/parallel.h"
 
 namespace delquad {
 namespace {
 
-/// Edges of the background mesh over delta'. Up to 3, meshes come out alike (d4 by 0.2 over the graded planar
-/// cases); the time falls with the square.
-constexpr double kCoarser = 2;
+/// Edges of the background mesh over delta': no shorter. Half of that gives the same meshes (d4 by 0.2) in
+/// eight times the time.
+constexpr double kShortestEdge = 2;
+/// Edges of the background mesh over the length on which delta' varies by a factor of e: no longer.
+constexpr double kLongestEdge = 0.5;
+/// Edges of the background mesh over the square root of the patch's area: no longer.
+constexpr double kLargestPart = 1.0 / 70;
 
-class ScaledSize final : public ParametricSize {
+double area(const PatchBoundary& boundary) {
+  double sum = 0;
+  for (const auto& [i, j] : boundary.edges)
+    sum += cross(boundary.points[i] - boundary.points[0], boundary.points[j] - boundary.points[0]) / 2;
+  return sum;
+}
+
+/// Size of a background mesh that resolves how delta' varies, and is not finer than that: its number of
+/// elements stays bounded when delta' is scaled down, but for those next to the boundary, whose edges are
+/// given.
+class ResolvingSize final : public ParametricSize {
  public:
-  ScaledSize(const ParametricSize& size, double factor) : size_(size), factor_(factor) {}
-  double at(Vec2 u, int& hint) const override { return factor_ * size_.at(u, hint); }
+  /// `domain`: any triangulation of the patch.
+  ResolvingSize(const ParametricSize& size, double largest, const BackgroundMesh& domain)
+      : size_(size), largest_(largest), domain_(domain) {}
+
+  double at(Vec2 u, int& hint) const override {
+    const double delta = size_.at(u, hint), shortest = kShortestEdge * delta;
+    if (shortest >= largest_) return shortest;
+    double steepest = 0;
+    int where = -1, near = hint;
+    for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
+      const Vec2 x = inside(u + largest_ / 2 * d, where);
+      const double distance = norm(x - u);
+      if (distance > 0)
+        steepest = std::max(steepest, std::abs(std::log(size_.at(x, near) / delta)) / distance);
+    }
+    return std::max(shortest, std::min(largest_, kLongestEdge / steepest));
+  }
 
  private:
+  /// The point of the patch nearest to u.
+  Vec2 inside(Vec2 u, int& hint) const {
+    const auto [t, b] = domain_.locate(u, hint);
+    const TriPatch& tri = domain_.triangles();
+    Vec2 x{0, 0};
+    for (int k = 0; k < 3; ++k) x += b[k] * tri.points[tri.triangles[t][k]];
+    return x;
+  }
+
   const ParametricSize& size_;
-  double factor_;
+  double largest_;
+  const BackgroundMesh& domain_;
 };
 
 std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
+  const BackgroundMesh domain(constrained_delaunay(patch.boundary));
+  const ResolvingSize size(*patch.size, kLargestPart * std::sqrt(area(patch.boundary)), domain);
   return std::make_shared<BackgroundMesh>(
-      mesh_frontal(patch.boundary, *make_l2_frontal(), *patch.cross, ScaledSize(*patch.size, kCoarser)));
+      mesh_frontal(patch.boundary, *make_l2_frontal(), *patch.cross, size));
 }
 
 }  // namespace

@@ -77,6 +77,18 @@ TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   }
 }
 
+// The finer the mesh, the more rows end; the size-aware field keeps its part of them.
+TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
+  const auto dislocations = [&](const std::string& factor) {
+    return *prepare_case(read("loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\nsize = \"" + factor +
+                              "*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n"))
+                .dislocations;
+  };
+  const auto coarse = dislocations("0.01"), fine = dislocations("0.0025");
+  EXPECT_NEAR(fine.first, 4 * coarse.first, 0.05 * fine.first);
+  EXPECT_NEAR(fine.second, 4 * coarse.second, 0.1 * fine.second);
+}
+
 TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
   // Two patches: a square and the square inside it.
   const std::string text =
