@@ -57,11 +57,13 @@ class Packer {
   }
 
   bool propose(int v, Vec2 d) {
-    const Vec2 from = kernel_.points()[v];
-    const VertexFields middle = sample(from + 0.5 * vertices_[v].delta * d, vertices_[v]);
+    const Vec2 from = kernel_.points()[v], half_way = from + 0.5 * vertices_[v].delta * d;
+    const int on_the_way = kernel_.locate(half_way, triangle_[v]);
+    if (on_the_way < 0) return false;  // outside, where fields need not exist
+    const VertexFields middle = sample(half_way, vertices_[v]);
     const Frame frame = Frame::from_cross(middle.cross);
     const Vec2 x = from + middle.delta * nearest_direction(frame, d);
-    const int holder = kernel_.locate(x, triangle_[v]);
+    const int holder = kernel_.locate(x, on_the_way);
     if (holder < 0 || !kernel_.find_cavity(x, holder) || !acceptable(x, frame, middle.delta)) return false;
 
     vertices_.push_back(sample(x, middle));

@@ -132,6 +132,24 @@ TEST(Packing, StopsAtMaxPointsAndSaysSo) {
   EXPECT_EQ(summary.inserted, 10);
 }
 
+// Sizes such as sqrt(1 - r^2) exist inside only. Points of the boundary may be outside by rounding.
+TEST(Packing, AsksNoFieldOutsideTheDomain) {
+  const auto inside = [](Vec2 u) {
+    const double r = norm(u);
+    return r < 1 + 1e-12 && r > 0.3 * std::cos(std::numbers::pi / 30) - 1e-12;
+  };
+  const FunctionSize size([&](Vec2 u) {
+    EXPECT_TRUE(inside(u)) << u.x << ", " << u.y;
+    return 0.05 + 0.05 * norm(u);
+  });
+  const FunctionCross cross([&](Vec2 u) {
+    EXPECT_TRUE(inside(u)) << u.x << ", " << u.y;
+    return std::atan2(u.y, u.x) + 0.2;
+  });
+  const TriPatch tri = pack(shapes::annulus(0.3, 1, 30, 70), cross, size);
+  EXPECT_GT(tri.points.size(), 400u);
+}
+
 TEST(Packing, SliverDomainsEnd) {
   for (const double height : {1e-3, 1e-6, 1e-9}) {
     EXPECT_TRUE(
