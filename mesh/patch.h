@@ -17,6 +17,8 @@ struct PatchBoundary {
   std::vector<int> edge_curve;
   /// Node of the boundary mesh that each point stands for. Two points may share a node (a seam).
   std::vector<int> point_node;
+  /// Points inside from which insertion starts, besides the boundary; mostly none.
+  std::vector<Vec2> seeds;
 };
 
 /// A triangulation of one patch in its parameter plane.

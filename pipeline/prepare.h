@@ -10,6 +10,7 @@
 #include "fields/fields.h"
 #include "geometry/planar_model.h"
 #include "pipeline/case.h"
+#include "surfaces/surface_domain.h"
 
 namespace delquad {
 
@@ -35,7 +36,8 @@ struct PreparedCase {
   /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
   /// of it.
   std::optional<std::pair<double, double>> dislocations;
-  double expected_quads = 0;  ///< integral of dA/delta^2
+  std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
+  double expected_quads = 0;               ///< integral of dA/delta^2
   std::vector<std::string> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.
   std::vector<std::pair<std::string, double>> seconds;

@@ -90,6 +90,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.warnings = surface->model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
   p.boundary = surface->domain.boundary;
+  p.sharp_corners = surface->domain.sharp_corners;
   p.seconds.emplace_back("curves", curves.work_seconds());
 
   const std::vector<SurfacePatch>& patches = surface->domain.patches;

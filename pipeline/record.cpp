@@ -3,6 +3,7 @@
 #include <sys/utsname.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
 #include "build_info.h"
@@ -139,6 +140,21 @@ Json recombination_json(const RecombineSummary& s) {
           {"merge_seconds", s.merge_seconds}};
 }
 
+/// Quads below kBadEta, and the corners of the model that forbid more.
+Json bad_quads_json(const PreparedCase& p, const RunResult& result) {
+  Json corners = Json::array();
+  for (const SharpCorner& c : p.sharp_corners)
+    corners.push_back({{"face", p.boundary.regions[c.face].tag},
+                       {"curves", {p.boundary.curves[c.curves[0]].tag, p.boundary.curves[c.curves[1]].tag}},
+                       {"at", point_json(p.boundary.points[c.node])},
+                       {"angle_degrees", c.angle * 180 / std::numbers::pi},
+                       {"eta_bound", c.eta_bound}});
+  return {{"eta_below", kBadEta},
+          {"in_sharp_corners", result.bad_in_corners},
+          {"elsewhere", result.bad_elsewhere},
+          {"sharp_corners", corners}};
+}
+
 Json treatment_json(const TreatmentSummary& s) {
   return {{"rounds", s.rounds},
           {"doublets", s.doublets},
@@ -191,6 +207,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
+  json["bad_quads"] = bad_quads_json(prepared, result);
   auto seconds = prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
   json["threads"] = thread_count();

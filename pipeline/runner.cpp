@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "pipeline/stopwatch.h"
+#include "smoothing/space_lift.h"
 
 namespace delquad {
 namespace {
@@ -77,6 +80,55 @@ void warn_of_bad_quads(const std::string& label, RunResult& result) {
                   n == 1 ? "1 quad is" : fmt::format("{} quads are", n), centre.x, centre.y, centre.z));
 }
 
+/// Tells bad quads in sharp corners from others, and names the worst corner.
+void count_bad_quads(const std::string& label, const PreparedCase& prepared, RunResult& result) {
+  const Mesh& mesh = result.mesh;
+  std::set<std::pair<int, int>> corners;  // face and node
+  for (const SharpCorner& c : prepared.sharp_corners) corners.emplace(c.face, c.node);
+  const std::vector<double> etas = quad_etas(mesh);
+  for (std::size_t q = 0; q < etas.size(); ++q) {
+    if (etas[q] >= kBadEta) continue;
+    const auto& v = mesh.quads[q];
+    const bool in_corner = std::any_of(v.begin(), v.end(), [&](int i) {
+      return corners.contains({mesh.quad_region[q], i});
+    });
+    ++(in_corner ? result.bad_in_corners : result.bad_elsewhere);
+  }
+  if (result.bad_in_corners == 0) return;
+  const auto worst =
+      std::min_element(prepared.sharp_corners.begin(), prepared.sharp_corners.end(),
+                       [](const SharpCorner& a, const SharpCorner& b) { return a.eta_bound < b.eta_bound; });
+  const Vec3 at = mesh.points[worst->node];
+  result.warnings.push_back(
+      fmt::format("{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
+                  "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
+                  label, result.bad_in_corners, kBadEta, mesh.regions[worst->face].tag, at.x, at.y, at.z,
+                  mesh.curves[worst->curves[0]].tag, mesh.curves[worst->curves[1]].tag,
+                  worst->angle * 180 / std::numbers::pi, worst->eta_bound));
+}
+
+/// Quads below this eta in space are lifted, in so many sweeps.
+constexpr double kPoorInSpace = 0.3;
+constexpr int kLiftSweeps = 20;
+
+/// On surfaces, quads may be worse in space than in the plane in which they were treated.
+void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patches, StageLog& log) {
+  if (prepared.background) return;  // a planar domain
+  const Stopwatch watch;
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        if (patches[i].form != PatchForm::kQuads) return;
+        std::vector<Vec3> boundary;
+        for (const int node : prepared.patches[i].boundary.point_node)
+          boundary.push_back(prepared.boundary.points[node]);
+        patches[i].inside = lift_worst_in_space(patches[i].quads, boundary, prepared.patches[i].lift,
+                                                kPoorInSpace, kLiftSweeps);
+      },
+      [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
+  log.add_seconds("projection", watch.work_seconds());
+}
+
 }  // namespace
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
@@ -86,7 +138,10 @@ Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patche
   std::vector<std::vector<Vec3>> inside(patches.size());
   parallel_for(
       patches.size(),
-      [&](std::size_t i) { inside[i] = lift_inside(prepared.patches[i], points_of(patches[i])); },
+      [&](std::size_t i) {
+        inside[i] = patches[i].inside.empty() ? lift_inside(prepared.patches[i], points_of(patches[i]))
+                                              : patches[i].inside;
+      },
       [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
   Mesh mesh = prepared.boundary;
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -149,6 +204,7 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
           fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
                       result.log.insertion->inserted, c.options.max_elements));
   }
+  if (c.options.treatment == Treatment::kPaper) lift_bad_quads(prepared, patches, result.log);
   result.mesh = assemble(prepared, patches, &result.log);
   patches.clear();
   result.seconds = watch.seconds();
@@ -159,6 +215,7 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
   result.log.add_seconds("metrics", measuring.work_seconds());
   result.peak_memory = peak_memory();
   warn_of_bad_quads(c.name + " " + word.text, result);
+  count_bad_quads(c.name + " " + word.text, prepared, result);
   return result;
 }
 

@@ -16,6 +16,8 @@ struct RunResult {
   MeshMetrics metrics;
   StageLog log;
   std::vector<std::string> warnings;
+  /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
+  int bad_in_corners = 0, bad_elsewhere = 0;
   double seconds = 0;         ///< meshing: the stages of the word
   long long peak_memory = 0;  ///< bytes, the most that the process has held so far
 };

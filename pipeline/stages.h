@@ -19,6 +19,8 @@ struct PatchMesh {
   PatchForm form = PatchForm::kBoundary;
   TriPatch triangles;  ///< when form is kTriangles
   QuadPatch quads;     ///< when form is kQuads
+  /// Places in space of the points inside, once they are known; else empty.
+  std::vector<Vec3> inside;
 };
 
 struct StageInput {

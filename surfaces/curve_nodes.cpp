@@ -109,21 +109,60 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
   return counts;
 }
 
-std::vector<double> size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size) {
-  // Two-point Gauss on each fine line, which is short against the size wherever the model is curved, cut into
-  // pieces where it is not.
-  constexpr int kPieces = 8;
+namespace {
+
+/// A piece of a fine line over which the integral is taken at once is at most this part of the size there,
+/// but for the most pieces a line may have.
+constexpr double kPiece = 0.25;
+constexpr int kMostPieces = 4096;
+
+}  // namespace
+
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size) {
   constexpr double kGauss = 0.21132486540518713;  // (1 - 1/sqrt 3) / 2
-  std::vector<double> integral = {0};
+  SizeIntegral table;
+  table.entries.push_back({0, 0});
   for (size_t i = 0; i + 1 < chain.points.size(); ++i) {
     const Vec3 a = fine.points[chain.points[i]], d = fine.points[chain.points[i + 1]] - a;
-    double sum = 0;
-    for (int k = 0; k < kPieces; ++k) {
-      for (const double g : {kGauss, 1 - kGauss}) sum += 1 / size(a + ((k + g) / kPieces) * d);
+    const double length = norm(d), shortest = 1.0 / kMostPieces;
+    for (double t = 0; t < 1;) {
+      // The size at the piece's middle may be far smaller than at its beginning: halved until it fits.
+      double step = std::clamp(kPiece * size(a + t * d) / length, shortest, 1.0);
+      while (step > shortest && step * length > 2 * kPiece * size(a + std::min(t + step, 1.0) * d)) step /= 2;
+      if (t + 1.5 * step > 1) step = 1 - t;
+      double sum = 0;
+      for (const double g : {kGauss, 1 - kGauss}) sum += 1 / size(a + (t + g * step) * d);
+      t = t + step < 1 ? t + step : 1;
+      table.entries.push_back({static_cast<double>(i) + t, table.total() + step * length * sum / 2});
     }
-    integral.push_back(integral.back() + norm(d) * sum / (2 * kPieces));
   }
-  return integral;
+  return table;
+}
+
+double SizeIntegral::s_at(double part) const {
+  const double target = part * total();
+  const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, target,
+                                      [](double x, const Entry& e) { return x < e.integral; });
+  const Entry& before = *(after - 1);
+  const double t = std::clamp((target - before.integral) / (after->integral - before.integral), 0.0, 1.0);
+  return before.s + t * (after->s - before.s);
+}
+
+double SizeIntegral::part_at(double s) const {
+  const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, s,
+                                      [](double x, const Entry& e) { return x < e.s; });
+  const Entry& before = *(after - 1);
+  const double t = std::clamp((s - before.s) / (after->s - before.s), 0.0, 1.0);
+  return (before.integral + t * (after->integral - before.integral)) / total();
+}
+
+CurvePlaces equal_places(const std::vector<int>& counts) {
+  CurvePlaces places;
+  for (const int n : counts) {
+    places.emplace_back();
+    for (int k = 0; k <= n; ++k) places.back().push_back(k);
+  }
+  return places;
 }
 
 namespace {
@@ -136,8 +175,8 @@ Vec3 projected(const SurfaceModel& model, int curve, int cut_face, const Vec3& x
 }  // namespace
 
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
-                         const std::vector<int>& cut_face, const std::vector<std::vector<double>>& integrals,
-                         const std::vector<int>& counts) {
+                         const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
+                         const CurvePlaces& places) {
   const Mesh& fine = model.fine;
   SurfaceNodes nodes;
   std::unordered_map<int, int> node_of_point;  // only looked up, never iterated
@@ -148,18 +187,15 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
   };
   for (size_t c = 0; c < chains.size(); ++c) {
     const auto& points = chains[c].points;
-    const auto& integral = integrals[c];
     auto& on_curve = nodes.on_curve.emplace_back();
     on_curve.push_back({0, end_node(points.front())});
-    size_t line = 0;
-    for (int k = 1; k < counts[c]; ++k) {
-      const double target = integral.back() * k / counts[c];
-      while (line + 2 < integral.size() && integral[line + 1] < target) ++line;
-      const double t =
-          std::clamp((target - integral[line]) / (integral[line + 1] - integral[line]), 0.0, 1.0);
+    const size_t n = places[c].size() - 1;
+    for (size_t k = 1; k < n; ++k) {
+      const double s = integrals[c].s_at(places[c][k] / static_cast<double>(n));
+      const size_t line = std::min(static_cast<size_t>(s), points.size() - 2);
       const Vec3 a = fine.points[points[line]], b = fine.points[points[line + 1]];
-      const Vec3 x = a + t * (b - a);
-      on_curve.push_back({line + t, static_cast<int>(nodes.points.size())});
+      const Vec3 x = a + (s - static_cast<double>(line)) * (b - a);
+      on_curve.push_back({s, static_cast<int>(nodes.points.size())});
       nodes.points.push_back(projected(model, chains[c].curve, cut_face[chains[c].curve], x));
     }
     on_curve.push_back({static_cast<double>(points.size() - 1), end_node(points.back())});

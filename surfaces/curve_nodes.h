@@ -46,13 +46,31 @@ struct SurfaceNodes {
   std::vector<std::vector<CurveNode>> on_curve;  ///< of each curve, ascending in s, both ends included
 };
 
-/// Integral of ds/delta from the curve's beginning to each of its fine points.
-std::vector<double> size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size);
+/// Integral of ds/delta along a curve, tabulated from its beginning to its end.
+struct SizeIntegral {
+  struct Entry {
+    double s;         ///< as in CurveNode
+    double integral;  ///< from the beginning to s
+  };
+  std::vector<Entry> entries;
+  double total() const { return entries.back().integral; }
+  /// Where the integral reaches this part of the total, and the other way round.
+  double s_at(double part) const;
+  double part_at(double s) const;
+};
 
-/// Places nodes at equal integrals and projects them to the curves, or to the faces that cuts run through
+/// Two-point Gauss on pieces of the fine lines that are short against the size.
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size);
+
+/// Places along each curve, ascending, both ends included, in edges from its beginning: the k-th is k where
+/// all edges are of equal integral.
+using CurvePlaces = std::vector<std::vector<double>>;
+CurvePlaces equal_places(const std::vector<int>& counts);
+
+/// Places nodes and projects them to the curves, or to the faces that cuts run through
 /// (`cut_face`: of each curve, -1 where it is no cut); ends of curves that meet share their node.
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
-                         const std::vector<int>& cut_face, const std::vector<std::vector<double>>& integrals,
-                         const std::vector<int>& counts);
+                         const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
+                         const CurvePlaces& places);
 
 }  // namespace delquad

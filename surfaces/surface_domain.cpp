@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <unordered_map>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
+#include "mesh/predicates.h"
 #include "surfaces/curve_nodes.h"
+#include "surfaces/face_nodes.h"
+#include "surfaces/narrow_places.h"
+#include "surfaces/narrow_seeds.h"
+#include "surfaces/patch_outline.h"
 
 namespace delquad {
 
@@ -17,193 +23,224 @@ namespace {
 
 /// A boundary loop of quads needs four edges to enclose an area.
 constexpr int kFewestLoopEdges = 4;
-/// A curve is refined at most to this multiple of what the size asks for, to keep boundary polygons from
-/// crossing.
-constexpr int kRefinements = 6;
+/// So many times curves are refined to keep boundary polygons from crossing.
+constexpr int kRefinements = 8;
+/// Curves shorter than this part of the size are warned of.
+constexpr double kShort = 0.5;
 
-/// Where a side of a patch's map lies on a curve.
-struct CurveSide {
-  int from, to;     ///< vertices of the map
-  int chain, line;  ///< line: the chain's k-th
-  bool forward;     ///< runs with the curve
-};
+class DomainBuilder {
+ public:
+  DomainBuilder(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                const MatchingSolver& solver)
+      : model_(model),
+        fine_(model.fine),
+        size_(size),
+        solver_(solver),
+        maps_(std::move(flattening.patches)),
+        cut_face_(fine_.curves.size(), -1),
+        chains_(curve_chains(model)) {
+    for (const SurfaceCut& cut : flattening.cuts) cut_face_[cut.curve] = cut.face;
+    const LineIndex lines(chains_);
+    for (const FlatPatch& map : maps_) outlines_.push_back(lines.outline(map, chains_, face_name(map)));
+    corners_ = face_corners(fine_, chains_, maps_, outlines_);
+    across_.emplace(fine_, chains_, maps_, outlines_);
+  }
 
-struct LineOfSide {
-  int chain, line;
-  int first;  ///< fine point at which the line begins
-};
+  SurfaceDomain build() {
+    measure_curves();
+    share_integrals();
+    set_minima();
+    warn_of_short_curves();
+    std::vector<int> odd;
+    for (int attempt = 0; place(odd) > 0; ++attempt) {
+      if (attempt == kRefinements)
+        throw InputError(
+            fmt::format("{}: its boundary crosses itself in the parameter plane however fine its curves are",
+                        face_name(maps_[crossing_])));
+    }
+    for (const int p : odd)
+      warnings_.push_back(face_name(maps_[p]) + " has an odd boundary that no curve can make even");
+    return collect();
+  }
 
-/// Whether the side is the first that a loop meets of its curve.
-bool begins(const CurveSide& s, const std::vector<CurveChain>& chains) {
-  return s.forward ? s.line == 0 : s.line + 2 == static_cast<int>(chains[s.chain].points.size());
-}
+ private:
+  std::string face_name(const FlatPatch& map) const {
+    return fmt::format("face {}", fine_.regions[map.face].tag);
+  }
 
-using LineIndex = std::unordered_map<long long, LineOfSide>;  // only looked up, never iterated
+  void measure_curves() {
+    int hint = -1;
+    const SizeFunction delta = [&](const Vec3& x) { return size_.at(x, hint); };
+    for (const CurveChain& chain : chains_) {
+      integrals_.push_back(size_integral(fine_, chain, delta));
+      demands_.push_back({integrals_.back().total(), chain.closed() ? 3 : 1, {}});
+    }
+    for (size_t p = 0; p < maps_.size(); ++p)
+      for (const auto& loop : outlines_[p])
+        for (const CurveSide& side : loop)
+          if (side.begins(chains_[side.chain])) demands_[side.chain].patches.push_back(static_cast<int>(p));
+  }
 
-long long side_key(int a, int b) { return (static_cast<long long>(std::min(a, b)) << 32) | std::max(a, b); }
+  /// The curves of a strip want the mean of what each wants alone.
+  void share_integrals() {
+    group_ = group_facing_curves(fine_, chains_, *across_, size_);
+    std::vector<double> sum(chains_.size(), 0), members(chains_.size(), 0);
+    for (size_t c = 0; c < chains_.size(); ++c)
+      sum[group_[c]] += std::log(demands_[c].integral), ++members[group_[c]];
+    for (size_t c = 0; c < chains_.size(); ++c)
+      demands_[c].integral = std::exp(sum[group_[c]] / members[group_[c]]);
+  }
 
-LineIndex index_lines(const std::vector<CurveChain>& chains) {
-  LineIndex index;
-  for (size_t c = 0; c < chains.size(); ++c) {
-    const auto& points = chains[c].points;
-    for (size_t k = 0; k + 1 < points.size(); ++k) {
-      index[side_key(points[k], points[k + 1])] = {static_cast<int>(c), static_cast<int>(k), points[k]};
+  void warn_of_short_curves() {
+    for (size_t c = 0; c < chains_.size(); ++c)
+      if (const double length = integrals_[c].total(); length < kShort)
+        warnings_.push_back(fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
+                                        fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum));
+  }
+
+  void set_minima() {
+    // The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
+    std::vector<std::map<int, int>> sharp_ends(chains_.size());  // of each curve, by patch
+    for (const FaceCorner& corner : corners_)
+      if (corner.angle < kSharpAngle)
+        ++sharp_ends[corner.before][corner.patch], ++sharp_ends[corner.after][corner.patch];
+    for (size_t c = 0; c < chains_.size(); ++c)
+      for (const auto& [patch, ends] : sharp_ends[c])
+        demands_[c].minimum = std::max(demands_[c].minimum, 1 + ends);
+    // Of curves between the same two ends, one at most may be a single edge.
+    std::map<std::pair<int, int>, size_t> single;
+    for (size_t c = 0; c < chains_.size(); ++c) {
+      if (chains_[c].closed()) {
+        if (demands_[c].patches.size() == 2)
+          demands_[c].minimum = std::max(demands_[c].minimum, kFewestLoopEdges);
+        continue;
+      }
+      const auto ends = std::minmax(chains_[c].points.front(), chains_[c].points.back());
+      const auto [it, first] = single.try_emplace(ends, c);
+      if (first) continue;
+      size_t longer = c;
+      if (integrals_[it->second].total() > integrals_[c].total()) std::swap(longer, it->second);
+      demands_[longer].minimum = std::max(demands_[longer].minimum, 2);
     }
   }
-  return index;
-}
 
-/// The boundary of a map as loops of sides, each beginning where a curve does.
-std::vector<std::vector<CurveSide>> trace_loops(const FlatPatch& map, const LineIndex& lines,
-                                                const std::vector<CurveChain>& chains,
-                                                const std::string& face) {
-  std::vector<std::vector<CurveSide>> loops;
-  for (const auto& points : map.loops) {
-    auto& loop = loops.emplace_back();
-    for (size_t i = 0; i < points.size(); ++i) {
-      const int from = points[i], to = points[i + 1 < points.size() ? i + 1 : 0];
-      const auto it = lines.find(side_key(map.fine_node[from], map.fine_node[to]));
-      if (it == lines.end()) throw std::logic_error(face + ": a side of its map's boundary lies on no curve");
-      loop.push_back({from, to, it->second.chain, it->second.line, map.fine_node[from] == it->second.first});
+  /// Counts edges, places nodes and boundaries. Demands more edges of the curves that cross; returns of how
+  /// many.
+  int place(std::vector<int>& odd) {
+    const auto counts = even_counts(demands_, static_cast<int>(maps_.size()), solver_, odd);
+    nodes_ = place_nodes(model_, chains_, cut_face_, integrals_,
+                         face_nodes(fine_, chains_, *across_, integrals_, counts, group_, size_));
+    boundaries_.clear();
+    std::vector<int> refine;
+    for (size_t p = 0; p < maps_.size(); ++p) {
+      std::vector<int> chain_of_edge;
+      boundaries_.push_back(place_boundary(maps_[p], outlines_[p], chains_, nodes_, &chain_of_edge));
+      const std::vector<int> bad = curves_at_fault(boundaries_.back(), chain_of_edge, outlines_[p]);
+      if (!bad.empty()) crossing_ = p;
+      refine.insert(refine.end(), bad.begin(), bad.end());
     }
-    std::rotate(loop.begin(),
-                std::find_if(loop.begin(), loop.end(), [&](const CurveSide& s) { return begins(s, chains); }),
-                loop.end());
+    std::sort(refine.begin(), refine.end());
+    refine.erase(std::unique(refine.begin(), refine.end()), refine.end());
+    for (const int c : refine) demands_[c].minimum = 2 * counts[c];
+    return static_cast<int>(refine.size());
   }
-  return loops;
-}
 
-PatchBoundary place_boundary(const FlatPatch& map, const std::vector<std::vector<CurveSide>>& loops,
-                             const std::vector<CurveChain>& chains, const SurfaceNodes& nodes) {
-  PatchBoundary boundary;
-  for (const auto& loop : loops) {
-    const int first = static_cast<int>(boundary.points.size());
-    for (const CurveSide& side : loop) {
-      const auto& on_curve = nodes.on_curve[side.chain];
-      const Vec2 a = map.flat.points[side.from], b = map.flat.points[side.to];
-      const auto add = [&](const CurveNode& n, double t) {
-        boundary.points.push_back(t == 0 ? a : a + t * (b - a));
-        boundary.point_node.push_back(n.node);
-        boundary.edge_curve.push_back(chains[side.chain].curve);
-      };
-      // A node at either end of the side belongs to the side that begins there.
-      const auto before = [](const CurveNode& n, double s) { return n.s < s; };
-      const auto after = [](double s, const CurveNode& n) { return s < n.s; };
-      if (side.forward) {
-        for (auto n = std::lower_bound(on_curve.begin(), on_curve.end(), double(side.line), before);
-             n != on_curve.end() && n->s < side.line + 1; ++n) {
-          add(*n, n->s - side.line);
-        }
-      } else {
-        for (auto n = std::upper_bound(on_curve.begin(), on_curve.end(), double(side.line + 1), after);
-             n != on_curve.begin() && (n - 1)->s > side.line; --n) {
-          add(*(n - 1), side.line + 1 - (n - 1)->s);
-        }
+  /// The curves that keep the boundary from enclosing quads; empty if none do.
+  static std::vector<int> curves_at_fault(const PatchBoundary& boundary,
+                                          const std::vector<int>& chain_of_edge,
+                                          const PatchOutline& outline) {
+    std::vector<int> curves;
+    size_t first = 0;
+    for (const auto& loop : outline) {
+      size_t end = first + 1;
+      while (boundary.edges[end - 1][1] != static_cast<int>(first)) ++end;
+      if (end - first < kFewestLoopEdges)
+        for (const CurveSide& s : loop) curves.push_back(s.chain);
+      first = end;
+    }
+    if (!curves.empty() || meshable(boundary)) return curves;
+    for (const auto& [i, j] : crossing_edges(boundary)) {
+      curves.push_back(chain_of_edge[i]);
+      curves.push_back(chain_of_edge[j]);
+    }
+    if (curves.empty()) curves = chain_of_edge;  // coincident points, or turned inside out
+    return curves;
+  }
+
+  static bool meshable(const PatchBoundary& boundary) {
+    try {
+      constrained_delaunay(boundary);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Pairs of edges that share a point other than a common end.
+  static std::vector<std::pair<size_t, size_t>> crossing_edges(const PatchBoundary& boundary) {
+    std::vector<std::pair<size_t, size_t>> pairs;
+    const auto& p = boundary.points;
+    for (size_t i = 0; i < boundary.edges.size(); ++i) {
+      const auto [a, b] = boundary.edges[i];
+      for (size_t j = 0; j < i; ++j) {
+        const auto [c, d] = boundary.edges[j];
+        if (a == c || a == d || b == c || b == d) continue;
+        if (std::max(p[a].x, p[b].x) < std::min(p[c].x, p[d].x) ||
+            std::max(p[c].x, p[d].x) < std::min(p[a].x, p[b].x))
+          continue;
+        if (orient2d(p[a], p[b], p[c]) * orient2d(p[a], p[b], p[d]) <= 0 &&
+            orient2d(p[c], p[d], p[a]) * orient2d(p[c], p[d], p[b]) <= 0)
+          pairs.emplace_back(i, j);
       }
     }
-    const int n = static_cast<int>(boundary.points.size()) - first;
-    for (int i = 0; i < n; ++i) boundary.edges.push_back({first + i, first + (i + 1) % n});
+    return pairs;
   }
-  return boundary;
-}
 
-bool meshable(const PatchBoundary& boundary) {
-  try {
-    constrained_delaunay(boundary);
-    return true;
-  } catch (const InputError&) {
-    return false;
+  SurfaceDomain collect() {
+    for (size_t p = 0; p < maps_.size(); ++p) seed_narrow_places(boundaries_[p]);
+    SurfaceDomain domain;
+    domain.sharp_corners = find_sharp_corners(corners_, chains_, maps_, nodes_, kBadEta);
+    domain.warnings = std::move(warnings_);
+    domain.boundary.points = nodes_.points;
+    domain.boundary.curves = fine_.curves;
+    domain.boundary.regions = fine_.regions;
+    for (size_t c = 0; c < chains_.size(); ++c) {
+      for (size_t i = 0; i + 1 < nodes_.on_curve[c].size(); ++i) {
+        domain.boundary.lines.push_back({nodes_.on_curve[c][i].node, nodes_.on_curve[c][i + 1].node});
+        domain.boundary.line_curve.push_back(chains_[c].curve);
+      }
+    }
+    for (size_t p = 0; p < maps_.size(); ++p) {
+      auto background = std::make_shared<BackgroundMesh>(maps_[p].flat);
+      domain.patches.push_back({std::move(maps_[p]), std::move(boundaries_[p]), std::move(background)});
+    }
+    return domain;
   }
-}
+
+  const SurfaceModel& model_;
+  const Mesh& fine_;
+  const SizeField& size_;
+  const MatchingSolver& solver_;
+  std::vector<FlatPatch> maps_;
+  std::vector<int> cut_face_;
+  std::vector<CurveChain> chains_;
+  std::vector<PatchOutline> outlines_;  ///< of each map
+  std::vector<FaceCorner> corners_;
+  std::optional<AcrossView> across_;
+  std::vector<int> group_;  ///< of each curve, those that face each other along strips
+  std::vector<SizeIntegral> integrals_;
+  std::vector<CurveDemand> demands_;
+  SurfaceNodes nodes_;
+  std::vector<PatchBoundary> boundaries_;
+  size_t crossing_ = 0;  ///< the last map whose boundary crossed itself
+  std::vector<std::string> warnings_;
+};
 
 }  // namespace
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
                                   const MatchingSolver& solver) {
-  const Mesh& fine = model.fine;
-  auto& maps = flattening.patches;
-  std::vector<int> cut_face(fine.curves.size(), -1);
-  for (const SurfaceCut& cut : flattening.cuts) cut_face[cut.curve] = cut.face;
-  const auto chains = curve_chains(model);
-  const LineIndex lines = index_lines(chains);
-  int hint = -1;
-  const SizeFunction delta = [&](const Vec3& x) { return size.at(x, hint); };
-  const auto face_name = [&](const FlatPatch& map) {
-    return fmt::format("face {}", fine.regions[map.face].tag);
-  };
-
-  std::vector<std::vector<double>> integrals;
-  std::vector<CurveDemand> demands;
-  SurfaceDomain domain;
-  for (size_t c = 0; c < chains.size(); ++c) {
-    integrals.push_back(size_integral(fine, chains[c], delta));
-    demands.push_back({integrals.back().back(), chains[c].closed() ? 3 : 1, {}});
-    if (demands.back().integral < 0.5) {
-      domain.warnings.push_back(fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
-                                            fine.curves[chains[c].curve].tag, demands.back().integral,
-                                            demands.back().minimum));
-    }
-  }
-  std::vector<std::vector<std::vector<CurveSide>>> loops;
-  for (size_t p = 0; p < maps.size(); ++p) {
-    loops.push_back(trace_loops(maps[p], lines, chains, face_name(maps[p])));
-    for (const auto& loop : loops.back()) {
-      for (const CurveSide& side : loop) {
-        if (begins(side, chains)) demands[side.chain].patches.push_back(static_cast<int>(p));
-      }
-    }
-  }
-  for (size_t c = 0; c < chains.size(); ++c) {
-    if (chains[c].closed() && demands[c].patches.size() == 2) demands[c].minimum = kFewestLoopEdges;
-  }
-
-  std::vector<PatchBoundary> boundaries(maps.size());
-  SurfaceNodes nodes;
-  std::vector<int> odd, counts;
-  for (int attempt = 0;; ++attempt) {
-    counts = even_counts(demands, static_cast<int>(maps.size()), solver, odd);
-    nodes = place_nodes(model, chains, cut_face, integrals, counts);
-    std::vector<int> refine;
-    for (size_t p = 0; p < maps.size(); ++p) {
-      boundaries[p] = place_boundary(maps[p], loops[p], chains, nodes);
-      bool short_loop = false;
-      for (const auto& loop : loops[p]) {
-        PatchBoundary alone = place_boundary(maps[p], {loop}, chains, nodes);
-        short_loop = short_loop || alone.points.size() < kFewestLoopEdges;
-      }
-      if (!short_loop && meshable(boundaries[p])) continue;
-      if (attempt == kRefinements) {
-        throw InputError(
-            fmt::format("{}: its boundary crosses itself in the parameter plane however fine its curves are",
-                        face_name(maps[p])));
-      }
-      for (const auto& loop : loops[p]) {
-        for (const CurveSide& s : loop) refine.push_back(s.chain);
-      }
-    }
-    if (refine.empty()) break;
-    std::sort(refine.begin(), refine.end());
-    refine.erase(std::unique(refine.begin(), refine.end()), refine.end());
-    for (const int c : refine) demands[c].minimum = 2 * counts[c];
-  }
-  for (const int p : odd) {
-    domain.warnings.push_back(face_name(maps[p]) + " has an odd boundary that no curve can make even");
-  }
-
-  domain.boundary.points = nodes.points;
-  domain.boundary.curves = fine.curves;
-  domain.boundary.regions = fine.regions;
-  for (size_t c = 0; c < chains.size(); ++c) {
-    for (size_t i = 0; i + 1 < nodes.on_curve[c].size(); ++i) {
-      domain.boundary.lines.push_back({nodes.on_curve[c][i].node, nodes.on_curve[c][i + 1].node});
-      domain.boundary.line_curve.push_back(chains[c].curve);
-    }
-  }
-  for (size_t p = 0; p < maps.size(); ++p) {
-    auto background = std::make_shared<BackgroundMesh>(maps[p].flat);
-    domain.patches.push_back({std::move(maps[p]), std::move(boundaries[p]), std::move(background)});
-  }
-  return domain;
+  return DomainBuilder(model, std::move(flattening), size, solver).build();
 }
 
 SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SizeField& size)

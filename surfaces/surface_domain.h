@@ -9,8 +9,12 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 #include "mesh/patch.h"
+#include "surfaces/face_corners.h"
 
 namespace delquad {
+
+/// A quad below this eta is bad.
+inline constexpr double kBadEta = 0.1;
 
 /// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
 struct SurfacePatch {
@@ -22,6 +26,7 @@ struct SurfacePatch {
 struct SurfaceDomain {
   Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
   std::vector<SurfacePatch> patches;
+  std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<std::string> warnings;
 };
 

@@ -259,7 +259,8 @@ class FrontalMesher {
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
   const auto start = std::chrono::steady_clock::now();
-  TriPatch patch = fill_frontal(constrained_delaunay(boundary), placement, cross, size, options, summary);
+  TriPatch patch =
+      fill_frontal(constrained_delaunay(boundary, boundary.seeds), placement, cross, size, options, summary);
   if (summary)
     summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return patch;

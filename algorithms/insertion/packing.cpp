@@ -25,7 +25,10 @@ class Packer {
  public:
   Packer(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
          const FrontalOptions& options)
-      : cross_(cross), size_(size), options_(options), kernel_(constrained_delaunay(boundary)) {
+      : cross_(cross),
+        size_(size),
+        options_(options),
+        kernel_(constrained_delaunay(boundary, boundary.seeds)) {
     VertexFields last;
     for (const Vec2 u : kernel_.points()) vertices_.push_back(last = sample(u, last));
     triangle_.resize(vertices_.size(), -1);

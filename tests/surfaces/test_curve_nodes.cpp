@@ -80,10 +80,10 @@ TEST(PlaceNodes, AtEqualIntegrals) {
   model.fine.line_curve = {0, 0};
   model.fine.curves.push_back({1, {}});
   const auto chains = curve_chains(model);
-  const std::vector<std::vector<double>> integrals = {
+  const std::vector<SizeIntegral> integrals = {
       size_integral(model.fine, chains[0], [](const Vec3&) { return 0.5; })};
-  EXPECT_NEAR(integrals[0].back(), 8, 1e-12);
-  const SurfaceNodes nodes = place_nodes(model, chains, {-1}, integrals, {4});
+  EXPECT_NEAR(integrals[0].total(), 8, 1e-12);
+  const SurfaceNodes nodes = place_nodes(model, chains, {-1}, integrals, equal_places({4}));
   ASSERT_EQ(nodes.points.size(), 5u);
   for (int k = 0; k <= 4; ++k) EXPECT_NEAR(nodes.points[nodes.on_curve[0][k].node].x, k, 1e-12);
 }

@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/recombination/treatment.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "metrics/metrics.h"
+#include "smoothing/space_lift.h"
+#include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {
@@ -18,6 +24,7 @@ namespace surfaces = testing_support;
 struct Meshed {
   Mesh mesh;
   std::vector<std::string> warnings;
+  std::vector<SharpCorner> sharp_corners;
 };
 
 Meshed mesh_surface(SurfaceModel model, double h) {
@@ -32,7 +39,11 @@ Meshed mesh_surface(SurfaceModel model, double h) {
     const HarmonicCrossField cross(patch.background);
     const SurfacePatchSize delta(patch, model.fine, *size);
     const TriPatch tri = mesh_frontal(patch.boundary, *make_linf_delquad(), cross, delta);
-    const QuadPatch quads = treat_paper(recombine(tri, *make_lemon_solver()), delta);
+    QuadPatch quads = treat_paper(recombine(tri, *make_lemon_solver()), delta);
+    std::vector<Vec3> places;
+    for (const int i : patch.boundary.point_node) places.push_back(mesh.points[i]);
+    lift_worst_in_space(
+        quads, places, [&](Vec2 u, int& near) { return lift(patch, model, u, near); }, 0.3, 20);
     EXPECT_TRUE(quads.triangles.empty());
     std::vector<int> node = patch.boundary.point_node;
     int hint = -1;
@@ -46,7 +57,7 @@ Meshed mesh_surface(SurfaceModel model, double h) {
       mesh.quad_region.push_back(patch.map.face);
     }
   }
-  return {std::move(mesh), domain.warnings};
+  return {std::move(mesh), domain.warnings, domain.sharp_corners};
 }
 
 /// Euler characteristic, and how many edges have one quad only.
@@ -86,6 +97,58 @@ TEST(SurfaceDomain, SizesLargerThanTheModelStillGiveAMesh) {
   const Meshed meshed = mesh_surface(surfaces::cylinder(40, 10, 1, 2), 50);
   EXPECT_TRUE(check_invariants(meshed.mesh).empty());
   EXPECT_FALSE(meshed.warnings.empty());
+}
+
+// A corner of 3.8 degrees: its one quad comes near to what the angle allows, all others are good.
+TEST(SurfaceDomain, ASharpCornerCostsItsOwnQuadOnly) {
+  const Meshed meshed = mesh_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
+  ASSERT_EQ(meshed.sharp_corners.size(), 1u);
+  const SharpCorner& corner = meshed.sharp_corners[0];
+  EXPECT_NEAR(corner.angle, 2 * std::atan2(0.2, 6), 1e-9);
+  EXPECT_NEAR(corner.eta_bound, corner.angle / (std::numbers::pi / 2), 1e-9);
+  const auto etas = quad_etas(meshed.mesh);
+  for (size_t q = 0; q < etas.size(); ++q) {
+    const auto& v = meshed.mesh.quads[q];
+    const bool in_corner = std::find(v.begin(), v.end(), corner.node) != v.end();
+    EXPECT_GT(etas[q], in_corner ? 0.9 * corner.eta_bound : 0.2);
+  }
+}
+
+/// Between two parabolas over [-1, 1], which meet in two corners.
+SurfaceModel lens(double half_width) {
+  constexpr int kLines = 20;
+  std::vector<Vec2> outline;
+  for (int i = 0; i < kLines; ++i) {
+    const double x = 2.0 * i / kLines - 1;
+    outline.push_back({x, -half_width * (1 - x * x)});
+  }
+  for (int i = 0; i < kLines; ++i) {
+    const double x = 1 - 2.0 * i / kLines;
+    outline.push_back({x, half_width * (1 - x * x)});
+  }
+  SurfaceModel model = surfaces::polygon_face(outline, 1);
+  model.corners = {0, kLines};
+  return model;
+}
+
+TEST(SurfaceDomain, ALensSmallerThanTheSizeIsMeshedWell) {
+  for (const double half_width : {0.3, 0.1, 0.05}) {
+    const Meshed meshed = mesh_surface(lens(half_width), 5);
+    EXPECT_TRUE(check_invariants(meshed.mesh).empty());
+    const auto etas = quad_etas(meshed.mesh);
+    EXPECT_GT(*std::min_element(etas.begin(), etas.end()), half_width < 0.1 ? 0.08 : 0.12) << half_width;
+  }
+}
+
+// Nodes of both circles must be as many, and no vertex may be left that only the gap's width keeps apart.
+TEST(SurfaceDomain, ARingNarrowerThanTheSizeIsOneRowOfQuads) {
+  const SurfaceModel ring = surfaces::grid_surface({80, 2, true}, [](double u, double v) {
+    const double phi = 2 * std::numbers::pi * u, r = 1 + 0.1 * v;
+    return Vec3{r * std::cos(phi), -r * std::sin(phi), 0};
+  });
+  const Meshed meshed = mesh_surface(ring, 0.25);
+  const auto etas = quad_etas(meshed.mesh);
+  EXPECT_GT(*std::min_element(etas.begin(), etas.end()), 0.3);
 }
 
 // delta' of a known conformal map: the stretch of the map cancels in the lengths on the surface.

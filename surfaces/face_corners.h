@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "surfaces/patch_outline.h"
+
+namespace delquad {
+
+/// Corners of a smaller angle than this take one quad only, with its fourth vertex inside (radians).
+inline constexpr double kSharpAngle = 40 * 3.14159265358979323846 / 180;
+
+/// A corner of a patch: where one of its curves ends and the next one begins.
+struct FaceCorner {
+  int patch;
+  int before, after;             ///< curves (chains), in the order of the patch's boundary
+  bool before_ends, after_ends;  ///< whether the corner is the chain's last point, not its first
+  double angle;  ///< inside the patch, in space: the sum of its fine triangles' angles; radians
+};
+
+std::vector<FaceCorner> face_corners(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                     const std::vector<FlatPatch>& maps,
+                                     const std::vector<PatchOutline>& outlines);
+
+/// The best worst eta of the quads that share a corner of this angle (radians) evenly.
+double corner_eta_bound(double angle);
+
+/// A corner of a face that forbids its quad a good shape.
+struct SharpCorner {
+  int face;          ///< index into Mesh::regions
+  int node;          ///< of the boundary mesh
+  int curves[2];     ///< indices into Mesh::curves
+  double angle;      ///< radians: of the model, or between the mesh's edges where that is larger
+  double eta_bound;  ///< no quad in the corner has a larger eta
+};
+
+/// Those corners whose bound is below `eta`.
+std::vector<SharpCorner> find_sharp_corners(const std::vector<FaceCorner>& corners,
+                                            const std::vector<CurveChain>& chains,
+                                            const std::vector<FlatPatch>& maps, const SurfaceNodes& nodes,
+                                            double eta);
+
+}  // namespace delquad
