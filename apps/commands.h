@@ -11,7 +11,8 @@
 namespace delquad {
 
 /// Exit codes of the program, besides kInterrupted.
-inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3;
+inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3,
+                     kFacesLeftOut = 4;
 
 struct RunArguments {
   std::filesystem::path experiment, folder;
@@ -32,6 +33,7 @@ struct MeshArguments {
   long long max_elements = 50'000'000;
   int threads = thread_count();
   bool allow_triangles = false;
+  bool keep_going = false;  ///< leave faces out that cannot be meshed
 };
 int mesh_command(const MeshArguments& arguments);
 

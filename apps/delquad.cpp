@@ -75,6 +75,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
       ->capture_default_str()
       ->transform(kCount);
   mesh->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
+  mesh->add_flag("--keep-going", arguments.keep_going,
+                 "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
 }
 

@@ -6,6 +6,7 @@
 #include "apps/check_files.h"
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
+#include "apps/print_surface_report.h"
 #include "io/mesh_io.h"
 #include "mesh/error.h"
 #include "pipeline/case_file.h"
@@ -37,6 +38,7 @@ int mesh_command(const MeshArguments& arguments) {
   const Word word = parse_word(arguments.pipeline);
   Case c = read_model_case(arguments.model);
   c.options.max_elements = arguments.max_elements;
+  c.options.keep_going = arguments.keep_going;
   if (!arguments.size.empty()) c.size = {arguments.size, {}, 0, "--size"};
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
@@ -68,6 +70,10 @@ int mesh_command(const MeshArguments& arguments) {
              result.seconds);
   print_metrics(result.metrics);
   print_seconds(prepared, result.log);
+  if (result.surface) print_surface_report(prepared, *result.surface);
+  for (const FaceFailure& failure : result.failures)
+    fmt::print(stderr, "error: left out: {}\n", failure.reason);
+  if (!result.failures.empty()) return kFacesLeftOut;
   if (word.result != PatchForm::kQuads || result.mesh.triangles.empty() || arguments.allow_triangles)
     return kDone;
   fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",

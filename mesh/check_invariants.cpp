@@ -1,3 +1,5 @@
+#include "mesh/check_invariants.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,21 +63,33 @@ void check_no_twins(std::vector<std::array<int, N>> elements, const char* kind, 
   }
 }
 
-void check_edges(const Mesh& mesh, Report& wrong) {
-  std::vector<std::array<int, 2>> lines = mesh.lines;
-  for (auto& v : lines) std::sort(v.begin(), v.end());
-  std::sort(lines.begin(), lines.end());
+void check_edges(const Mesh& mesh, const std::vector<char>& branching, Report& wrong) {
+  struct Line {
+    std::array<int, 2> ends;
+    bool branches;
+  };
+  std::vector<Line> lines;
+  for (size_t i = 0; i < mesh.lines.size(); ++i) {
+    const auto [a, b] = mesh.lines[i];
+    const auto curve =
+        i < mesh.line_curve.size() ? static_cast<size_t>(mesh.line_curve[i]) : branching.size();
+    lines.push_back({{std::min(a, b), std::max(a, b)}, curve < branching.size() && branching[curve]});
+  }
+  std::sort(lines.begin(), lines.end(), [](const Line& s, const Line& t) { return s.ends < t.ends; });
   auto line = lines.begin();
-  const auto report_lines_before = [&](const std::array<int, 2>& edge) {
-    for (; line != lines.end() && *line < edge; ++line) {
-      wrong.push_back(fmt::format("line {}, {}: not an edge of any element", (*line)[0], (*line)[1]));
+  // Goes on to the lines behind the edge; true when one on it may branch.
+  const auto pass = [&](const std::array<int, 2>& edge) {
+    for (; line != lines.end() && line->ends < edge; ++line) {
+      wrong.push_back(fmt::format("line {}, {}: not an edge of any element", line->ends[0], line->ends[1]));
     }
-    while (line != lines.end() && *line == edge) ++line;
+    bool branches = false;
+    for (; line != lines.end() && line->ends == edge; ++line) branches = branches || line->branches;
+    return branches;
   };
 
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
     const HalfEdge& e = sides[0];
-    report_lines_before({e.lo, e.hi});
+    if (pass({e.lo, e.hi})) return;
     if (sides.size() > 2)
       wrong.push_back(fmt::format("edge {}, {}: in {} elements", e.lo, e.hi, sides.size()));
     if (sides.size() == 2 && sides[0].forward == sides[1].forward) {
@@ -84,7 +98,7 @@ void check_edges(const Mesh& mesh, Report& wrong) {
     }
   });
   const int past_the_end = static_cast<int>(mesh.points.size());
-  report_lines_before({past_the_end, past_the_end});
+  pass({past_the_end, past_the_end});
 }
 
 void check_all_used(const Mesh& mesh, Report& wrong) {
@@ -100,7 +114,9 @@ void check_all_used(const Mesh& mesh, Report& wrong) {
 
 }  // namespace
 
-std::vector<std::string> check_invariants(const Mesh& mesh) {
+std::vector<std::string> check_invariants(const Mesh& mesh) { return check_invariants(mesh, {}); }
+
+std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching) {
   Report wrong;
   check_entities(mesh.curves, "curve", wrong);
   check_entities(mesh.regions, "region", wrong);
@@ -113,7 +129,7 @@ std::vector<std::string> check_invariants(const Mesh& mesh) {
   check_no_twins(mesh.triangles, "triangle", wrong);
   check_no_twins(mesh.quads, "quad", wrong);
   if (!lines || !triangles || !quads) return wrong;  // what follows reads by these indices
-  if (!mesh.triangles.empty() || !mesh.quads.empty()) check_edges(mesh, wrong);
+  if (!mesh.triangles.empty() || !mesh.quads.empty()) check_edges(mesh, branching, wrong);
   check_all_used(mesh, wrong);
   return wrong;
 }

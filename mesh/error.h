@@ -12,4 +12,15 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A face of a surface that cannot be meshed, where others perhaps can.
+class FaceError : public InputError {
+ public:
+  /// `face`: index of the region; the message names it by its tag.
+  FaceError(int face, const std::string& message) : InputError(message), face_(face) {}
+  int face() const { return face_; }
+
+ private:
+  int face_;
+};
+
 }  // namespace delquad

@@ -15,6 +15,7 @@ struct MeshingOptions {
   Treatment treatment = Treatment::kPaper;  ///< after matching
   TreatmentOptions treatment_options;
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
+  bool keep_going = false;  ///< leave faces out that cannot be meshed, instead of refusing the model
 
   /// Those of insertion. max_elements bounds what is inserted, too: a quad mesh has about as many points as
   /// quads.

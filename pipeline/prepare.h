@@ -23,6 +23,22 @@ struct PreparedPatch {
   std::function<Vec3(Vec2, int& hint)> lift;
 };
 
+/// What the patches of a surface were made from.
+struct PreparedSurface {
+  SurfaceModel model;
+  SurfaceDomain domain;
+  std::vector<SurfaceCut> cuts;
+};
+
+/// The maps of all patches.
+std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
+
+/// A face that was left out because it cannot be meshed.
+struct FaceFailure {
+  int face;            ///< index into PreparedCase::boundary.regions
+  std::string reason;  ///< names the face
+};
+
 /// What every pipeline on a case starts from.
 struct PreparedCase {
   Mesh boundary;  ///< nodes on curves, lines, curves and regions; no elements
@@ -37,7 +53,9 @@ struct PreparedCase {
   /// of it.
   std::optional<std::pair<double, double>> dislocations;
   std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
-  double expected_quads = 0;               ///< integral of dA/delta^2
+  std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
+  std::vector<FaceFailure> failures;               ///< by face; empty unless options.keep_going
+  double expected_quads = 0;                       ///< integral of dA/delta^2
   std::vector<std::string> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.
   std::vector<std::pair<std::string, double>> seconds;

@@ -34,11 +34,49 @@ double expected_quads(const Mesh& fine, const SizeField& size) {
   return sum;
 }
 
-/// The model and its domain, kept as long as a patch needs them.
-struct Surface {
-  SurfaceModel model;
-  SurfaceDomain domain;
+/// Faces that cannot be meshed: the end, or left out where the case says so.
+class Failures {
+ public:
+  explicit Failures(const Case& c) : where_(c.where), keep_going_(c.options.keep_going) {}
+
+  void add(int face, const std::string& reason) {
+    if (!keep_going_) throw InputError(where_ + ": " + reason);
+    failures_.push_back({face, reason});
+  }
+  bool are_left_out() const { return keep_going_; }
+  std::vector<FaceFailure> take() {
+    std::ranges::stable_sort(failures_, {}, &FaceFailure::face);
+    return std::move(failures_);
+  }
+
+ private:
+  std::string where_;
+  bool keep_going_;
+  std::vector<FaceFailure> failures_;
 };
+
+void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Failures& failures) {
+  if (flattening.failed.empty()) return;
+  std::string tags;
+  for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
+  for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
+}
+
+/// Meshes the curves; faces for which that is impossible go.
+SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                             Failures& failures) {
+  const auto solver = make_lemon_solver();
+  while (!flattening.patches.empty()) {
+    try {
+      return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
+                                 *solver);
+    } catch (const FaceError& error) {
+      failures.add(error.face(), error.what());
+      std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
+    }
+  }
+  throw InputError(model.source + ": no face can be meshed");
+}
 
 }  // namespace
 
@@ -63,6 +101,12 @@ SurfaceModel read_surface(const Case& c) {
   });
 }
 
+std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
+  std::vector<const FlatPatch*> maps;
+  for (const SurfacePatch& patch : surface.domain.patches) maps.push_back(&patch.map);
+  return maps;
+}
+
 PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<const SizeField> size,
                              const std::function<void(double quads)>& check_count) {
   const bool size_aware = c.cross.text == "size-aware";
@@ -76,17 +120,17 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   check_count(p.expected_quads);
   improve_triangulation(model);
   Flattening flattening = flatten(model);
-  if (!flattening.failed.empty()) {
-    std::string tags;
-    for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
-    throw InputError(c.where + ": these faces could not be flattened:" + tags);
-  }
+  Failures failures(c);
+  add_unflattened(flattening, model, failures);
   p.seconds.emplace_back("maps", maps.work_seconds());
 
   const Stopwatch curves;
-  auto surface = std::make_shared<Surface>();
-  surface->domain = make_surface_domain(model, std::move(flattening), *p.size, *make_lemon_solver());
+  auto surface = std::make_shared<PreparedSurface>();
+  surface->cuts = flattening.cuts;
+  surface->domain = mesh_curves_of(model, std::move(flattening), *p.size, failures);
   surface->model = std::move(model);
+  p.failures = failures.take();
+  p.surface = surface;
   p.warnings = surface->model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
   p.boundary = surface->domain.boundary;

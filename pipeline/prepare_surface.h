@@ -19,7 +19,7 @@ SurfaceModel read_surface(const Case& c);
 
 /// Faces flattened, curves meshed once each, all patches even; cross field and size on each patch. Refuses
 /// sizes that would need more than options.max_elements through `check_count`. Throws InputError naming faces
-/// that cannot be flattened.
+/// that cannot be meshed, unless options.keep_going leaves them out and others remain.
 PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<const SizeField> size,
                              const std::function<void(double quads)>& check_count);
 

@@ -165,6 +165,64 @@ Json treatment_json(const TreatmentSummary& s) {
           {"seconds", s.seconds}};
 }
 
+Json topology_json(const Topology& t) {
+  return {{"euler_characteristic", t.euler_characteristic},
+          {"watertight", t.watertight()},
+          {"free_edges", t.free_edges},
+          {"branching_edges", t.branching_edges},
+          {"disagreeing_edges", t.disagreeing_edges}};
+}
+
+Json distances_json(const Distances& d) { return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}}; }
+
+Json maps_json(const PreparedCase& p) {
+  const MapReport maps = report_maps(maps_of(*p.surface));
+  Json json = {{"patches", maps.patches},
+               {"sigma_mean", maps.sigma_mean},
+               {"sigma_95", maps.sigma_95},
+               {"sigma_max", maps.sigma_max},
+               {"area_ratio", maps.area_ratio},
+               {"worst_face", maps.worst_face < 0 ? Json() : Json(p.boundary.regions[maps.worst_face].tag)},
+               {"by_patch", Json::array()}};
+  for (const SurfacePatch& patch : p.surface->domain.patches) {
+    const FlatQuality& q = patch.map.quality;
+    json["by_patch"].push_back({{"face", p.boundary.regions[patch.map.face].tag},
+                                {"method", patch.map.method},
+                                {"sigma_mean", q.sigma_mean},
+                                {"sigma_95", q.sigma_95},
+                                {"sigma_max", q.sigma_max},
+                                {"area_ratio", q.area_ratio}});
+  }
+  return json;
+}
+
+Json surface_json(const PreparedCase& p, const SurfaceReport& report) {
+  Json cuts = Json::array();
+  for (const SurfaceCut& cut : p.surface->cuts)
+    cuts.push_back({{"curve", p.boundary.curves[cut.curve].tag},
+                    {"face", p.boundary.regions[cut.face].tag},
+                    {"length", cut.length},
+                    {"divides", cut.divides}});
+  return {{"maps", maps_json(p)},
+          {"cuts", cuts},
+          {"topology", topology_json(report.mesh)},
+          {"model_topology", topology_json(report.model)},
+          {"nonconforming_edges", report.nonconforming_edges},
+          {"distances_in_diagonals",
+           {{"mesh_to_surface", distances_json(report.mesh_to_surface)},
+            {"surface_to_mesh", distances_json(report.surface_to_mesh)},
+            {"nodes_in_faces", distances_json(report.nodes_in_faces)},
+            {"nodes_on_curves", distances_json(report.nodes_on_curves)},
+            {"nodes_at_corners", distances_json(report.nodes_at_corners)}}}};
+}
+
+Json failures_json(const PreparedCase& p, const RunResult& result) {
+  Json json = Json::array();
+  for (const FaceFailure& failure : result.failures)
+    json.push_back({{"face", p.boundary.regions[failure.face].tag}, {"reason", failure.reason}});
+  return json;
+}
+
 void add_origin(Json& json) {
   utsname machine = {};
   uname(&machine);
@@ -203,6 +261,8 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   json["cross_field"] = cross_json(prepared);
   json["warnings"] = prepared.warnings;
   for (const std::string& warning : result.warnings) json["warnings"].push_back(warning);
+  if (result.surface) json["surface"] = surface_json(prepared, *result.surface);
+  if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
   const StageLog& log = result.log;
   if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);

@@ -5,11 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
+#include "geometry/surface/triangle_sides.h"
+#include "mesh/check_invariants.h"
+#include "mesh/drop_unused_points.h"
 #include "mesh/error.h"
+#include "mesh/half_edges.h"
 #include "mesh/parallel.h"
 #include "pipeline/stopwatch.h"
 #include "smoothing/space_lift.h"
@@ -57,8 +63,64 @@ void add_elements(const std::vector<std::array<int, N>>& elements, const std::ve
   }
 }
 
-void check_sound(const Mesh& mesh) {
-  const std::vector<std::string> violations = check_invariants(mesh);
+/// Takes out lines that are on no element, and points that nothing uses then.
+void drop_stray_lines(Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty()) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  drop_unused_points(mesh);
+}
+
+/// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
+std::string run_on_patch(const Stage& stage, const Case& c, const PreparedCase& prepared, std::size_t i,
+                         PatchMesh& mesh, StageLog& log) {
+  const PreparedPatch& patch = prepared.patches[i];
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, c.options};
+  if (!prepared.surface) {
+    stage.run(input, mesh, log);
+    return "";
+  }
+  const std::string title =
+      fmt::format("face {}: {}: ", prepared.boundary.regions[patch.region].tag, stage.name);
+  try {
+    stage.run(input, mesh, log);
+    return "";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const InputError& error) {
+    if (!c.options.keep_going) throw InputError(c.where + ": " + title + error.what());
+    return title + error.what();
+  } catch (const std::exception& error) {
+    if (!c.options.keep_going) throw std::runtime_error(c.where + ": " + title + error.what());
+    return title + error.what();
+  }
+}
+
+/// Adds the faces of the patches that have a reason to be left out; marks all that are.
+std::vector<char> collect_failures(const PreparedCase& prepared, const std::vector<std::string>& reasons,
+                                   RunResult& result) {
+  result.failures = prepared.failures;
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
+  std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
+  std::vector<char> left_out(prepared.boundary.regions.size(), 0);
+  for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
+  if (std::ranges::none_of(prepared.patches, [&](const PreparedPatch& p) { return !left_out[p.region]; }))
+    throw InputError("no face can be meshed: " + result.failures.at(0).reason);
+  return left_out;
+}
+
+void check_sound(const Mesh& mesh, const PreparedCase& prepared) {
+  std::vector<char> branching;
+  if (prepared.surface)
+    for (const int n : elements_on_curves(prepared.surface->model.fine)) branching.push_back(n > 2);
+  const std::vector<std::string> violations = check_invariants(mesh, branching);
   if (violations.empty()) return;
   throw std::logic_error(
       fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
@@ -83,14 +145,18 @@ void warn_of_bad_quads(const std::string& label, RunResult& result) {
 /// Tells bad quads in sharp corners from others, and names the worst corner.
 void count_bad_quads(const std::string& label, const PreparedCase& prepared, RunResult& result) {
   const Mesh& mesh = result.mesh;
-  std::set<std::pair<int, int>> corners;  // face and node
-  for (const SharpCorner& c : prepared.sharp_corners) corners.emplace(c.face, c.node);
+  // By face and place: a mesh without the faces that failed numbers its nodes anew.
+  using Corner = std::tuple<int, double, double, double>;
+  const auto corner = [](int face, const Vec3& p) { return Corner{face, p.x, p.y, p.z}; };
+  std::set<Corner> corners;
+  for (const SharpCorner& c : prepared.sharp_corners)
+    corners.insert(corner(c.face, prepared.boundary.points[c.node]));
   const std::vector<double> etas = quad_etas(mesh);
   for (std::size_t q = 0; q < etas.size(); ++q) {
     if (etas[q] >= kBadEta) continue;
     const auto& v = mesh.quads[q];
     const bool in_corner = std::any_of(v.begin(), v.end(), [&](int i) {
-      return corners.contains({mesh.quad_region[q], i});
+      return corners.contains(corner(mesh.quad_region[q], mesh.points[i]));
     });
     ++(in_corner ? result.bad_in_corners : result.bad_elsewhere);
   }
@@ -98,7 +164,7 @@ void count_bad_quads(const std::string& label, const PreparedCase& prepared, Run
   const auto worst =
       std::min_element(prepared.sharp_corners.begin(), prepared.sharp_corners.end(),
                        [](const SharpCorner& a, const SharpCorner& b) { return a.eta_bound < b.eta_bound; });
-  const Vec3 at = mesh.points[worst->node];
+  const Vec3 at = prepared.boundary.points[worst->node];
   result.warnings.push_back(
       fmt::format("{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
                   "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
@@ -112,13 +178,14 @@ constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
 
 /// On surfaces, quads may be worse in space than in the plane in which they were treated.
-void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patches, StageLog& log) {
+void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patches,
+                    const std::vector<char>& left_out, StageLog& log) {
   if (prepared.background) return;  // a planar domain
   const Stopwatch watch;
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
-        if (patches[i].form != PatchForm::kQuads) return;
+        if (patches[i].form != PatchForm::kQuads || left_out[prepared.patches[i].region]) return;
         std::vector<Vec3> boundary;
         for (const int node : prepared.patches[i].boundary.point_node)
           boundary.push_back(prepared.boundary.points[node]);
@@ -133,12 +200,14 @@ void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patche
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
 
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches, StageLog* log) {
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches,
+              const std::vector<char>& left_out, StageLog* log) {
   const Stopwatch projection;
   std::vector<std::vector<Vec3>> inside(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
+        if (left_out[prepared.patches[i].region]) return;
         inside[i] = patches[i].inside.empty() ? lift_inside(prepared.patches[i], points_of(patches[i]))
                                               : patches[i].inside;
       },
@@ -147,6 +216,7 @@ Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patche
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
     const int region = prepared.patches[i].region;
+    if (left_out[region]) continue;
     const auto node = add_points(inside[i], prepared.patches[i], mesh);
     if (patch.form == PatchForm::kTriangles) {
       add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
@@ -155,6 +225,7 @@ Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patche
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
   }
+  if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
   if (log != nullptr) log->add_seconds("projection", projection.work_seconds());
   return mesh;
 }
@@ -173,15 +244,14 @@ double rough_quads(const PatchBoundary& boundary) {
   return double_area / 2 / (edge * edge);
 }
 
-/// Takes every patch through one stage.
+/// Takes every patch through one stage, but those that there are `reasons` to leave out.
 void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
-               std::vector<PatchMesh>& patches, StageLog& log) {
+               std::vector<PatchMesh>& patches, std::vector<std::string>& reasons, StageLog& log) {
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
-        const PreparedPatch& patch = prepared.patches[i];
-        stage.run({patch.boundary, *patch.cross, *patch.size, c.options}, patches[i], logs[i]);
+        if (reasons[i].empty()) reasons[i] = run_on_patch(stage, c, prepared, i, patches[i], logs[i]);
       },
       [&](std::size_t i) {
         return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
@@ -195,24 +265,31 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
   const Stopwatch watch;
   std::vector<PatchMesh> patches(prepared.patches.size());
+  std::vector<std::string> reasons(patches.size());  // to leave a face out
   RunResult result;
   for (const Stage* stage : word.stages) {
     progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
-    run_stage(*stage, c, prepared, patches, result.log);
+    run_stage(*stage, c, prepared, patches, reasons, result.log);
     if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
       throw InputError(
           fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
                       result.log.insertion->inserted, c.options.max_elements));
   }
-  if (c.options.treatment == Treatment::kPaper) lift_bad_quads(prepared, patches, result.log);
-  result.mesh = assemble(prepared, patches, &result.log);
+  const std::vector<char> left_out = collect_failures(prepared, reasons, result);
+  if (c.options.treatment == Treatment::kPaper) lift_bad_quads(prepared, patches, left_out, result.log);
+  result.mesh = assemble(prepared, patches, left_out, &result.log);
   patches.clear();
   result.seconds = watch.seconds();
   progress.step(fmt::format("{} {}: metrics", c.name, word.text));
-  check_sound(result.mesh);
+  check_sound(result.mesh, prepared);
   const Stopwatch measuring;
   result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
   result.log.add_seconds("metrics", measuring.work_seconds());
+  if (prepared.surface) {
+    const PreparedSurface& surface = *prepared.surface;
+    result.surface = report_surface(surface.model, surface.cuts, left_out, result.mesh);
+    result.log.add_seconds("surface report", result.surface->seconds);
+  }
   result.peak_memory = peak_memory();
   warn_of_bad_quads(c.name + " " + word.text, result);
   count_bad_quads(c.name + " " + word.text, prepared, result);

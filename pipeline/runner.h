@@ -7,6 +7,7 @@
 #include "pipeline/prepare.h"
 #include "pipeline/progress.h"
 #include "pipeline/stages.h"
+#include "surfaces/surface_report.h"
 
 namespace delquad {
 
@@ -18,8 +19,10 @@ struct RunResult {
   std::vector<std::string> warnings;
   /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
   int bad_in_corners = 0, bad_elsewhere = 0;
-  double seconds = 0;         ///< meshing: the stages of the word
-  long long peak_memory = 0;  ///< bytes, the most that the process has held so far
+  std::vector<FaceFailure> failures;     ///< by face; empty unless options.keep_going
+  std::optional<SurfaceReport> surface;  ///< of surfaces
+  double seconds = 0;                    ///< meshing: the stages of the word
+  long long peak_memory = 0;             ///< bytes, the most that the process has held so far
 };
 
 /// How many times run_word() calls Progress::step().
@@ -29,8 +32,10 @@ int run_steps(const Word& word);
 /// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
 
-/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow. `log` receives
-/// the time of bringing them back to space, as "projection".
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches, StageLog* log = nullptr);
+/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow. Those of the
+/// faces that are `left_out` (by region), and what only they use, are missing. `log` receives the time of
+/// bringing the points back to space, as "projection".
+Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches,
+              const std::vector<char>& left_out, StageLog* log = nullptr);
 
 }  // namespace delquad

@@ -54,7 +54,8 @@ class DomainBuilder {
     std::vector<int> odd;
     for (int attempt = 0; place(odd) > 0; ++attempt) {
       if (attempt == kRefinements)
-        throw InputError(
+        throw FaceError(
+            maps_[crossing_].face,
             fmt::format("{}: its boundary crosses itself in the parameter plane however fine its curves are",
                         face_name(maps_[crossing_])));
     }

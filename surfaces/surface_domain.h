@@ -33,7 +33,7 @@ struct SurfaceDomain {
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd.
-/// Throws InputError when no refinement gives a valid boundary, naming the face.
+/// Throws FaceError when no refinement gives a valid boundary, naming the face.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
                                   const MatchingSolver& solver);
 

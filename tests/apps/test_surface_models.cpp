@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include "io/mesh_io.h"
 #include "tests/apps/program.h"
@@ -95,6 +96,32 @@ TEST(SurfaceModels, ASizeIsNeeded) {
   const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(contains(run.err, "size")) << run.err;
+}
+
+TEST(SurfaceModels, ASizeLargerThanTheModelGivesOneQuadAFace) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh", "--size", "1e6"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(contains(run.err, "curve 1 is 1e-06 times the size long")) << run.err;
+  EXPECT_EQ(read_msh(folder / "out.msh").quads.size(), 6u);
+}
+
+TEST(SurfaceModels, TheReportIsPrintedAndRecorded) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh", "--size", "0.25", "--json",
+                            folder / "out.json", "--keep-going"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(contains(
+      run.out, "mesh: watertight, Euler characteristic 2; the model is watertight, Euler characteristic 2"))
+      << run.out;
+  std::ifstream in(folder / "out.json");
+  std::stringstream record;
+  record << in.rdbuf();
+  for (const char* part :
+       {"\"nonconforming_edges\": 0", "\"worst_face\": 1", "\"mesh_to_surface\"", "\"by_patch\""})
+    EXPECT_TRUE(contains(record.str(), part)) << part;
 }
 
 }  // namespace

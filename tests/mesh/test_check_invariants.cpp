@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/mesh.h"
+#include "mesh/check_invariants.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad {
@@ -102,6 +102,22 @@ TEST(MeshInvariants, EntityTagsArePositiveAndDistinct) {
   mesh = quad_grid(2, 2);
   mesh.regions[0].tag = 0;
   expect_one(mesh, "region tag 0: not positive");
+}
+
+TEST(MeshInvariants, MarkedCurvesMayBranch) {
+  Mesh mesh = quad_grid(1, 1);
+  const int a = mesh.lines[0][0], b = mesh.lines[0][1];
+  for (const double z : {1.0, 2.0}) {
+    mesh.points.push_back({0.5, 0, z});
+    mesh.triangles.push_back({a, b, static_cast<int>(mesh.points.size()) - 1});
+    mesh.triangle_region.push_back(0);
+  }
+  expect_some(mesh, "in 3 elements");
+  std::vector<char> branching(mesh.curves.size(), 0);
+  branching[mesh.line_curve[0]] = 1;
+  EXPECT_EQ(check_invariants(mesh, branching), Report());
+  branching[mesh.line_curve[0]] = 0;
+  EXPECT_NE(check_invariants(mesh, branching), Report());
 }
 
 }  // namespace
