@@ -112,6 +112,38 @@ void read_data(const TomlTable& table, Case& target) {
   target.may_be_absent = true;
 }
 
+/// An integer key between `least` and `most`.
+void read_count(const TomlTable& table, const std::string& key, long long least, long long most, int& value) {
+  if (!table.has(key)) return;
+  const long long count = table.integer(key);
+  if (count < least || count > most)
+    throw InputError(
+        fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most));
+  value = static_cast<int>(count);
+}
+
+void read_smoothing(const TomlTable& table, MeshingOptions& options) {
+  SmoothingOptions& smoothing = options.smoothing_options;
+  if (table.has("method")) {
+    const std::string text = table.text("method");
+    if (text != "lpcvt" && text != "lloyd")
+      throw InputError(table.where("method") + ": 'method' is '" + text +
+                       "': expected \"lpcvt\" or \"lloyd\"");
+    options.smoothing = text == "lpcvt" ? SmoothingMethod::kLpCvt : SmoothingMethod::kLloyd;
+  }
+  constexpr long long kMost = 1'000'000;
+  read_count(table, "p", -kMost, kMost, smoothing.p);
+  if (table.has("p")) located(table.where("p"), [&] { check_norm(smoothing.p); });
+  read_count(table, "outer_iterations", 0, kMost, smoothing.outer_iterations);
+  read_count(table, "inner_iterations", 0, kMost, smoothing.inner.iterations);
+  read_count(table, "rank", 1, 1000, smoothing.inner.rank);
+  smoothing.inner.function_tolerance =
+      number_at_least(table, "function_tolerance", 0, smoothing.inner.function_tolerance);
+  smoothing.inner.gradient_tolerance =
+      number_at_least(table, "gradient_tolerance", 0, smoothing.inner.gradient_tolerance);
+  table.finish();
+}
+
 void read_model_keys(const TomlTable& table, Case& target) {
   const std::filesystem::path folder = table.file().parent_path();
   const bool drawn = has_planar_model(table);
@@ -169,6 +201,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("size")) target.size = read_size(table);
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
   if (const auto insertion = table.optional_table("insertion")) read_insertion(*insertion, target.options);
+  if (const auto smoothing = table.optional_table("smoothing")) read_smoothing(*smoothing, target.options);
   if (const auto merging = table.optional_table("recombination"))
     read_recombination(*merging, target.options);
   if (const auto compare = table.optional_table("compare"))

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "io/curve_plot.h"
 #include "io/picture.h"
 #include "metrics/metrics.h"
 
@@ -105,6 +106,21 @@ void draw_case(const PreparedCase& prepared, const std::string& name, const std:
     sizes.push_back(prepared.size->at(samples.points.back(), hint));
   }
   draw_scalar(folder / "size.svg", samples, sizes, name + ": size field");
+}
+
+void draw_convergence(const std::filesystem::path& path, const std::vector<SmoothingSummary>& patches,
+                      const std::string& title) {
+  std::vector<PlotCurve> curves;
+  for (const SmoothingSummary& patch : patches) {
+    int frames = -1;
+    for (std::size_t i = 0; i < patch.samples.size(); ++i) {
+      const EnergySample& sample = patch.samples[i];
+      if (sample.frames != frames) curves.emplace_back();
+      frames = sample.frames;
+      curves.back().push_back({static_cast<double>(i + 1), sample.energy, sample.accepted});
+    }
+  }
+  draw_curves(path, curves, title, "evaluation", "energy (1: squares of the wanted size)");
 }
 
 std::vector<double> cell_etas(const Mesh& mesh) {

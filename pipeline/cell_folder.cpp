@@ -24,7 +24,7 @@ struct TemporaryFolder {
 
 /// What an earlier run left would pass for what this one made.
 void remove_results(const fs::path& folder) {
-  for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"}) {
+  for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg", "convergence.svg", "record.json"}) {
     std::error_code nothing_there;
     fs::remove(folder / name, nothing_there);
   }

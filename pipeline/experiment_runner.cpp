@@ -138,6 +138,8 @@ class Runner {
         write_msh(folder / "mesh.msh", result->mesh);
         write_vtu(folder / "mesh.vtu", result->mesh, {{"eta", cell_etas(result->mesh)}});
         (prepared.background ? draw_mesh : draw_surface)(folder / "picture.svg", result->mesh, label);
+        if (!result->log.smoothing.empty())
+          draw_convergence(folder / "convergence.svg", result->log.smoothing, label + ": smoothing");
         result->log.add_seconds("write", writing.work_seconds());
         write_text(folder / "record.json", run_record(c, prepared, word, *result));
       });

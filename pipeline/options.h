@@ -3,10 +3,12 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/treatment.h"
+#include "smoothing/cvt/smooth_points.h"
 
 namespace delquad {
 
 enum class Treatment { kNone, kPaper };
+enum class SmoothingMethod { kLpCvt, kLloyd };
 
 /// What the stages of a pipeline can be told.
 struct MeshingOptions {
@@ -14,6 +16,8 @@ struct MeshingOptions {
   LinfOptions linf;
   Treatment treatment = Treatment::kPaper;  ///< after matching
   TreatmentOptions treatment_options;
+  SmoothingMethod smoothing = SmoothingMethod::kLpCvt;
+  SmoothingOptions smoothing_options;
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;  ///< leave faces out that cannot be meshed, instead of refusing the model
 

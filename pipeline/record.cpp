@@ -2,6 +2,9 @@
 
 #include <sys/utsname.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <thread>
@@ -73,6 +76,14 @@ Json options_json(const Case& c) {
           {"boundary_height", o.frontal.boundary_height},
           {"max_points", o.insertion().max_points},
           {"lower_clamp", o.linf.lower_clamp},
+          {"smoothing",
+           {{"method", o.smoothing == SmoothingMethod::kLpCvt ? "lpcvt" : "lloyd"},
+            {"p", o.smoothing_options.p},
+            {"outer_iterations", o.smoothing_options.outer_iterations},
+            {"inner_iterations", o.smoothing_options.inner.iterations},
+            {"rank", o.smoothing_options.inner.rank},
+            {"function_tolerance", o.smoothing_options.inner.function_tolerance},
+            {"gradient_tolerance", o.smoothing_options.inner.gradient_tolerance}}},
           {"treatment", o.treatment == Treatment::kPaper ? "paper" : "none"},
           {"max_rounds", o.treatment_options.max_rounds},
           {"max_elements", o.max_elements}};
@@ -125,6 +136,58 @@ Json insertion_json(const FrontalSummary& s, double h_max) {
           {"unresolved", s.unresolved},
           {"layers", s.layers},
           {"seconds", s.seconds}};
+}
+
+const char* name_of(SmoothingTermination termination) {
+  switch (termination) {
+    case SmoothingTermination::kConverged:
+      return "converged";
+    case SmoothingTermination::kIterations:
+      return "iterations";
+    case SmoothingTermination::kStuck:
+      return "stuck";
+    case SmoothingTermination::kRefused:
+      return "refused";
+  }
+  return "";
+}
+
+/// Sums over the patches; energies are means by the number of cells.
+Json smoothing_json(const std::vector<SmoothingSummary>& patches) {
+  SmoothingSummary sum;
+  std::map<std::string, int> terminations;
+  Json energies = Json::array();
+  for (const SmoothingSummary& s : patches) {
+    ++terminations[name_of(s.termination)];
+    sum.cells += s.cells;
+    sum.outer_iterations = std::max(sum.outer_iterations, s.outer_iterations);
+    sum.iterations += s.iterations;
+    sum.evaluations += s.evaluations;
+    sum.refused += s.refused;
+    sum.flips += s.flips;
+    sum.rebuilds += s.rebuilds;
+    sum.first_energy += s.cells * s.first_energy;
+    sum.final_energy += s.cells * s.final_energy;
+    sum.gradient_norm = std::max(sum.gradient_norm, s.gradient_norm);
+    sum.seconds += s.seconds;
+    Json of_patch = Json::array();
+    for (const EnergySample& sample : s.samples)
+      of_patch.push_back(std::isnan(sample.energy) ? Json() : Json(sample.energy));
+    energies.push_back(of_patch);
+  }
+  return {{"termination", terminations},
+          {"cells", sum.cells},
+          {"outer_iterations", sum.outer_iterations},
+          {"iterations", sum.iterations},
+          {"evaluations", sum.evaluations},
+          {"refused", sum.refused},
+          {"flips", sum.flips},
+          {"rebuilds", sum.rebuilds},
+          {"first_energy", sum.first_energy / std::max(1, sum.cells)},
+          {"final_energy", sum.final_energy / std::max(1, sum.cells)},
+          {"gradient_norm", sum.gradient_norm},
+          {"seconds", sum.seconds},
+          {"energy_by_evaluation", energies}};
 }
 
 Json recombination_json(const RecombineSummary& s) {
@@ -226,10 +289,11 @@ Json failures_json(const PreparedCase& p, const RunResult& result) {
 void add_origin(Json& json) {
   utsname machine = {};
   uname(&machine);
-  json["versions"] = {{"delquad", kVersion},         {"commit", kCommit},    {"build", kBuildType},
-                      {"compiler", kCompiler},       {"cgal", kCgalVersion}, {"eigen", kEigenVersion},
-                      {"lemon", kLemonVersion},      {"fmt", kFmtVersion},   {"nlohmann_json", kJsonVersion},
-                      {"muparser", kMuparserVersion}};
+  json["versions"] = {
+      {"delquad", kVersion},          {"commit", kCommit},     {"build", kBuildType},
+      {"compiler", kCompiler},        {"cgal", kCgalVersion},  {"eigen", kEigenVersion},
+      {"lemon", kLemonVersion},       {"fmt", kFmtVersion},    {"nlohmann_json", kJsonVersion},
+      {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}};
   json["machine"] = {{"system", std::string(machine.sysname) + " " + machine.release},
                      {"architecture", machine.machine},
                      {"processors", std::thread::hardware_concurrency()}};
@@ -265,6 +329,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
   const StageLog& log = result.log;
   if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
+  if (!log.smoothing.empty()) json["smoothing"] = smoothing_json(log.smoothing);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   json["bad_quads"] = bad_quads_json(prepared, result);

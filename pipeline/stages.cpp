@@ -58,6 +58,17 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
   log.add_seconds("insertion", watch.seconds());
 }
 
+void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  const auto minimiser =
+      in.options.smoothing == SmoothingMethod::kLpCvt ? make_lbfgs_minimiser() : make_lloyd_minimiser();
+  SmoothingSummary summary;
+  patch.triangles = smooth_points(std::move(patch.triangles), in.cross, in.size, *minimiser,
+                                  in.options.smoothing_options, &summary);
+  log.smoothing.push_back(std::move(summary));
+  log.add_seconds("smoothing", watch.work_seconds());
+}
+
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch recombination;
   RecombineSummary summary;
@@ -109,6 +120,7 @@ void StageLog::add(const StageLog& other) {
   for (const auto& [step, s] : other.seconds) add_seconds(step, s);
   if (other.insertion) delquad::add(insertion, *other.insertion);
   if (other.insertion) h_max = other.h_max;
+  smoothing.insert(smoothing.end(), other.smoothing.begin(), other.smoothing.end());
   if (other.recombination) delquad::add(recombination, *other.recombination);
   if (other.treatment) delquad::add(treatment, *other.treatment);
 }
@@ -127,6 +139,7 @@ std::span<const Stage> stage_registry() {
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
          insert_points(mesh_packing, *make_linf_delquad(in.options.linf), in, patch, log);
        }},
+      {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
   };
   return stages;

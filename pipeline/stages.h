@@ -36,7 +36,8 @@ struct StageLog {
   /// the number of threads.
   std::vector<std::pair<std::string, double>> seconds;
   std::optional<FrontalSummary> insertion;
-  double h_max = 0;  ///< that insertion used: the option's or the strategy's own
+  double h_max = 0;                         ///< that insertion used: the option's or the strategy's own
+  std::vector<SmoothingSummary> smoothing;  ///< of each patch; after each other where a word smooths twice
   std::optional<RecombineSummary> recombination;
   std::optional<TreatmentSummary> treatment;
   void add_seconds(const std::string& step, double s);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "smoothing/cvt/parallel.h"
+#include "smoothing/cvt/blocks.h"
 
 namespace delquad {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "smoothing/cvt/blocks.h"
 #include "smoothing/cvt/cell_walk.h"
-#include "smoothing/cvt/parallel.h"
 #include "smoothing/cvt/simplex_energy.h"
 
 namespace delquad {

@@ -9,7 +9,7 @@
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
 #include "mesh/predicates.h"
-#include "smoothing/cvt/parallel.h"
+#include "smoothing/cvt/blocks.h"
 
 namespace delquad {
 namespace {
@@ -116,7 +116,7 @@ void MovingDelaunay::make_delaunay() {
       for (int k = 0; k < 3; ++k) {
         const int side = 3 * static_cast<int>(t) + k;
         if (static_cast<int>(t) < tri_.neighbours[t][k] && illegal(side))
-          found[block_of(begin)].push_back(side);
+          found[begin / kBlock].push_back(side);
       }
   });
   stack_.clear();

@@ -19,6 +19,14 @@ TEST(Words, AreReadFromLeftToRight) {
   EXPECT_EQ(parse_word("PB").result, PatchForm::kQuads);
 }
 
+TEST(Words, SmoothingComesBetween) {
+  for (const char* text : {"FL", "DL", "FLB", "DLB", "FLLB"}) EXPECT_EQ(parse_word(text).text, text);
+  EXPECT_EQ(parse_word("DL").result, PatchForm::kTriangles);
+  EXPECT_EQ(parse_word("DLB").result, PatchForm::kQuads);
+  expect_input_error([] { parse_word("L"); }, {"'L' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_word("DBL"); }, {"'L' starts from triangles", "leaves quads"});
+}
+
 TEST(Words, MistakesNameTheLetter) {
   expect_input_error([] { parse_word(""); }, {"F (", "D (", "B ("});
   expect_input_error([] { parse_word("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});

@@ -1,10 +1,10 @@
 #include "smoothing/cvt/lp_energy.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 
+#include "mesh/parallel.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/expect_input_error.h"
 
@@ -125,10 +125,12 @@ TEST(LpEnergies, AreTheSameBytesOnAnyNumberOfThreads) {
   ASSERT_GT(seeds.size(), 3000u);
   const SeedFrames frames = random_frames(boundary.points.size() + seeds.size(), 5);
   std::vector<EnergyAndGradient> results;
-  for (const std::size_t threads : {1, 2, 4}) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+  const int usual = thread_count();
+  for (const int threads : {1, 2, 4}) {
+    set_thread_count(threads);
     results.push_back(energy_of(boundary, seeds, frames, 6));
   }
+  set_thread_count(usual);
   for (const EnergyAndGradient& other : results) {
     EXPECT_EQ(other.energy, results[0].energy);
     EXPECT_EQ(other.gradient, results[0].gradient);

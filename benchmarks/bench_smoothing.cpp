@@ -1,0 +1,121 @@
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <benchmark/benchmark.h>
+
+#include "algorithms/insertion/frontal_mesher.h"
+#include "benchmarks/square_case.h"
+#include "mesh/parallel.h"
+#include "smoothing/cvt/smooth_points.h"
+
+// Energy and gradient of Lp-CVT smoothing, with the repair of the triangulation, and CGAL's spatially sorted
+// Delaunay triangulation of the same points; whole runs; L-BFGS and Lloyd's iteration to the same energy.
+
+namespace delquad::benchmarks {
+namespace {
+
+/// Points of F on the unit square, about as many as asked for.
+struct Seeds {
+  explicit Seeds(double n)
+      : square(Grading::kUniform, 2 * n / 1.15),  // F inserts 1.15 points for each square
+        mesh(mesh_frontal(square.boundary(), *make_l2_frontal(), square.cross, square.size)) {}
+  SquareCase square;
+  TriPatch mesh;
+};
+
+/// One evaluation, on as many threads as the second argument says. The seeds go to and fro as far as in the
+/// first steps of a run, so that the triangulation has flips to make.
+void evaluate(benchmark::State& state) {
+  const Seeds seeds(static_cast<double>(state.range(0)));
+  const int usual = thread_count();
+  set_thread_count(static_cast<int>(state.range(1)));
+  CvtProblem problem(MovingDelaunay(seeds.mesh), 4);
+  problem.hold_frames(seeds.square.cross, seeds.square.size);
+  const std::vector<Vec2> here = problem.seeds();
+  problem.evaluate(here);
+  std::vector<Vec2> there = here;
+  const double way = problem.newton_scale() * problem.spacing() * problem.spacing();
+  for (std::size_t i = 0; i < there.size(); ++i) there[i] += -way * problem.gradient()[i];
+  const long long flips = problem.delaunay().flips();
+  bool forth = false;
+  for (auto _ : state) benchmark::DoNotOptimize(problem.evaluate((forth = !forth) ? there : here));
+  state.counters["points"] = problem.delaunay().n_points();
+  state.counters["flips"] = benchmark::Counter(static_cast<double>(problem.delaunay().flips() - flips),
+                                               benchmark::Counter::kAvgIterations);
+  state.counters["rebuilds"] = problem.delaunay().rebuilds();
+  state.SetComplexityN(problem.delaunay().n_points());
+  set_thread_count(usual);
+}
+
+void cgal_same_points(benchmark::State& state) {
+  using Delaunay = CGAL::Delaunay_triangulation_2<CGAL::Exact_predicates_inexact_constructions_kernel>;
+  const Seeds seeds(static_cast<double>(state.range(0)));
+  std::vector<Delaunay::Point> points;
+  for (const Vec2 p : seeds.mesh.points) points.emplace_back(p.x, p.y);
+  for (auto _ : state) {
+    Delaunay delaunay;
+    delaunay.insert(points.begin(), points.end());
+    benchmark::DoNotOptimize(delaunay.number_of_vertices());
+  }
+  state.SetComplexityN(static_cast<benchmark::IterationCount>(points.size()));
+}
+
+void report(benchmark::State& state, const SmoothingSummary& s) {
+  state.counters["points"] = s.cells;
+  state.counters["evaluations"] = s.evaluations;
+  state.counters["first_energy"] = s.first_energy;
+  state.counters["final_energy"] = s.final_energy;
+  state.counters["rebuilds"] = s.rebuilds;
+}
+
+/// As L does it, with its defaults.
+void solve(benchmark::State& state) {
+  const Seeds seeds(static_cast<double>(state.range(0)));
+  SmoothingSummary summary;
+  for (auto _ : state)
+    smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, *make_lbfgs_minimiser(), {}, &summary);
+  report(state, summary);
+}
+
+/// Up to the energy where Lloyd's iteration stands after 60 steps: one step at a time is allowed until it is
+/// reached.
+void to_energy_of_lloyd(benchmark::State& state, bool lloyd) {
+  const Seeds seeds(static_cast<double>(state.range(0)));
+  constexpr int kSteps = 60;
+  SmoothingOptions options;
+  options.outer_iterations = 1;
+  options.inner.function_tolerance = 0;
+  options.inner.iterations = kSteps;
+  SmoothingSummary summary;
+  const auto run = [&](const CellMinimiser& minimiser) {
+    smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, minimiser, options, &summary);
+  };
+  run(*make_lloyd_minimiser());
+  if (!lloyd) {
+    const double goal = summary.final_energy;
+    options.inner.iterations = 0;
+    do {
+      ++options.inner.iterations;
+      run(*make_lbfgs_minimiser());
+    } while (summary.final_energy > goal && options.inner.iterations < kSteps);
+  }
+  for (auto _ : state) run(lloyd ? *make_lloyd_minimiser() : *make_lbfgs_minimiser());
+  report(state, summary);
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  for (const int n : {1000, 10000, 50000, 100000, 1000000}) b->Args({n, 1});
+  b->Unit(benchmark::kMillisecond)->UseRealTime()->Complexity();
+}
+BENCHMARK(evaluate)->Apply(sizes);
+BENCHMARK(evaluate)
+    ->Name("evaluate_2_threads")
+    ->Args({50000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(cgal_same_points)->Apply(sizes);
+BENCHMARK(solve)->Arg(1000)->Arg(10000)->Arg(50000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(to_energy_of_lloyd, lloyd, true)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(to_energy_of_lloyd, lbfgs, false)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace delquad::benchmarks

@@ -1,0 +1,113 @@
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "smoothing/cvt/cell_minimiser.h"
+
+namespace delquad {
+namespace {
+
+/// F in newton_scale() by the seeds' ways from where they were, over spacing(). Where that makes the first
+/// step longer than one spacing for some seed, F is scaled down: Ceres would shorten it by the largest
+/// component, which depends on how the axes lie.
+class ScaledEnergy final : public ceres::FirstOrderFunction {
+ public:
+  ScaledEnergy(CvtProblem& problem, std::vector<EnergySample>& samples)
+      : problem_(problem), samples_(samples), start_(problem.seeds()) {}
+
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
+    const std::optional<double> energy = problem_.evaluate(seeds(parameters));
+    samples_.push_back({0, energy.value_or(std::numeric_limits<double>::quiet_NaN()), false});
+    if (!energy) return false;
+    if (scale_ == 0) scale_ = problem_.newton_scale() / std::max(1.0, scaled_gradient_norm(problem_));
+    *cost = scale_ * *energy;
+    if (gradient == nullptr) return true;
+    const double scale = scale_ * problem_.spacing();
+    const auto g = problem_.gradient();
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      gradient[2 * i] = scale * g[i].x;
+      gradient[2 * i + 1] = scale * g[i].y;
+    }
+    return true;
+  }
+  /// Of the cost: after the first evaluation.
+  double scale() const { return scale_; }
+  int NumParameters() const override { return 2 * static_cast<int>(start_.size()); }
+
+  std::vector<Vec2> seeds(const double* parameters) const {
+    std::vector<Vec2> x = start_;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += problem_.spacing() * Vec2{parameters[2 * i], parameters[2 * i + 1]};
+    return x;
+  }
+
+ private:
+  CvtProblem& problem_;
+  std::vector<EnergySample>& samples_;
+  std::vector<Vec2> start_;
+  mutable double scale_ = 0;
+};
+
+/// Marks the evaluation that each accepted step went to.
+class MarkAccepted final : public ceres::IterationCallback {
+ public:
+  MarkAccepted(std::vector<EnergySample>& samples, const ScaledEnergy& energy)
+      : samples_(samples), energy_(energy) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    // The search may end at an earlier evaluation than its last.
+    for (auto sample = samples_.rbegin(); sample != samples_.rend() && !sample->accepted; ++sample)
+      if (energy_.scale() * sample->energy == summary.cost) {
+        sample->accepted = true;
+        break;
+      }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::vector<EnergySample>& samples_;
+  const ScaledEnergy& energy_;
+};
+
+class LbfgsMinimiser final : public CellMinimiser {
+ public:
+  MinimiserOutcome minimise(CvtProblem& problem, const MinimiserOptions& options,
+                            std::vector<EnergySample>& samples) const override {
+    std::vector<double> parameters(2 * static_cast<std::size_t>(problem.n_free()), 0.0);
+    auto* energy = new ScaledEnergy(problem, samples);  // the problem's from here on
+    const ceres::GradientProblem gradient_problem(energy);
+    MarkAccepted mark(samples, *energy);
+    ceres::GradientProblemSolver::Options solver;
+    solver.line_search_direction_type = ceres::LBFGS;
+    solver.line_search_type = ceres::WOLFE;
+    solver.max_lbfgs_rank = options.rank;
+    solver.use_approximate_eigenvalue_bfgs_scaling = true;
+    solver.max_num_iterations = options.iterations;
+    solver.function_tolerance = options.function_tolerance;
+    solver.gradient_tolerance = options.gradient_tolerance;
+    solver.parameter_tolerance = 0;  // ways from the start: no length to compare with
+    solver.logging_type = ceres::SILENT;
+    solver.callbacks.push_back(&mark);
+    ceres::GradientProblemSolver::Summary summary;
+    ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
+
+    const std::vector<Vec2> best = energy->seeds(parameters.data());
+    problem.evaluate(best);
+    MinimiserOutcome outcome;
+    outcome.termination = summary.termination_type == ceres::CONVERGENCE ? MinimiserTermination::kConverged
+                          : summary.termination_type == ceres::NO_CONVERGENCE
+                              ? MinimiserTermination::kIterations
+                              : MinimiserTermination::kStuck;
+    outcome.iterations = static_cast<int>(summary.iterations.size()) - 1;
+    outcome.gradient_norm = scaled_gradient_norm(problem);
+    return outcome;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<CellMinimiser> make_lbfgs_minimiser() { return std::make_unique<LbfgsMinimiser>(); }
+
+}  // namespace delquad

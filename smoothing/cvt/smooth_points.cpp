@@ -1,0 +1,95 @@
+#include "smoothing/cvt/smooth_points.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "mesh/error.h"
+
+namespace delquad {
+namespace {
+
+SmoothingTermination of_minimiser(MinimiserTermination termination) {
+  switch (termination) {
+    case MinimiserTermination::kConverged:
+      return SmoothingTermination::kConverged;
+    case MinimiserTermination::kIterations:
+      return SmoothingTermination::kIterations;
+    case MinimiserTermination::kStuck:
+      return SmoothingTermination::kStuck;
+  }
+  return SmoothingTermination::kStuck;
+}
+
+/// Takes the frames anew and minimises, up to outer_iterations times.
+void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& size,
+            const CellMinimiser& minimiser, const SmoothingOptions& options, SmoothingSummary& s) {
+  problem.hold_frames(cross, size);
+  const std::optional<double> first = problem.evaluate(problem.seeds());
+  s.evaluations = 1;
+  if (!first) {
+    s.refused = 1;
+    s.termination = SmoothingTermination::kRefused;
+    return;
+  }
+  s.first_energy = s.final_energy = *first;
+  s.gradient_norm = scaled_gradient_norm(problem);
+  if (problem.n_free() == 0) return;
+  if (options.outer_iterations == 0 || options.inner.iterations == 0)
+    s.termination = SmoothingTermination::kIterations;
+  if (options.inner.iterations == 0) return;
+
+  for (int outer = 0; outer < options.outer_iterations; ++outer) {
+    if (outer > 0) problem.hold_frames(cross, size);
+    const std::size_t n_samples = s.samples.size();
+    const MinimiserOutcome outcome = minimiser.minimise(problem, options.inner, s.samples);
+    double last = 0;
+    for (std::size_t i = n_samples; i < s.samples.size(); ++i) {
+      s.samples[i].frames = outer;
+      if (s.samples[i].accepted) last = s.samples[i].energy;
+    }
+    s.termination = of_minimiser(outcome.termination);
+    s.outer_iterations = outer + 1;
+    s.iterations += outcome.iterations;
+    s.gradient_norm = outcome.gradient_norm;
+    s.final_energy = last;
+    if (outcome.iterations == 0) break;  // the frames were up to date
+  }
+  if (!s.samples.empty()) s.evaluations = static_cast<int>(s.samples.size());
+  for (const EnergySample& sample : s.samples) s.refused += std::isnan(sample.energy) ? 1 : 0;
+}
+
+void check_at_least(const char* name, double value, double least) {
+  if (!(value >= least)) throw InputError(fmt::format("{} is {}: expected at least {}", name, value, least));
+}
+
+}  // namespace
+
+void check_options(const SmoothingOptions& options) {
+  check_norm(options.p);
+  check_at_least("outer_iterations", options.outer_iterations, 0);
+  check_at_least("inner_iterations", options.inner.iterations, 0);
+  check_at_least("function_tolerance", options.inner.function_tolerance, 0);
+  check_at_least("gradient_tolerance", options.inner.gradient_tolerance, 0);
+  check_at_least("rank", options.inner.rank, 1);
+}
+
+TriPatch smooth_points(TriPatch patch, const CrossField& cross, const ParametricSize& size,
+                       const CellMinimiser& minimiser, const SmoothingOptions& options,
+                       SmoothingSummary* summary) {
+  const auto start = std::chrono::steady_clock::now();
+  check_options(options);
+  CvtProblem problem(MovingDelaunay(std::move(patch)), options.p);
+  SmoothingSummary s;
+  s.cells = problem.delaunay().n_points();
+  smooth(problem, cross, size, minimiser, options, s);
+  s.flips = problem.delaunay().flips();
+  s.rebuilds = problem.delaunay().rebuilds();
+  s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (summary != nullptr) *summary = std::move(s);
+  return problem.delaunay().patch();
+}
+
+}  // namespace delquad
