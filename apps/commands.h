@@ -29,6 +29,7 @@ struct MeshArguments {
   std::string size, cross;  ///< empty: as the model says
   std::string compound;     ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
+  double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string pipeline = "DB";
   long long max_elements = 50'000'000;
   int threads = thread_count();

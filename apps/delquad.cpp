@@ -36,6 +36,15 @@ const CLI::Validator kCount(
     },
     "");
 
+constexpr double kMostPerTurn = 1e6;
+const CLI::Validator kLength(
+    [](std::string& text) -> std::string {
+      const auto value = as_number(text);
+      const bool good = value && *value > 0 && std::isfinite(*value);
+      return good ? "" : "'" + text.substr(0, 40) + "': expected a finite number > 0";
+    },
+    "");
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment: every pipeline on every case, with tables and pictures");
@@ -60,6 +69,15 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp or .mesh)")
       ->required();
   mesh->add_option("--size", arguments.size, kSizeHelp);
+  mesh->add_option("--curvature", arguments.curvature,
+                   "of surfaces: elements per full turn of a curved face or curve")
+      ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));
+  mesh->add_option("--size-min", arguments.min, "least size by curvature; default: 1/20 of --size")
+      ->check(kLength);
+  mesh->add_option("--size-max", arguments.max, "largest size")->check(kLength);
+  mesh->add_option("--gradation", arguments.gradation,
+                   "the most by which sizes grow per unit length; 0.3 with --curvature")
+      ->check(kLength);
   mesh->add_option("--cross", arguments.cross,
                    "directions: 'boundary', 'size-aware', 'gradient' or an angle expression (radians)");
   mesh->add_option("--compound", arguments.compound,

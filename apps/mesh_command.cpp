@@ -30,6 +30,26 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
     surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
 }
 
+/// The model's sizes, with what the command line says in their place.
+SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
+  if (!arguments.size.empty()) {
+    size = {};
+    size.base = arguments.size;
+    size.where = "--size";
+  }
+  const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
+                                              {arguments.min, &size.min},
+                                              {arguments.max, &size.max},
+                                              {arguments.gradation, &size.gradation}};
+  for (const auto& [value, target] : given) {
+    if (!(value > 0)) continue;
+    *target = value;
+    if (size.where.empty()) size.where = "command line";
+  }
+  check_size_limits(size);
+  return size;
+}
+
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
@@ -39,7 +59,7 @@ int mesh_command(const MeshArguments& arguments) {
   Case c = read_model_case(arguments.model);
   c.options.max_elements = arguments.max_elements;
   c.options.keep_going = arguments.keep_going;
-  if (!arguments.size.empty()) c.size = {arguments.size, {}, 0, "--size"};
+  c.size = with_arguments(std::move(c.size), arguments);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
   check_distinct({{"the model", arguments.model},

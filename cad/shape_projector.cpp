@@ -9,9 +9,11 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -38,6 +40,20 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
 Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 gp_Pnt to_pnt(const Vec3& p) { return {p.x, p.y, p.z}; }
 
+/// The larger of the principal curvatures by size; NaN where the tangents du and dv are parallel or vanish.
+double largest_curvature(const Geom_Surface& surface, double u, double v) {
+  gp_Pnt p;
+  gp_Vec du, dv, duu, dvv, duv;
+  surface.D2(u, v, p, du, dv, duu, dvv, duv);
+  const double e = du.Dot(du), f = du.Dot(dv), g = dv.Dot(dv), area2 = e * g - f * f;
+  constexpr double kSingular = 1e-12;  // of the squared sine between the tangents
+  if (!(area2 > kSingular * e * g)) return std::numeric_limits<double>::quiet_NaN();
+  const gp_Vec normal = du.Crossed(dv) / std::sqrt(area2);
+  const double l = normal.Dot(duu), m = normal.Dot(duv), n = normal.Dot(dvv);
+  const double mean = (e * n - 2 * f * m + g * l) / (2 * area2), gauss = (l * n - m * m) / area2;
+  return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
+}
+
 /// How near to the ends of a closed curve both sides are tried, as a fraction of its parameters.
 constexpr double kNearEnd = 0.1;
 
@@ -52,6 +68,15 @@ class FaceProjector {
     triangles_.emplace(std::move(face.points), std::move(face.triangles));
   }
 
+  double curvature(const Vec3& x) const {
+    const Vec2 uv = parameters(x);
+    try {
+      return largest_curvature(*surface_, uv.x, uv.y);
+    } catch (const Standard_Failure&) {  // no second derivatives there
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
   Vec3 nearest(const Vec3& x, double tolerance) const {
     if (elementary_) {
       return std::visit(
@@ -62,14 +87,25 @@ class FaceProjector {
           },
           *elementary_);
     }
-    const NearestTriangle::Found found = triangles_->find(x);
-    const auto& vertices = triangles_->triangle(found.triangle);
-    Vec2 uv{0, 0};
-    for (int k = 0; k < 3; ++k) uv += found.weights[k] * uv_[vertices[k]];
+    const Vec2 uv = parameters(x);
     return to_vec(nearest_point(*surface_, to_pnt(x), uv.x, uv.y, tolerance));
   }
 
  private:
+  /// Exact where the nearest point has a closed form, else those of the nearest fine triangle.
+  Vec2 parameters(const Vec3& x) const {
+    Vec2 uv{0, 0};
+    if (elementary_) {
+      std::visit([&](const auto& surface) { ElSLib::Parameters(surface, to_pnt(x), uv.x, uv.y); },
+                 *elementary_);
+      return uv;
+    }
+    const NearestTriangle::Found found = triangles_->find(x);
+    const auto& vertices = triangles_->triangle(found.triangle);
+    for (int k = 0; k < 3; ++k) uv += found.weights[k] * uv_[vertices[k]];
+    return uv;
+  }
+
   Handle(Geom_Surface) surface_;
   std::optional<Elementary> elementary_;
   std::vector<Vec2> uv_;  ///< of the triangles' points
@@ -122,6 +158,7 @@ class ShapeProjector : public SurfaceProjector {
   }
   Vec3 to_face(int face, const Vec3& x) const override { return faces_[face].nearest(x, tolerance_); }
   Vec3 to_curve(int curve, const Vec3& x) const override { return curves_[curve].nearest(x, tolerance_); }
+  double face_curvature(int face, const Vec3& x) const override { return faces_[face].curvature(x); }
 
  private:
   double tolerance_;

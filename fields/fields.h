@@ -30,6 +30,9 @@ struct SizeSource {
 std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,
                                             std::vector<SizeSource> sources);
 
+/// The base, but nowhere more than `most`.
+std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> base, double most);
+
 /// The boundary's own edge lengths, extended smoothly into the domain over the background mesh.
 std::unique_ptr<SizeField> make_boundary_size(std::shared_ptr<const BackgroundMesh> background,
                                               const Mesh& boundary);

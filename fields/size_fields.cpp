@@ -22,6 +22,16 @@ class ConstantSize final : public SizeField {
   double delta_;
 };
 
+class CappedSize final : public SizeField {
+ public:
+  CappedSize(std::shared_ptr<const SizeField> base, double most) : base_(std::move(base)), most_(most) {}
+  double at(const Vec3& x, int& hint) const override { return std::min(base_->at(x, hint), most_); }
+
+ private:
+  std::shared_ptr<const SizeField> base_;
+  double most_;
+};
+
 class ExpressionSize final : public SizeField {
  public:
   explicit ExpressionSize(const std::string& text) : delta_(text, {"x", "y", "z"}) {}
@@ -103,6 +113,12 @@ std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> bas
   if (!base && sources.empty()) throw InputError("a size field needs a base or a source");
   for (std::size_t i = 0; i < sources.size(); ++i) check_source(sources[i], i);
   return std::make_unique<SourceSize>(std::move(base), std::move(sources));
+}
+
+std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> base, double most) {
+  if (!is_size(most))
+    throw InputError(fmt::format("the largest size is {}; a size must be finite and positive", most));
+  return std::make_unique<CappedSize>(std::move(base), most);
 }
 
 }  // namespace delquad

@@ -14,11 +14,20 @@
 
 namespace delquad {
 
+/// The most |grad delta| where sizes follow curvature and nothing else is said: between a fillet and the
+/// plane beside it they would jump.
+inline constexpr double kCurvatureGradation = 0.3;
+/// Fewer elements per full turn would not show a curve at all.
+inline constexpr double kLeastPerTurn = 3;
+
 /// The wanted size, as it was written.
 struct SizeSpec {
   std::string base;  ///< a number, an expression in x, y, z, or "boundary"; empty: boundary for line meshes
   std::vector<SizeSource> sources;
-  double gradation = 0;  ///< the most |grad delta|; 0: no limit
+  double gradation = 0;  ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
+  double curvature = 0;  ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
+  double min = 0;        ///< least size that curvature asks for; 0: a twentieth of what it would be without
+  double max = 0;        ///< largest size; 0: none
   std::string where;     ///< for messages
 };
 

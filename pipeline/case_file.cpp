@@ -14,7 +14,7 @@ namespace {
 
 double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
   const double value = table.number(key, absent);
-  if (value < least)
+  if (table.has(key) && value < least)
     throw InputError(
         fmt::format("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least));
   return value;
@@ -43,6 +43,19 @@ SizeSource read_source(const TomlTable& table) {
   return source;
 }
 
+}  // namespace
+
+void check_size_limits(const SizeSpec& size) {
+  if (size.min > 0 && !(size.curvature > 0))
+    throw InputError(size.where +
+                     ": a least size is for sizes that follow curvature: expected 'curvature' too");
+  if (size.min > 0 && size.max > 0 && size.min > size.max)
+    throw InputError(
+        fmt::format("{}: the least size {} is larger than the largest, {}", size.where, size.min, size.max));
+}
+
+namespace {
+
 SizeSpec read_size(const TomlTable& table) {
   SizeSpec size;
   size.where = table.where("size");
@@ -54,7 +67,11 @@ SizeSpec read_size(const TomlTable& table) {
   if (fields.has("base")) size.base = fields.expression("base");
   for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
   if (fields.has("gradation")) size.gradation = fields.positive_number("gradation");
+  size.curvature = number_at_least(fields, "curvature", kLeastPerTurn, 0);
+  if (fields.has("min")) size.min = fields.positive_number("min");
+  if (fields.has("max")) size.max = fields.positive_number("max");
   fields.finish();
+  check_size_limits(size);
   return size;
 }
 

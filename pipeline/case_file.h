@@ -14,4 +14,7 @@ void read_case_keys(const TomlTable& table, Case& target);
 /// the file does not say. Throws InputError for other extensions and for experiment files.
 Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
 
+/// Throws InputError where the limits of a size contradict each other.
+void check_size_limits(const SizeSpec& size);
+
 }  // namespace delquad

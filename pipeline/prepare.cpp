@@ -61,8 +61,14 @@ std::shared_ptr<const SizeField> make_size(const SizeSpec& spec, F&& boundary) {
     base = boundary();
   else if (!spec.base.empty())
     base = make_base(spec.base, spec.where);
-  if (spec.sources.empty()) return base;
-  return make_source_size(std::move(base), spec.sources);
+  if (!spec.sources.empty()) base = make_source_size(std::move(base), spec.sources);
+  return spec.max > 0 ? make_capped_size(std::move(base), spec.max) : base;
+}
+
+/// What stands in for a base that was not given.
+std::shared_ptr<const SizeField> largest_size(const Case& c, const std::string& why) {
+  if (c.size.max > 0 && c.size.base.empty()) return make_constant_size(c.size.max);
+  throw InputError((c.size.where.empty() ? c.where : c.size.where) + ": " + why);
 }
 
 SizeFunction as_function(std::shared_ptr<const SizeField> size, double scale = 1) {
@@ -116,10 +122,9 @@ PlanarDomain mesh_model(const Case& c, const std::shared_ptr<const SizeField>& s
 
 PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
   const SizeSpec& spec = c.size;
-  p.size = make_size(spec, [&]() -> std::shared_ptr<const SizeField> {
-    throw InputError(
-        (spec.where.empty() ? c.where : spec.where) +
-        ": curves have no edge lengths of their own: expected a size (a number or an expression)");
+  p.size = make_size(spec, [&] {
+    return largest_size(
+        c, "curves have no edge lengths of their own: expected a size (a number or an expression)");
   });
   check_count_early(c, p.size);
   PlanarDomain domain = mesh_model(c, p.size);
@@ -186,8 +191,12 @@ namespace {
 
 PreparedCase prepare_surface_case(const Case& c, SurfaceModel model, const Stopwatch& reading) {
   const double read_seconds = reading.seconds();
-  const auto size = make_size(c.size, [&]() -> std::shared_ptr<const SizeField> {
-    throw InputError(c.where + ": a surface needs a size (a number or an expression)");
+  const auto size = make_size(c.size, [&] {
+    return largest_size(c, c.size.base.empty()
+                               ? "a surface needs a size (a number or an expression)"
+                               : "'boundary' extends the lengths of a planar boundary that is "
+                                 "kept; a surface's curves are meshed anew: expected a size (a "
+                                 "number or an expression)");
   });
   PreparedCase p = prepare_surface(c, std::move(model), size, [&](double quads) { check_count(quads, c); });
   p.seconds.insert(p.seconds.begin(), {"read", read_seconds});
@@ -212,6 +221,9 @@ PreparedCase prepare_case(const Case& c) {
     throw InputError(
         c.surface.where +
         ": the model is planar: compounds, feature angles, welding and mirrors are for surfaces");
+  if (c.size.curvature > 0)
+    throw InputError((c.size.where.empty() ? c.where : c.size.where) +
+                     ": sizes by curvature are for surfaces, and this is a planar domain");
   const Stopwatch watch;
   PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, mesh, surfaces, p);
   p.expected_quads = expected_quads(*p.background, *p.size);

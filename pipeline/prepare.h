@@ -28,6 +28,7 @@ struct PreparedSurface {
   SurfaceModel model;
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
+  std::shared_ptr<const SurfaceSize> size;
 };
 
 /// The maps of all patches.

@@ -23,12 +23,14 @@ const std::set<std::string> kCadFiles = {".step", ".stp", ".brep"};
 const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off"};
 
 /// Integral of dA/delta^2 over the fine triangles, by their centroids.
-double expected_quads(const Mesh& fine, const SizeField& size) {
+double expected_quads(const Mesh& fine, const SurfaceSize& size) {
+  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   double sum = 0;
   int hint = -1;
-  for (const auto& [a, b, c] : fine.triangles) {
+  for (const auto& triangle : fine.triangles) {
+    const auto& [a, b, c] = triangle;
     const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
-    const double delta = size.at((1.0 / 3) * (p + q + r), hint);
+    const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
     sum += norm(cross(q - p, r - p)) / 2 / (delta * delta);
   }
   return sum;
@@ -78,6 +80,19 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   throw InputError(model.source + ": no face can be meshed");
 }
 
+WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model,
+                       std::shared_ptr<const SizeField> base) {
+  WantedSize wanted;
+  wanted.base = std::move(base);
+  wanted.gradation = spec.gradation;
+  if (!(spec.curvature > 0)) return wanted;
+  wanted.curvature = std::make_shared<ModelCurvature>(model);
+  wanted.per_turn = spec.curvature;
+  wanted.min = spec.min;
+  if (!(wanted.gradation > 0)) wanted.gradation = kCurvatureGradation;
+  return wanted;
+}
+
 }  // namespace
 
 bool is_surface_file(const std::filesystem::path& path) {
@@ -114,11 +129,14 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
     throw InputError(c.cross.where +
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
   PreparedCase p;
-  p.size = std::move(size);
+  check_count(expected_quads(model.fine, SurfaceSize(size)));
+  const Stopwatch sizes;
+  const WantedSize wanted = wanted_size(c.size, model, std::move(size));
+  const double size_seconds = sizes.work_seconds();
+
   const Stopwatch maps;
-  p.expected_quads = expected_quads(model.fine, *p.size);
-  check_count(p.expected_quads);
   improve_triangulation(model);
+  refine_for_size(model, wanted);
   Flattening flattening = flatten(model);
   Failures failures(c);
   add_unflattened(flattening, model, failures);
@@ -127,7 +145,11 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   const Stopwatch curves;
   auto surface = std::make_shared<PreparedSurface>();
   surface->cuts = flattening.cuts;
-  surface->domain = mesh_curves_of(model, std::move(flattening), *p.size, failures);
+  surface->size = std::make_shared<SurfaceSize>(model, wanted);
+  p.size = surface->size;
+  p.expected_quads = expected_quads(model.fine, *surface->size);
+  check_count(p.expected_quads);
+  surface->domain = mesh_curves_of(model, std::move(flattening), *surface->size, failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;
@@ -146,12 +168,12 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
         const SurfacePatch& patch = patches[i];
         p.patches[i] = {
             patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
-            std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *p.size),
+            std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),
             [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }};
       },
       [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
   if (size_aware) make_crosses_size_aware(p);
-  p.seconds.emplace_back("fields", fields.work_seconds());
+  p.seconds.emplace_back("fields", size_seconds + fields.work_seconds());
   return p;
 }
 

@@ -34,7 +34,9 @@ Json size_json(const SizeSpec& size) {
                                {"far", s.size_far},
                                {"radius_near", s.radius_near},
                                {"radius_far", s.radius_far}});
-  json["gradation"] = size.gradation > 0 ? Json(size.gradation) : Json();
+  const double given[] = {size.gradation, size.curvature, size.min, size.max};
+  const char* keys[] = {"gradation", "curvature", "min", "max"};
+  for (int k = 0; k < 4; ++k) json[keys[k]] = given[k] > 0 ? Json(given[k]) : Json();
   return json;
 }
 

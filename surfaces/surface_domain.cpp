@@ -244,7 +244,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   return DomainBuilder(model, std::move(flattening), size, solver).build();
 }
 
-SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SizeField& size)
+SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size)
     : patch_(patch), fine_(fine), size_(size) {
   const TriPatch& flat = patch.map.flat;
   std::vector<double> flat_area(flat.points.size(), 0), area(flat.points.size(), 0);
@@ -263,14 +263,16 @@ SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, 
 double SurfacePatchSize::at(Vec2 u, int& hint) const {
   const auto [t, b] = patch_.background->locate(u, hint);
   const auto& v = patch_.map.flat.triangles[t];
+  std::array<int, 3> nodes;
   Vec3 x;
   double stretch = 0;
   for (int k = 0; k < 3; ++k) {
-    x = x + b[k] * fine_.points[patch_.map.fine_node[v[k]]];
+    nodes[k] = patch_.map.fine_node[v[k]];
+    x = x + b[k] * fine_.points[nodes[k]];
     stretch += b[k] * stretch_[v[k]];
   }
   int size_hint = -1;
-  return stretch * size_.at(x, size_hint);
+  return stretch * size_.on_fine(nodes, b, x, size_hint);
 }
 
 Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint) {

@@ -10,6 +10,7 @@
 #include "geometry/surface/surface_model.h"
 #include "mesh/patch.h"
 #include "surfaces/face_corners.h"
+#include "surfaces/surface_size.h"
 
 namespace delquad {
 
@@ -42,13 +43,13 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
 /// it is continuous.
 class SurfacePatchSize final : public ParametricSize {
  public:
-  SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SizeField& size);
+  SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size);
   double at(Vec2 u, int& hint) const override;
 
  private:
   const SurfacePatch& patch_;
   const Mesh& fine_;
-  const SizeField& size_;
+  const SurfaceSize& size_;
   std::vector<double> stretch_;  ///< of each vertex of the map
 };
 

@@ -48,10 +48,9 @@ class CompoundProjector final : public SurfaceProjector {
     }
   }
 
-  Vec3 to_face(int face, const Vec3& x) const override {
-    const Members& members = members_[face];
-    if (members.only >= 0) return base_->to_face(members.only, x);
-    return base_->to_face(members.of_triangle[members.triangles->find(x).triangle], x);
+  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(member_at(face, x), x); }
+  double face_curvature(int face, const Vec3& x) const override {
+    return base_->face_curvature(member_at(face, x), x);
   }
   Vec3 to_curve(int curve, const Vec3& x) const override {
     const std::vector<int>& members = curves_[curve];
@@ -69,6 +68,11 @@ class CompoundProjector final : public SurfaceProjector {
     std::optional<NearestTriangle> triangles;
     std::vector<int> of_triangle;  ///< the face of each
   };
+
+  int member_at(int face, const Vec3& x) const {
+    const Members& members = members_[face];
+    return members.only >= 0 ? members.only : members.of_triangle[members.triangles->find(x).triangle];
+  }
 
   std::shared_ptr<const SurfaceProjector> base_;
   std::vector<Members> members_;  // of each face

@@ -32,6 +32,13 @@ class Improver {
     find_curved_faces();
   }
 
+  /// Follows a rule instead of the options' lengths.
+  void refine(RefinementRule& rule) {
+    rule_ = &rule;
+    split_all();
+    editor_.finish();
+  }
+
   void run() {
     std::set<Edge> all;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
@@ -126,13 +133,20 @@ class Improver {
   /// Longest first; ties by nodes.
   using Candidate = std::tuple<double, int, int>;
 
+  bool is_too_large(int t, double longest) const {
+    if (rule_ == nullptr) return curved_[mesh_.triangle_region[t]] && longest > target_[t];
+    const auto& v = mesh_.triangles[t];
+    std::array<bool, 3> is_line;
+    for (int k = 0; k < 3; ++k) is_line[k] = editor_.line_on(v[(k + 1) % 3], v[(k + 2) % 3]) >= 0;
+    return rule_->is_too_large(mesh_.triangle_region[t], v, is_line);
+  }
+
   void consider(int t) {
-    if (!curved_[mesh_.triangle_region[t]]) return;
     Edge longest = side(t, 0);
     for (int k = 1; k < 3; ++k)
       if (length(side(t, k)) > length(longest)) longest = side(t, k);
     const double l = length(longest);
-    if (l > target_[t]) candidates_.push({l, longest.first, longest.second});
+    if (is_too_large(t, l)) candidates_.push({l, longest.first, longest.second});
   }
 
   // How long the sides of each triangle may be. Halves keep it: needles around a pole would be needles at any
@@ -154,8 +168,12 @@ class Improver {
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);
       if (on_edge.empty()) continue;  // split or turned already
-      for (int t : on_edge) target_.push_back(target_[t]);
+      if (rule_ == nullptr)
+        for (int t : on_edge) target_.push_back(target_[t]);
+      const int face = mesh_.triangle_region[on_edge[0]];
+      const bool on_line = editor_.line_on(a, b) >= 0;
       const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
+      if (rule_ != nullptr) rule_->node_added(node, a, b, face, on_line);
       flipped_.clear();
       std::set<Edge> around;
       for (int t : editor_.triangles_at(node))
@@ -180,6 +198,7 @@ class Improver {
   SurfaceEditor editor_;
   const ImproveOptions& options_;
   double diagonal_;
+  RefinementRule* rule_ = nullptr;
   std::vector<char> curved_;    ///< of each face
   std::vector<double> target_;  ///< of each triangle
   std::vector<int> flipped_;    ///< triangles, since the last split
@@ -190,6 +209,11 @@ class Improver {
 
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options) {
   Improver(model, options).run();
+}
+
+void refine_triangulation(SurfaceModel& model, RefinementRule& rule) {
+  const ImproveOptions none;
+  Improver(model, none).refine(rule);
 }
 
 }  // namespace delquad

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {
@@ -18,5 +20,21 @@ struct ImproveOptions {
 /// that does not bend the surface, long sides of curved faces are split and new points moved to the true
 /// surface. Lines keep following their curves. Plane faces are only divided along with their neighbours.
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = {});
+
+/// Tells refine_triangulation() where to refine. Nodes are indices into fine.points.
+class RefinementRule {
+ public:
+  virtual ~RefinementRule() = default;
+  /// Is the triangle to be split? `is_line[k]`: the side opposite to nodes[k] is a line. Must be false for
+  /// triangles that are small enough in some sense, or refinement does not end.
+  virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
+                            const std::array<bool, 3>& is_line) const = 0;
+  /// A node was put on the middle of the side a-b, of a triangle of the face.
+  virtual void node_added(int node, int a, int b, int face, bool on_line) = 0;
+};
+
+/// Splits the longest sides of triangles that are too large until none is, with the same care as
+/// improve_triangulation().
+void refine_triangulation(SurfaceModel& model, RefinementRule& rule);
 
 }  // namespace delquad

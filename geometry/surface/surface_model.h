@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@ class SurfaceProjector {
   virtual Vec3 to_face(int face, const Vec3& x) const = 0;
   /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
+  /// The largest curvature (1 / length, >= 0) of a face in any direction near x, a point next to it; NaN
+  /// where it is not known: at singular points of the parametrisation. Safe to call from several threads.
+  virtual double face_curvature([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 /// A model made of faces that share curves, as a fine conforming triangulation.

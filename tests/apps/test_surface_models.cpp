@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -122,6 +125,91 @@ TEST(SurfaceModels, TheReportIsPrintedAndRecorded) {
   for (const char* part :
        {"\"nonconforming_edges\": 0", "\"worst_face\": 1", "\"mesh_to_surface\"", "\"by_patch\""})
     EXPECT_TRUE(contains(record.str(), part)) << part;
+}
+
+/// A sphere of radius 1 as an octahedron split a few times.
+std::string sphere_off(int n) {
+  std::string points, faces;
+  int n_points = 0, n_faces = 0;
+  for (int octant = 0; octant < 8; ++octant) {
+    const auto node = [&](int i, int j) {
+      double x = i, y = j, z = n - i - j;
+      const double r = std::sqrt(x * x + y * y + z * z);
+      x *= (octant & 1 ? -1 : 1) / r, y *= (octant & 2 ? -1 : 1) / r, z *= (octant & 4 ? -1 : 1) / r;
+      points += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+      return n_points++;
+    };
+    const bool turned = std::popcount(static_cast<unsigned>(octant)) % 2 == 1;
+    const auto add = [&](int a, int b, int c) {
+      if (turned) std::swap(b, c);
+      faces += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+      ++n_faces;
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        add(node(i, j), node(i + 1, j), node(i, j + 1));
+        if (i + j + 1 < n) add(node(i + 1, j), node(i + 1, j + 1), node(i, j + 1));
+      }
+  }
+  return "OFF\n" + std::to_string(n_points) + " " + std::to_string(n_faces) + " 0\n" + points + faces;
+}
+
+TEST(SurfaceModels, SizesFollowCurvature) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "ball.off") << sphere_off(8);
+  const auto quads = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", folder / "ball.off", "-o", folder / "ball.msh"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = delquad(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return static_cast<double>(read_msh(folder / "ball.msh").quads.size());
+  };
+  // Area 4 pi over the square of a turn's part.
+  const double exact = 4 * 3.14159 / std::pow(2 * 3.14159 / 24, 2);
+  EXPECT_NEAR(quads({"--size", "1", "--curvature", "24"}), exact, 0.25 * exact);
+  EXPECT_NEAR(quads({"--size-max", "1", "--curvature", "24", "--size-min", "0.5"}), 4 * 3.14159 / 0.25, 20);
+  EXPECT_GT(quads({"--size", "0.1 + 0.4*abs(z)", "--gradation", "0.2"}),
+            quads({"--size", "0.1 + 0.4*abs(z)"}));
+}
+
+TEST(SurfaceModels, SourcesHaveThreeCoordinates) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "ball.off") << sphere_off(8);
+  const auto quads_near =
+      [&](const std::string& at, double z) {
+        std::ofstream(folder / "e.toml")
+            << "pipelines = [\"DB\"]\n[[case]]\nname = \"ball\"\nmodel = \"ball.off\"\nsize = { base = 0.3, "
+               "source = [{ at = "
+            << at << ", near = 0.05, far = 0.3, radius_near = 0.2, radius_far = 0.6 }], gradation = 0.5 }\n";
+        const auto run = delquad({"run", folder / "e.toml", "-o", folder / "out"});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        const Mesh mesh = read_msh(folder / "out/ball/DB/mesh.msh");
+        return std::ranges::count_if(mesh.points, [&](const Vec3& p) { return std::abs(p.z - z) < 0.1; });
+      };
+  EXPECT_GT(quads_near("[0, 0, 1]", 1), 5 * quads_near("[0, 0, -1]", 1));
+}
+
+TEST(SurfaceModels, SizesThatMeanNothingAreRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "cube.off") << kCube;
+  std::ofstream(folder / "square.toml") << kSquare;
+  const auto refused = [&](const std::string& model, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", folder / model, "-o", folder / "x.msh"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = delquad(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.msh"));
+    return run.err;
+  };
+  EXPECT_TRUE(contains(refused("cube.off", {"--size", "boundary"}), "'boundary'"));
+  EXPECT_TRUE(contains(refused("cube.off", {"--curvature", "24"}), "needs a size"));
+  EXPECT_TRUE(contains(refused("cube.off", {"--size", "1", "--size-min", "0.1"}), "'curvature'"));
+  EXPECT_TRUE(
+      contains(refused("cube.off", {"--size-max", "1", "--curvature", "9", "--size-min", "2"}), "larger"));
+  refused("cube.off", {"--size", "1", "--curvature", "2"});
+  refused("cube.off", {"--size", "1", "--gradation", "0"});
+  refused("cube.off", {"--size", "1", "--size-max", "nan"});
+  EXPECT_TRUE(contains(refused("square.toml", {"--size", "0.2", "--curvature", "24"}), "planar"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -9,9 +11,12 @@
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <thread>
 
@@ -148,6 +153,42 @@ TEST(ShapeProjector, GivesTheSameFromSeveralThreads) {
   for (auto& to : together) threads.emplace_back([&] { project(to); });
   for (std::thread& thread : threads) thread.join();
   for (const auto& to : together) EXPECT_EQ(to, alone);
+}
+
+/// Asks for the curvature at the centre of every triangle, over what it should be there.
+void expect_curvature(const SurfaceModel& model, const std::function<double(const Vec3&)>& exact) {
+  for (std::size_t t = 0; t < model.fine.triangles.size(); ++t) {
+    const int face = model.fine.triangle_region[t];
+    const Vec3 x = model.projector->to_face(face, centre(model.fine, t));
+    EXPECT_NEAR(model.projector->face_curvature(face, x), exact(x), 1e-3 * std::max(exact(x), 0.01));
+  }
+}
+
+TEST(ShapeProjector, KnowsTheCurvatureOfElementarySurfaces) {
+  expect_curvature(read(BRepPrimAPI_MakeSphere(3)), [](const Vec3&) { return 1.0 / 3; });
+  expect_curvature(read(BRepPrimAPI_MakeTorus(5, 2)), [](const Vec3&) { return 1.0 / 2; });
+  // A cylinder of radius 2 between two planes.
+  expect_curvature(read(BRepPrimAPI_MakeCylinder(2, 5)), [](const Vec3& p) {
+    return std::abs(std::hypot(p.x, p.y) - 2) < 1e-6 && p.z > 1e-6 && p.z < 5 - 1e-6 ? 1.0 / 2 : 0;
+  });
+}
+
+TEST(ShapeProjector, KnowsTheCurvatureOfAFillet) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(4, 4, 4);
+  BRepFilletAPI_MakeFillet fillet(box);
+  fillet.Add(0.5, TopoDS::Edge(TopExp_Explorer(box, TopAbs_EDGE).Current()));
+  const SurfaceModel model = read(fillet.Shape());
+  double rounded = 0;
+  for (std::size_t t = 0; t < model.fine.triangles.size(); ++t) {
+    const auto& [a, b, c] = model.fine.triangles[t];
+    const auto& p = model.fine.points;
+    const double curvature =
+        model.projector->face_curvature(model.fine.triangle_region[t], centre(model.fine, t));
+    if (curvature < 1e-9) continue;
+    EXPECT_NEAR(curvature, 2, 1e-6);
+    rounded += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
+  }
+  EXPECT_NEAR(rounded, 4 * 0.5 * std::numbers::pi / 2, 0.02);
 }
 
 }  // namespace

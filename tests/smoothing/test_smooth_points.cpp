@@ -292,12 +292,12 @@ TEST(Smoothing, LloydForTwoIsTheCentroid) {
 TEST(Smoothing, WorksInTheParameterPlaneOfASurface) {
   SurfaceModel model = testing_support::bump(24, 0.4);
   improve_triangulation(model);
-  const auto size = make_constant_size(0.08);
+  const SurfaceSize size(make_constant_size(0.08));
   Flattening flattening = flatten(model);
-  const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), *size, *make_lemon_solver());
+  const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), size, *make_lemon_solver());
   for (const SurfacePatch& patch : domain.patches) {
     const HarmonicCrossField cross(patch.background);
-    const SurfacePatchSize delta(patch, model.fine, *size);
+    const SurfacePatchSize delta(patch, model.fine, size);
     const TriPatch before = frontal(patch.boundary, cross, delta);
     CvtProblem problem(MovingDelaunay(before), 4);
     problem.hold_frames(cross, delta);

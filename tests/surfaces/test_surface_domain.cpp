@@ -29,15 +29,15 @@ struct Meshed {
 
 Meshed mesh_surface(SurfaceModel model, double h) {
   improve_triangulation(model);
-  const auto size = make_constant_size(h);
+  const SurfaceSize size(make_constant_size(h));
   Flattening flattening = flatten(model);
   EXPECT_TRUE(flattening.failed.empty());
-  const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), *size, *make_lemon_solver());
+  const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), size, *make_lemon_solver());
   Mesh mesh = domain.boundary;
   for (const SurfacePatch& patch : domain.patches) {
     EXPECT_EQ(patch.boundary.edges.size() % 2, 0u);
     const HarmonicCrossField cross(patch.background);
-    const SurfacePatchSize delta(patch, model.fine, *size);
+    const SurfacePatchSize delta(patch, model.fine, size);
     const TriPatch tri = mesh_frontal(patch.boundary, *make_linf_delquad(), cross, delta);
     QuadPatch quads = treat_paper(recombine(tri, *make_lemon_solver()), delta);
     std::vector<Vec3> places;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/surface/surface_model.h"
+#include "mesh/nearest_triangle.h"
+
+namespace delquad {
+
+/// How strongly the faces and curves of a model are curved, wherever one asks. Make it from a model as it was
+/// read: sides that are split later lie in the plane of their triangles and would hide it.
+///
+/// The curvature of a CAD face is that of its surface; elsewhere it is estimated from the triangles: normals
+/// at points, the mean of the triangles around by their angles, smoothed against noise; the second
+/// fundamental form of each triangle from their differences [rusinkiewicz2004]; mean of the forms around a
+/// point. That of a curve is of the circle through neighbouring points.
+class ModelCurvature {
+ public:
+  explicit ModelCurvature(const SurfaceModel& model);
+
+  /// Largest curvature (1 / length) in any direction at the face's point nearest to x.
+  double of_face(int face, const Vec3& x) const;
+  /// The same of a curve that the model had when this was made.
+  double of_curve(int curve, const Vec3& x) const;
+
+ private:
+  /// Values at points, linear on triangles; lines count as triangles without area.
+  struct Sampled {
+    NearestTriangle triangles;
+    std::vector<double> values;
+    double at(const Vec3& x) const;
+  };
+  void estimate_faces(const Mesh& fine);
+  void measure_curves(const Mesh& fine);
+
+  std::shared_ptr<const SurfaceProjector> projector_;
+  std::vector<std::optional<Sampled>> faces_;  ///< empty where the projector knows; none: a plane face
+  std::vector<std::optional<Sampled>> curves_;
+};
+
+}  // namespace delquad
