@@ -136,6 +136,7 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_curves", "curves s", "curves"},
                                               {"seconds_fields", "fields s", "fields"},
                                               {"seconds_insertion", "insertion s", "insertion"},
+                                              {"seconds_smoothing", "smoothing s", "smoothing"},
                                               {"seconds_matching", "matching s", "matching"},
                                               {"seconds_treatment", "treatment s", "treatment"},
                                               {"seconds_projection", "projection s", "projection"},

@@ -65,7 +65,8 @@ TEST(SurfaceExperiments, FalconReachesThePublishedRow) {
   EXPECT_NEAR(values(table, "DB").at("n_quads") / kPublishedQuads, 1, 0.03);
   expect_published(table, "DB");
   for (const StepTime& time : step_times_of_tables())
-    EXPECT_GT(values(table, "DB").at(time.key), 0) << time.key;
+    EXPECT_EQ(values(table, "DB").contains(time.key), time.key != std::string("seconds_smoothing"))
+        << time.key;
 }
 
 }  // namespace
