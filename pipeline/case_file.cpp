@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 
 #include "cad/example_models.h"
 #include "pipeline/located.h"
@@ -27,6 +28,32 @@ double number_between(const TomlTable& table, const std::string& key, double lea
   if (!table.has(key) || (value > 0 && value >= least && value <= most)) return value;
   throw InputError(fmt::format("{}: '{}' is {}: expected {} {} and at most {}", table.where(key), key, value,
                                least > 0 ? "at least" : "above", least, most));
+}
+
+/// A whole number between `least` and `most`.
+long long integer_between(const TomlTable& table, const std::string& key, long long least, long long most,
+                          long long absent) {
+  if (!table.has(key)) return absent;
+  const long long value = table.integer(key);
+  if (value >= least && value <= most) return value;
+  throw InputError(
+      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, value, least, most));
+}
+
+void read_cleanup(const TomlTable& table, CleanupOptions& options) {
+  options.rounds = static_cast<int>(integer_between(table, "rounds", 0, 1'000'000, options.rounds));
+  options.tolerance = number_between(table, "tolerance", 0, 1, options.tolerance);
+  constexpr long long kMostSeed = std::numeric_limits<long long>::max();
+  options.seed = integer_between(table, "seed", 0, kMostSeed, options.seed);
+  table.finish();
+}
+
+void read_optimisation(const TomlTable& table, OptimisationOptions& options) {
+  options.passes = static_cast<int>(integer_between(table, "passes", 0, 1000, options.passes));
+  options.iterations = static_cast<int>(integer_between(table, "iterations", 1, 100'000, options.iterations));
+  options.size = number_at_least(table, "size", 0, options.size);
+  options.alignment = number_at_least(table, "alignment", 0, options.alignment);
+  table.finish();
 }
 
 SizeSource read_source(const TomlTable& table) {
@@ -221,6 +248,9 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (const auto smoothing = table.optional_table("smoothing")) read_smoothing(*smoothing, target.options);
   if (const auto merging = table.optional_table("recombination"))
     read_recombination(*merging, target.options);
+  if (const auto cleanup = table.optional_table("cleanup")) read_cleanup(*cleanup, target.options.cleanup);
+  if (const auto optimisation = table.optional_table("optimisation"))
+    read_optimisation(*optimisation, target.options.optimisation);
   if (const auto compare = table.optional_table("compare"))
     for (const std::string& word : compare->keys()) target.compare[word] = compare->text(word);
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/treatment.h"
 #include "smoothing/cvt/smooth_points.h"
+#include "smoothing/optimisation/quad_optimisation.h"
 
 namespace delquad {
 
@@ -18,6 +20,8 @@ struct MeshingOptions {
   TreatmentOptions treatment_options;
   SmoothingMethod smoothing = SmoothingMethod::kLpCvt;
   SmoothingOptions smoothing_options;
+  CleanupOptions cleanup;
+  OptimisationOptions optimisation;
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;  ///< leave faces out that cannot be meshed, instead of refusing the model
 

@@ -88,6 +88,13 @@ Json options_json(const Case& c) {
             {"gradient_tolerance", o.smoothing_options.inner.gradient_tolerance}}},
           {"treatment", o.treatment == Treatment::kPaper ? "paper" : "none"},
           {"max_rounds", o.treatment_options.max_rounds},
+          {"cleanup",
+           {{"rounds", o.cleanup.rounds}, {"tolerance", o.cleanup.tolerance}, {"seed", o.cleanup.seed}}},
+          {"optimisation",
+           {{"passes", o.optimisation.passes},
+            {"iterations", o.optimisation.iterations},
+            {"size", o.optimisation.size},
+            {"alignment", o.optimisation.alignment}}},
           {"max_elements", o.max_elements}};
 }
 
@@ -288,6 +295,31 @@ Json failures_json(const PreparedCase& p, const RunResult& result) {
   return json;
 }
 
+Json cleanup_json(const CleanupSummary& s) {
+  return {{"irregular_before", s.irregular_before},
+          {"irregular_after", s.irregular_after},
+          {"rotations", s.rotations},
+          {"diamonds", s.diamonds},
+          {"doublets", s.doublets},
+          {"splits", s.splits},
+          {"tried", s.tried},
+          {"annealed", s.annealed},
+          {"relocated", s.relocated},
+          {"seconds", s.seconds}};
+}
+
+Json optimisation_json(const OptimisationSummary& s) {
+  return {{"untangled", s.untangled},
+          {"held", s.held},
+          {"iterations", s.iterations},
+          {"evaluations", s.evaluations},
+          {"energy_before", s.energy_before},
+          {"energy_after", s.energy_after},
+          {"worst_before", s.worst_before},
+          {"worst_after", s.worst_after},
+          {"seconds", s.seconds}};
+}
+
 void add_origin(Json& json) {
   utsname machine = {};
   uname(&machine);
@@ -335,6 +367,8 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   json["bad_quads"] = bad_quads_json(prepared, result);
+  if (log.cleanup) json["cleanup"] = cleanup_json(*log.cleanup);
+  if (log.optimisation) json["optimisation"] = optimisation_json(*log.optimisation);
   auto seconds = prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
   json["threads"] = thread_count();

@@ -46,6 +46,33 @@ void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
   sum->seconds += s.seconds;
 }
 
+void add(std::optional<CleanupSummary>& sum, const CleanupSummary& s) {
+  if (!sum) sum.emplace();
+  sum->irregular_before += s.irregular_before;
+  sum->irregular_after += s.irregular_after;
+  sum->rotations += s.rotations;
+  sum->diamonds += s.diamonds;
+  sum->doublets += s.doublets;
+  sum->splits += s.splits;
+  sum->tried += s.tried;
+  sum->annealed += s.annealed;
+  sum->relocated += s.relocated;
+  sum->seconds += s.seconds;
+}
+
+void add(std::optional<OptimisationSummary>& sum, const OptimisationSummary& s) {
+  if (!sum) sum.emplace();
+  sum->untangled += s.untangled;
+  sum->held += s.held;
+  sum->iterations += s.iterations;
+  sum->evaluations += s.evaluations;
+  sum->energy_before += s.energy_before;
+  sum->energy_after += s.energy_after;
+  sum->worst_before = std::min(sum->worst_before, s.worst_before);
+  sum->worst_after = std::min(sum->worst_after, s.worst_after);
+  sum->seconds += s.seconds;
+}
+
 /// `mesh`: mesh_frontal or mesh_packing.
 void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
                    PatchMesh& patch, StageLog& log) {
@@ -86,6 +113,22 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log.add_seconds("treatment", treatment.seconds());
 }
 
+void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  CleanupSummary summary;
+  patch.quads = clean_up(patch.quads, in.size, in.options.cleanup, &summary);
+  add(log.cleanup, summary);
+  log.add_seconds("clean-up", watch.seconds());
+}
+
+void optimise_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  OptimisationSummary summary;
+  patch.quads = optimise_vertices(patch.quads, in.size, in.cross, in.options.optimisation, &summary);
+  add(log.optimisation, summary);
+  log.add_seconds("optimisation", watch.seconds());
+}
+
 std::string form_name(PatchForm form) {
   switch (form) {
     case PatchForm::kBoundary:
@@ -123,6 +166,8 @@ void StageLog::add(const StageLog& other) {
   smoothing.insert(smoothing.end(), other.smoothing.begin(), other.smoothing.end());
   if (other.recombination) delquad::add(recombination, *other.recombination);
   if (other.treatment) delquad::add(treatment, *other.treatment);
+  if (other.cleanup) delquad::add(cleanup, *other.cleanup);
+  if (other.optimisation) delquad::add(optimisation, *other.optimisation);
 }
 
 std::span<const Stage> stage_registry() {
@@ -141,6 +186,8 @@ std::span<const Stage> stage_registry() {
        }},
       {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+      {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
+      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads},
   };
   return stages;
 }

@@ -40,6 +40,8 @@ struct StageLog {
   std::vector<SmoothingSummary> smoothing;  ///< of each patch; after each other where a word smooths twice
   std::optional<RecombineSummary> recombination;
   std::optional<TreatmentSummary> treatment;
+  std::optional<CleanupSummary> cleanup;
+  std::optional<OptimisationSummary> optimisation;
   void add_seconds(const std::string& step, double s);
   /// Adds what was done on another patch.
   void add(const StageLog& other);

@@ -192,6 +192,7 @@ double QuadRelocation::step(int v) {
     if (!(after.cost < before.cost)) continue;
     // Whatever the sum gains.
     if (after.flat > (keep_convex_corners_ ? before.flat : before.flat > 0 ? after.flat : 0)) continue;
+    if (after.least_sine < std::min(before.least_sine, kept_sine_)) continue;
     if (before.flat > 0 && strays(at, at + move)) continue;
     mesh_.move(v, at + move);
     return norm(move) / before.shortest;

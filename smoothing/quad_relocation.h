@@ -30,6 +30,8 @@ class QuadRelocation {
   /// From now on no step may leave more corners around a vertex flat or reflex than there were. A convex star
   /// stays convex in any case; a raw mesh settles better where a tangle may wander.
   void keep_convex_corners() { keep_convex_corners_ = true; }
+  /// From now on no step takes the least sine of the corners around a vertex below both this and what it was.
+  void keep_sines_above(double sine) { kept_sine_ = sine; }
 
   /// Marks v for the next sweeps (no effect on boundary or dead vertices).
   void activate(int v);
@@ -85,6 +87,7 @@ class QuadRelocation {
   std::vector<int> queue_, visiting_;
   std::vector<Spoke> star_;
   bool keep_convex_corners_ = false;
+  double kept_sine_ = -1;
 };
 
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.

@@ -179,6 +179,29 @@ void QuadTopology::collapse(int h) {
   kill_element(element(h));
 }
 
+bool QuadTopology::can_split(int from, int to) const {
+  if (from == to || corner_[from] != corner_[to] || corner_[from] < 0) return false;
+  if (twin_[from] < 0 || twin_[to] < 0) return false;
+  int moving = 0;
+  for (int h = from; h != to; h = around(h), ++moving)
+    if (around(h) < 0) return false;
+  const int v = corner_[from];
+  return moving >= 2 && valence_[v] - moving >= (on_boundary(v) ? 1 : 2);
+}
+
+void QuadTopology::split(int from, int to) {
+  const int v = corner_[from], a = target(from), b = target(to), t_from = twin_[from], t_to = twin_[to];
+  const int opened = add_vertex(points_[v]), quad = add_element();
+  int moving = 0;
+  for (int h = from; h != to; h = around(h), ++moving) write(kCorner, h, opened);
+  write(kOut, opened, from);
+  write(kValence, opened, moving + 1);
+  add_to_valence(v, 1 - moving);
+  add_to_valence(a, 1);
+  add_to_valence(b, 1);
+  set_element(quad, {v, a, opened, b}, {t_from, from, t_to, to});
+}
+
 bool QuadTopology::can_remove_doublet(int v) const {
   if (on_boundary(v) || valence_[v] != 2) return false;
   const int h = out_[v], g = around(h);

@@ -77,6 +77,13 @@ class QuadTopology {
   /// Removes h's quad by merging its opposite corner (interior) into h's origin, which keeps its place.
   void collapse(int h);
 
+  /// Half-edges `from` and `to` leave one vertex, by interior edges, with at least two elements on either
+  /// side (one suffices on the side that holds a boundary).
+  bool can_split(int from, int to) const;
+  /// The inverse of collapse(): opens both edges to a new quad. The elements from `from`'s counterclockwise
+  /// to the one before `to`'s leave the vertex for a new one, the last slot, at the same place.
+  void split(int from, int to);
+
   bool can_remove_doublet(int v) const;
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);

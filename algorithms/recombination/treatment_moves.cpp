@@ -13,6 +13,26 @@ constexpr double kFlatAngle = 175 * std::numbers::pi / 180;
 /// Weight of a valence that forces a bad element, against single steps of valence.
 constexpr int kForcedBad = 12;
 
+/// Middle of the vertices that edges lead to from `from`'s origin, between `from` and `to` counterclockwise.
+Vec2 middle_between(const QuadTopology& mesh, int from, int to) {
+  Vec2 sum;
+  int n = 0;
+  for (int h = mesh.around(from); h != to; h = mesh.around(h), ++n) sum += mesh.point(mesh.target(h));
+  return (1.0 / n) * sum;
+}
+
+/// Splits; the new vertex and, if interior, the old one move a little into their own parts.
+void split_apart(QuadTopology& mesh, const TreatmentMove& move) {
+  constexpr double kPart = 0.25;
+  const int v = mesh.origin(move.at), opened = mesh.vertex_slots();
+  const Vec2 at = mesh.point(v), there = middle_between(mesh, move.at, move.to);
+  Vec2 here = at;
+  if (!mesh.on_boundary(v)) here = middle_between(mesh, move.to, move.at);
+  mesh.split(move.at, move.to);
+  mesh.move(opened, at + kPart * (there - at));
+  if (!mesh.on_boundary(v)) mesh.move(v, at + kPart * (here - at));
+}
+
 }  // namespace
 
 ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
@@ -32,8 +52,13 @@ ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
 }
 
 int ValenceEnergy::of(int v, int valence) const {
-  const bool boundary = mesh_.on_boundary(v);
-  const int off = valence - (boundary ? ideal_[v] : 4), least = boundary ? least_[v] : 3;
+  return mesh_.on_boundary(v) ? misfit(valence, ideal_[v], least_[v]) : interior(valence);
+}
+
+int ValenceEnergy::interior(int valence) { return misfit(valence, 4, 3); }
+
+int ValenceEnergy::misfit(int valence, int ideal, int least) {
+  const int off = valence - ideal;
   return off * off + (valence < least ? kForcedBad * (least - valence) : 0);
 }
 
@@ -45,6 +70,11 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
   }
   const int h = move.at;
   const int a = m.origin(h), b = m.target(h);
+  if (move.kind == TreatmentMove::kSplit) {
+    int moving = 0;
+    for (int g = h; g != move.to; g = m.around(g)) ++moving;
+    return change(a, 1 - moving) + change(b, 1) + change(m.target(move.to), 1) - interior(moving + 1);
+  }
   if (move.kind == TreatmentMove::kCollapse) {
     const int c = m.target(m.next(h)), d = m.origin(m.prev(h));
     return of(a) + of(c) - of(a, m.valence(a) + m.valence(c) - 2) + change(b, -1) + change(d, -1);
@@ -64,6 +94,8 @@ bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
       return mesh.can_remove_doublet(move.at);
     case TreatmentMove::kInset:
       return mesh.is_quad(QuadTopology::element(move.at));
+    case TreatmentMove::kSplit:
+      return mesh.can_split(move.at, move.to);
     default:
       return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
   }
@@ -83,6 +115,9 @@ void apply(QuadTopology& mesh, const TreatmentMove& move) {
       break;
     case TreatmentMove::kInset:
       mesh.pillow(std::array<int, 1>{QuadTopology::element(move.at)});
+      break;
+    case TreatmentMove::kSplit:
+      split_apart(mesh, move);
       break;
     default:
       mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);
@@ -107,6 +142,8 @@ TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move) 
       const int h = move.at;
       return {{mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))}, 4};
     }
+    case TreatmentMove::kSplit:
+      return {{mesh.origin(move.at), mesh.target(move.at), mesh.target(move.to)}, 3};
     default:
       return {mesh.hexagon(move.at), 6};
   }

@@ -7,11 +7,12 @@
 
 namespace delquad {
 
-/// One edit of the quad mesh that the treatment may choose.
+/// One edit of the quad mesh that the treatment or the clean-up may choose.
 struct TreatmentMove {
-  enum Kind : int { kRotateForward, kRotateBackward, kCollapse, kDoublet, kInset };
+  enum Kind : int { kRotateForward, kRotateBackward, kCollapse, kDoublet, kInset, kSplit };
   Kind kind;
-  int at;  ///< half-edge; for a doublet its vertex
+  int at;       ///< half-edge; for a doublet its vertex
+  int to = -1;  ///< second half-edge of a split
   friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
 };
 
@@ -36,6 +37,8 @@ class ValenceEnergy {
   int gain(const TreatmentMove& move) const;
 
  private:
+  static int interior(int valence);
+  static int misfit(int valence, int ideal, int least);
   int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
 
   const QuadTopology& mesh_;
@@ -66,6 +69,21 @@ void for_each_move(const QuadTopology& mesh, int element, F&& f) {
     const int opposite = mesh.next(mesh.next(h));
     const bool goes = !mesh.on_boundary(mesh.origin(opposite));
     if (goes && (mesh.on_boundary(v) || h < opposite)) f(TreatmentMove{TreatmentMove::kCollapse, h});
+  }
+}
+
+/// Calls f(move) for the splits of a vertex. Legality is not checked, except that both parts keep a valence
+/// of 3 at least. The treatment does not use them.
+template <class F>
+void for_each_split(const QuadTopology& mesh, int v, F&& f) {
+  if (mesh.valence(v) < 4) return;
+  for (int from = mesh.out(v), n = 0; n < mesh.valence(v) - 1; ++n, from = mesh.around(from)) {
+    int to = mesh.around(from);
+    for (int m = n + 2; m < mesh.valence(v); ++m) {
+      to = mesh.around(to);
+      const bool whole = !mesh.on_boundary(v) && n + mesh.valence(v) - m < 2;
+      if (!whole) f(TreatmentMove{TreatmentMove::kSplit, from, to});
+    }
   }
 }
 

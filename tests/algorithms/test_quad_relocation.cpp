@@ -118,5 +118,22 @@ TEST(QuadRelocation, LiftImprovesTheWorstAndEnds) {
   }
 }
 
+TEST(QuadRelocation, KeptSinesAreKept) {
+  const double kept = 0.6;
+  for (int seed = 0; seed < 10; ++seed) {
+    const QuadPatch mesh = testing_support::scrambled(testing_support::grid_patch(9, 9), seed, 12);
+    QuadTopology topology(mesh);
+    QuadRelocation relocation(topology, FunctionSize(1));
+    relocation.keep_sines_above(kept);
+    std::vector<double> before;
+    for (int e = 0; e < topology.element_slots(); ++e) before.push_back(least_sine(topology, e));
+    const double worst = *std::min_element(before.begin(), before.end());
+    relocation.activate_all();
+    EXPECT_GT(relocation.relax(0.01, 20), 0);
+    for (int e = 0; e < topology.element_slots(); ++e)
+      EXPECT_GE(least_sine(topology, e), std::min(worst, kept));
+  }
+}
+
 }  // namespace
 }  // namespace delquad

@@ -178,11 +178,45 @@ TEST(QuadTopology, PillowAroundSeveralQuads) {
   EXPECT_FALSE(QuadTopology(triangle).can_pillow(std::vector<int>{0}));
 }
 
+TEST(QuadTopology, SplitIsTheInverseOfCollapse) {
+  const QuadPatch grid = grid_patch(4, 4);
+  QuadTopology mesh(grid);
+  const int v = 20;  // the middle of the grid: neighbours 21 (right), 23 (above), 19 (left), 17 (below)
+  const int right = half_edge(mesh, v, 21), left = half_edge(mesh, v, 19);
+  ASSERT_TRUE(mesh.can_split(right, left));
+  const auto start = mesh.mark();
+  mesh.split(right, left);
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  const int opened = mesh.vertex_slots() - 1, quad = mesh.element_slots() - 1;
+  EXPECT_TRUE(mesh.adjacent(opened, 23) && !mesh.adjacent(v, 23)) << "what lies left of the first edge goes";
+  EXPECT_TRUE(mesh.adjacent(v, 17) && !mesh.adjacent(opened, 17));
+  for (const int w : {v, opened}) EXPECT_EQ(mesh.valence(w), 3);
+  for (const int w : {19, 21}) EXPECT_EQ(mesh.valence(w), 5);
+  const auto wrong = check_quad_patch(mesh.to_patch(), shapes::rectangle(4, 4, 4, 4), 1);
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  QuadTopology again(mesh.to_patch());
+  again.collapse(4 * quad);
+  EXPECT_EQ(canonical(again.to_patch().quads), canonical(grid.quads));
+  mesh.rollback(start);
+  expect_same(mesh.to_patch(), grid);
+}
+
+TEST(QuadTopology, NoSplitIntoADoubletOrAcrossTheOutside) {
+  const QuadTopology mesh(grid_patch(4, 4));
+  EXPECT_FALSE(mesh.can_split(half_edge(mesh, 20, 21), half_edge(mesh, 20, 21)));
+  EXPECT_FALSE(mesh.can_split(half_edge(mesh, 20, 21), half_edge(mesh, 20, 23))) << "one element between";
+  EXPECT_FALSE(mesh.can_split(half_edge(mesh, 20, 21), half_edge(mesh, 20, 17))) << "one element left";
+  EXPECT_FALSE(mesh.can_split(half_edge(mesh, 20, 21), half_edge(mesh, 19, 20))) << "other vertices";
+  const int inwards = mesh.around(mesh.out(2));
+  EXPECT_FALSE(mesh.can_split(mesh.out(2), inwards)) << "a side of the boundary";
+  EXPECT_FALSE(mesh.can_split(inwards, mesh.out(2)));
+}
+
 TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
   const PatchBoundary boundary = shapes::rectangle(6, 5, 6, 5);
   std::mt19937_64 random(7);
   QuadTopology mesh(grid_patch(6, 5));
-  int rotations = 0, collapses = 0, doublets = 0, insets = 0, rollbacks = 0;
+  int rotations = 0, collapses = 0, doublets = 0, insets = 0, splits = 0, rollbacks = 0;
   QuadPatch kept = mesh.to_patch();
   auto mark = mesh.mark();
   for (int step = 0; step < 4000; ++step) {
@@ -192,12 +226,19 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
     if (kind < 9 && mesh.can_rotate(h, kind % 2 == 0)) {
       mesh.rotate(h, kind % 2 == 0);
       ++rotations;
-    } else if (kind < 12 && mesh.can_collapse(h)) {
+    } else if (kind < 11 && mesh.can_collapse(h)) {
       mesh.collapse(h);
       ++collapses;
     } else if (kind == 13 && mesh.is_quad(QuadTopology::element(h)) && mesh.to_patch().quads.size() < 60) {
       mesh.pillow(std::array<int, 1>{QuadTopology::element(h)});
       ++insets;
+    } else if ((kind == 11 || kind == 12) && mesh.vertex_alive(v) && mesh.to_patch().quads.size() < 60) {
+      std::vector<int> spokes;
+      mesh.for_each_out(v, [&](int g) { spokes.push_back(g); });
+      const int from = spokes[random() % spokes.size()], to = spokes[random() % spokes.size()];
+      if (!mesh.can_split(from, to)) continue;
+      mesh.split(from, to);
+      ++splits;
     } else if (kind >= 14 && mesh.can_remove_doublet(v)) {
       mesh.remove_doublet(v);
       ++doublets;
@@ -219,7 +260,7 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
       kept = mesh.to_patch();
     }
   }
-  EXPECT_GT(std::min({rotations, collapses, doublets, insets, rollbacks}), 20);
+  EXPECT_GT(std::min({rotations, collapses, doublets, insets, splits, rollbacks}), 20);
 }
 
 }  // namespace

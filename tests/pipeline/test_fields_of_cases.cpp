@@ -127,6 +127,40 @@ TEST_F(Cases, OptionsReachTheStages) {
   EXPECT_FALSE(result.log.treatment);
 }
 
+TEST_F(Cases, CleanupOptionsReachTheStage) {
+  const std::string text = square_ + "size = 0.1\ncleanup = { rounds = 2, tolerance = 0.01, seed = 7 }\n";
+  const Case c = read(text);
+  EXPECT_EQ(c.options.cleanup.rounds, 2);
+  EXPECT_EQ(c.options.cleanup.tolerance, 0.01);
+  EXPECT_EQ(c.options.cleanup.seed, 7);
+  Progress progress;
+  const RunResult result = run_word(c, prepare_case(c), parse_word("FBC"), progress);
+  ASSERT_TRUE(result.log.cleanup);
+  EXPECT_LE(result.log.cleanup->irregular_after, result.log.cleanup->irregular_before);
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { rounds = -1 }\n"); }, {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { tolerance = 2 }\n"); },
+                     {"c.toml:3", "'tolerance'"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { sead = 2 }\n"); }, {"c.toml:3", "'seed'"});
+}
+
+TEST_F(Cases, OptimisationOptionsReachTheStage) {
+  const Case c = read(
+      square_ + "size = 0.1\noptimisation = { passes = 1, iterations = 3, size = 0, alignment = 0.5 }\n");
+  EXPECT_EQ(c.options.optimisation.passes, 1);
+  EXPECT_EQ(c.options.optimisation.iterations, 3);
+  EXPECT_EQ(c.options.optimisation.size, 0);
+  EXPECT_EQ(c.options.optimisation.alignment, 0.5);
+  Progress progress;
+  const RunResult result = run_word(c, prepare_case(c), parse_word("FBO"), progress);
+  ASSERT_TRUE(result.log.optimisation);
+  EXPECT_GT(result.log.optimisation->iterations, 0);
+  EXPECT_LT(result.log.optimisation->energy_after, result.log.optimisation->energy_before);
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { size = -1 }\n"); },
+                     {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { iterations = 0 }\n"); },
+                     {"c.toml:3", "'iterations'"});
+}
+
 TEST_F(Cases, MistakesAreLocated) {
   expect_input_error([&] { read(square_ + "size = { base = 1, sources = [] }"); }, {"c.toml:2", "'source'"});
   expect_input_error(

@@ -27,6 +27,13 @@ TEST(Words, SmoothingComesBetween) {
   expect_input_error([] { parse_word("DBL"); }, {"'L' starts from triangles", "leaves quads"});
 }
 
+TEST(Words, StagesOnQuadsFollowRecombination) {
+  EXPECT_EQ(parse_word("DBC").result, PatchForm::kQuads);
+  EXPECT_EQ(parse_word("FBCO").stages.size(), 4u);
+  EXPECT_EQ(parse_word("DBO").result, PatchForm::kQuads);
+  expect_input_error([] { parse_word("DC"); }, {"'C' starts from quads", "leaves triangles"});
+}
+
 TEST(Words, MistakesNameTheLetter) {
   expect_input_error([] { parse_word(""); }, {"F (", "D (", "B ("});
   expect_input_error([] { parse_word("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});

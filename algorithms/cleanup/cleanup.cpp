@@ -1,0 +1,242 @@
+#include "algorithms/cleanup/cleanup.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "algorithms/cleanup/cleanup_process.h"
+#include "algorithms/recombination/poorness.h"
+#include "smoothing/short_edges.h"
+
+namespace delquad {
+
+namespace {
+
+/// Sweeps of local relocation within which an edit must settle.
+constexpr int kTrialSweeps = 4;
+/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more.
+constexpr int kSettlingSweeps = 3;
+constexpr double kSettled = 0.03;
+/// How much of the mean quality around an edit that lowers the valence sum may cost.
+constexpr double kGreedyLoss = 0.02;
+/// Weight of the size deviation against eta: with 1 the annealing pays for regular vertices with tau.
+constexpr double kSizeWeight = 1.5;
+
+double eta_of_sine(double sine) { return 2 / std::numbers::pi * std::asin(std::clamp(sine, -1.0, 1.0)); }
+
+}  // namespace
+
+CleanupProcess::CleanupProcess(const QuadPatch& mesh, const ParametricSize& size,
+                               const CleanupOptions& options)
+    : mesh_(mesh),
+      energy_(mesh_),
+      relocation_(mesh_, size),
+      options_(options),
+      random_(static_cast<std::uint64_t>(options.seed)) {
+  lengthen_short_edges(mesh_, size);
+}
+
+void CleanupProcess::run() {
+  summary_.irregular_before = count_irregular();
+  relocation_.keep_convex_corners();
+  relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
+  relocation_.activate_all();
+  summary_.relocated += relocation_.relax(kSettled, 10);
+  greedy();
+  for (int v = 0; v < mesh_.vertex_slots(); ++v) list_irregular(v);
+  for (int left = options_.rounds - 1; left >= 0 && !work_.empty(); --left)
+    anneal(options_.tolerance * left / options_.rounds);
+  relocation_.activate_all();
+  summary_.relocated += relocation_.relax(0.01, 30);
+  summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
+  summary_.irregular_after = count_irregular();
+}
+
+int CleanupProcess::count_irregular() const {
+  int irregular = 0;
+  for (int v = 0; v < mesh_.vertex_slots(); ++v) irregular += mesh_.vertex_alive(v) && energy_.of(v) > 0;
+  return irregular;
+}
+
+/// Edits of the elements around v, splits of v and of its neighbours.
+template <class F>
+void CleanupProcess::for_each_edit_near(int v, F&& f) {
+  mesh_.for_each_out(v, [&](int h) { for_each_move(mesh_, QuadTopology::element(h), f); });
+  for_each_split(mesh_, v, f);
+  mesh_.for_each_out(v, [&](int h) { for_each_split(mesh_, mesh_.target(h), f); });
+}
+
+void CleanupProcess::consider(int v) {
+  for_each_edit_near(v, [&](const TreatmentMove& move) {
+    const int gain = energy_.gain(move);
+    if (gain > 0 && is_legal(mesh_, move)) queue_.push({gain, move});
+  });
+}
+
+void CleanupProcess::greedy() {
+  for (int v = 0; v < mesh_.vertex_slots(); ++v)
+    if (mesh_.vertex_alive(v) && energy_.of(v) > 0) consider(v);
+  drain();
+}
+
+void CleanupProcess::drain() {
+  Candidate last{0, {}};
+  while (!queue_.empty()) {
+    const Candidate candidate = queue_.top();
+    queue_.pop();
+    // An edit is seen from several vertices.
+    if (candidate.gain == last.gain && candidate.move == last.move) continue;
+    last = candidate;
+    if (!is_legal(mesh_, candidate.move)) continue;
+    const int gain = energy_.gain(candidate.move);
+    if (gain <= 0) continue;
+    if (gain != candidate.gain)
+      queue_.push({gain, candidate.move});
+    else if (attempt(candidate.move, kGreedyLoss))
+      accept();
+  }
+}
+
+void CleanupProcess::list_irregular(int v) {
+  listed_.resize(mesh_.vertex_slots(), 0);
+  if (listed_[v] || !mesh_.vertex_alive(v) || energy_.of(v) == 0) return;
+  listed_[v] = 1;
+  work_.push_back(v);
+}
+
+void CleanupProcess::anneal(double tolerance) {
+  visiting_.swap(work_);
+  work_.clear();
+  for (const int v : visiting_) listed_[v] = 0;
+  for (const int v : visiting_) {
+    if (!mesh_.vertex_alive(v) || energy_.of(v) == 0) continue;
+    TreatmentMove move{};
+    if (pick_neutral(v, move)) {
+      ++summary_.tried;
+      if (attempt(move, tolerance)) {
+        ++summary_.annealed;
+        accept();
+        drain();
+      }
+    }
+    list_irregular(v);
+  }
+}
+
+bool CleanupProcess::pick_neutral(int v, TreatmentMove& move) {
+  choices_.clear();
+  for_each_edit_near(v, [&](const TreatmentMove& edit) {
+    if (energy_.gain(edit) == 0 && is_legal(mesh_, edit)) choices_.push_back(edit);
+  });
+  if (choices_.empty()) return false;
+  move = choices_[random_() % choices_.size()];
+  return true;
+}
+
+bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
+  const TouchedVertices touched = touched_by(mesh_, move);
+  touched_.assign(touched.begin(), touched.end());
+  const Quality before = quality(touched_);
+  const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const auto start = mesh_.mark();
+  perform(move);
+  for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
+    for (const int v : touched_) relocation_.step(v);
+    const Quality after = quality(touched_);
+    if (after.least_sine >= least && after.mean >= before.mean - loss) {
+      count(move);
+      return true;
+    }
+  }
+  mesh_.rollback(start);
+  return false;
+}
+
+void CleanupProcess::perform(const TreatmentMove& move) {
+  const int first = mesh_.vertex_slots();
+  apply(mesh_, move);
+  if (first == mesh_.vertex_slots()) return;
+  relocation_.adopt_new_vertices(first);
+  for (int v = first; v < mesh_.vertex_slots(); ++v) touched_.push_back(v);
+}
+
+void CleanupProcess::accept() {
+  mesh_.commit();
+  for (const int v : touched_) {
+    if (!mesh_.vertex_alive(v)) continue;
+    consider(v);
+    list_irregular(v);
+    mesh_.for_each_out(v, [&](int h) {
+      const int e = QuadTopology::element(h);
+      for (int k = 0; k < 4; ++k)
+        if (const int w = mesh_.corner(e, k); w >= 0) relocation_.activate(w);
+    });
+  }
+  summary_.relocated += relocation_.relax(kSettled, kSettlingSweeps);
+}
+
+void CleanupProcess::count(const TreatmentMove& move) {
+  switch (move.kind) {
+    case TreatmentMove::kCollapse:
+      ++summary_.diamonds;
+      break;
+    case TreatmentMove::kDoublet:
+      ++summary_.doublets;
+      break;
+    case TreatmentMove::kSplit:
+      ++summary_.splits;
+      break;
+    default:
+      ++summary_.rotations;
+  }
+}
+
+double CleanupProcess::deviation(int element) const {
+  const int n = mesh_.is_quad(element) ? 4 : 3;
+  double sum = 0;
+  for (int h = 4 * element; h < 4 * element + n; ++h) {
+    const int a = mesh_.origin(h), b = mesh_.target(h);
+    const double l =
+        norm(mesh_.point(b) - mesh_.point(a)) / (0.5 * (relocation_.delta(a) + relocation_.delta(b)));
+    sum += 1 - std::min(l, 1 / l);
+  }
+  return sum / n;
+}
+
+CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
+  ++seen_;
+  seen_element_.resize(mesh_.element_slots(), 0);
+  Quality total;
+  int n = 0;
+  for (const int v : vertices) {
+    if (!mesh_.vertex_alive(v)) continue;
+    mesh_.for_each_out(v, [&](int h) {
+      const int e = QuadTopology::element(h);
+      if (seen_element_[e] == seen_) return;
+      seen_element_[e] = seen_;
+      const double sine = least_sine(mesh_, e);
+      total.least_sine = std::min(total.least_sine, sine);
+      total.mean += eta_of_sine(sine) - kSizeWeight * deviation(e);
+      ++n;
+    });
+  }
+  total.mean /= std::max(n, 1);
+  return total;
+}
+
+QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options,
+                   CleanupSummary* summary) {
+  const auto start = std::chrono::steady_clock::now();
+  CleanupProcess process(mesh, size, options);
+  process.run();
+  QuadPatch result = process.result();
+  if (summary != nullptr) {
+    *summary = process.summary();
+    summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <queue>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/recombination/treatment_moves.h"
+#include "smoothing/quad_relocation.h"
+
+namespace delquad {
+
+/// The state and the steps of one clean-up; clean_up() is its public face.
+class CleanupProcess {
+ public:
+  CleanupProcess(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options);
+
+  void run();
+  QuadPatch result() const { return mesh_.to_patch(); }
+  const CleanupSummary& summary() const { return summary_; }
+
+ private:
+  struct Candidate {
+    int gain;
+    TreatmentMove move;
+    bool operator<(const Candidate& other) const {
+      return gain != other.gain ? gain < other.gain : other.move < move;
+    }
+  };
+  /// Of the elements around some vertices.
+  struct Quality {
+    double mean = 0;        ///< of eta - weighted size deviation
+    double least_sine = 1;  ///< of all corners
+  };
+
+  int count_irregular() const;
+  void greedy();
+  template <class F>
+  void for_each_edit_near(int v, F&& f);
+  void consider(int v);
+  void drain();
+  void anneal(double tolerance);
+  bool pick_neutral(int v, TreatmentMove& move);
+  /// Applies the move and relocates around; takes all back if the quality falls by more than `loss`.
+  bool attempt(const TreatmentMove& move, double loss);
+  void perform(const TreatmentMove& move);
+  void accept();
+  void count(const TreatmentMove& move);
+  Quality quality(std::span<const int> vertices);
+  double deviation(int element) const;
+  void list_irregular(int v);
+
+  QuadTopology mesh_;
+  ValenceEnergy energy_;
+  QuadRelocation relocation_;
+  CleanupOptions options_;
+  std::mt19937_64 random_;
+  std::priority_queue<Candidate> queue_;  ///< edits that lower the sum, the largest gain first
+  std::vector<int> visiting_, work_;      ///< irregular vertices of this round and of the next
+  std::vector<char> listed_;              ///< by vertex: in work_
+  std::vector<int> touched_;              ///< vertices of the edit on trial
+  std::vector<TreatmentMove> choices_;
+  std::vector<unsigned> seen_element_;  ///< against seen_
+  unsigned seen_ = 0;
+  CleanupSummary summary_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,190 @@
+#include "algorithms/cleanup/cleanup.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/insertion/point_placement.h"
+#include "algorithms/recombination/poorness.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/recombination/treatment.h"
+#include "algorithms/recombination/treatment_moves.h"
+#include "smoothing/quad_relocation.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/quad_patches.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::check_quad_patch;
+using testing_support::count_loops;
+using testing_support::FunctionCross;
+using testing_support::FunctionSize;
+using testing_support::grid_patch;
+using testing_support::scrambled;
+
+double worst(const QuadPatch& mesh) {
+  const QuadTopology topology(mesh);
+  double least = 1;
+  for (int e = 0; e < topology.element_slots(); ++e) least = std::min(least, least_sine(topology, e));
+  return least;
+}
+
+/// Sum of (valence - ideal)^2.
+int valence_energy(const QuadPatch& mesh) {
+  const QuadTopology topology(mesh);
+  const ValenceEnergy energy(topology);
+  int sum = 0;
+  for (int v = 0; v < topology.vertex_slots(); ++v)
+    if (topology.vertex_alive(v)) sum += energy.of(v);
+  return sum;
+}
+
+/// Cleans up and checks what must hold for any input.
+QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
+                  const CleanupOptions& options = {}, CleanupSummary* summary = nullptr) {
+  CleanupSummary own;
+  const QuadPatch result = clean_up(mesh, size, options, &own);
+  const auto wrong = check_quad_patch(result, boundary, 2 - count_loops(boundary));
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
+            own.splits - own.diamonds - own.doublets);
+  EXPECT_LE(valence_energy(result), valence_energy(mesh));
+  EXPECT_GE(worst(result), std::min(worst(mesh), sine_of_eta(kCleanupFloorEta)));
+  if (summary != nullptr) *summary = own;
+  return result;
+}
+
+QuadPatch treated(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                  const ParametricSize& size) {
+  const QuadPatch raw = recombine(mesh_frontal(boundary, placement, cross, size), *make_lemon_solver());
+  return treat_paper(raw, size);
+}
+
+TEST(Cleanup, RegularGridStays) {
+  const QuadPatch grid = grid_patch(7, 5);
+  CleanupSummary summary;
+  const QuadPatch result = cleaned(grid, shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
+  EXPECT_EQ(result.points, grid.points);
+  EXPECT_EQ(result.quads, grid.quads);
+  EXPECT_EQ(summary.irregular_before, 0);
+  EXPECT_EQ(summary.tried, 0);
+}
+
+TEST(Cleanup, SmallestMeshes) {
+  const QuadPatch one = cleaned(grid_patch(1, 1), shapes::rectangle(1, 1, 1, 1), FunctionSize(1));
+  EXPECT_EQ(one.quads.size(), 1u);
+  QuadPatch triangle;
+  triangle.points = shapes::disk(1, 3).points;
+  triangle.triangles = {{0, 1, 2}};
+  triangle.n_boundary = 3;
+  EXPECT_EQ(cleaned(triangle, shapes::disk(1, 3), FunctionSize(1)).triangles.size(), 1u);
+}
+
+TEST(Cleanup, ScrambledGridRecovers) {
+  for (int seed = 0; seed < 5; ++seed) {
+    const QuadPatch mesh = scrambled(grid_patch(16, 16), seed, 60);
+    ASSERT_LT(worst(mesh), 0.01);
+    const QuadPatch result = cleaned(mesh, shapes::rectangle(16, 16, 16, 16), FunctionSize(1));
+    EXPECT_GT(worst(result), sine_of_eta(0.3)) << "seed " << seed;
+    EXPECT_LT(valence_energy(result), valence_energy(mesh) / 4) << "seed " << seed;
+  }
+}
+
+TEST(Cleanup, DoubletGoes) {
+  QuadPatch doublet;
+  doublet.points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  doublet.quads = {{0, 1, 2, 4}, {0, 4, 2, 3}};
+  doublet.n_boundary = 4;
+  CleanupSummary summary;
+  const QuadPatch result =
+      cleaned(doublet, shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), FunctionSize(2), {}, &summary);
+  EXPECT_EQ(summary.doublets + summary.diamonds, 1);
+  EXPECT_EQ(result.quads.size(), 1u);
+}
+
+TEST(Cleanup, FlatBoundaryVertexGetsItsSecondQuad) {
+  QuadTopology topology(grid_patch(4, 4));
+  int h = -1;
+  topology.for_each_out(2, [&](int g) {
+    if (topology.twin(g) >= 0) h = g;
+  });
+  ASSERT_TRUE(topology.can_rotate(h, false));
+  topology.rotate(h, false);
+  const QuadPatch mesh = topology.to_patch();
+  ASSERT_EQ(topology.valence(2), 1);
+  ASSERT_LT(worst(mesh), 1e-12);
+  const QuadPatch result = cleaned(mesh, shapes::rectangle(4, 4, 4, 4), FunctionSize(1));
+  EXPECT_EQ(QuadTopology(result).valence(2), 2);
+  EXPECT_GT(worst(result), 0.9);
+}
+
+TEST(Cleanup, EdgeWithoutLengthIsOpened) {
+  QuadPatch mesh = grid_patch(6, 6);
+  mesh.points[mesh.n_boundary + 7] = mesh.points[mesh.n_boundary + 8] + Vec2{-1e-16, 0};
+  const QuadPatch result = clean_up(mesh, FunctionSize(1));
+  EXPECT_GT(worst(result), 0.9);
+}
+
+TEST(Cleanup, AnnealingFindsWhatGreedyCannot) {
+  const FunctionSize size([](Vec2 p) { return 0.04 * (1 + norm(p)); });
+  const FunctionCross cross(0.3);
+  int greedy = 0, annealed = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const QuadPatch mesh = treated(boundary, *make_linf_delquad(), cross, size);
+    greedy += valence_energy(cleaned(mesh, boundary, size, {.rounds = 0}));
+    annealed += valence_energy(cleaned(mesh, boundary, size));
+  }
+  EXPECT_LT(annealed, 0.95 * greedy);
+}
+
+TEST(Cleanup, RandomPolygonsWithHoles) {
+  const FunctionSize size(0.06);
+  const FunctionCross cross(0.3);
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
+    const QuadPatch mesh = treated(boundary, *placement, cross, size);
+    const QuadPatch result = cleaned(mesh, boundary, size);
+    EXPECT_GT(worst(result), 0);
+    const QuadPatch again = clean_up(mesh, size);
+    EXPECT_EQ(again.points, result.points);
+    EXPECT_EQ(again.quads, result.quads);
+  }
+}
+
+TEST(Cleanup, WorksOnWhatMatchingLeaves) {
+  const FunctionSize size(0.06);
+  for (int seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const TriPatch triangles = mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0.3), size);
+    cleaned(recombine(triangles, *make_lemon_solver()), boundary, size);
+  }
+}
+
+TEST(Cleanup, SeedsDiffer) {
+  const PatchBoundary boundary = shapes::random_polygon_with_holes(3, 0.06);
+  const FunctionSize size(0.05);
+  const QuadPatch mesh = treated(boundary, *make_l2_frontal(), FunctionCross(0.3), size);
+  const QuadPatch first = cleaned(mesh, boundary, size, {.seed = 1});
+  const QuadPatch second = cleaned(mesh, boundary, size, {.seed = 2});
+  EXPECT_NE(first.points, second.points);
+}
+
+TEST(Cleanup, OddBoundaryKeepsItsTriangle) {
+  const PatchBoundary boundary = shapes::disk(1, 31);
+  const FunctionSize size(0.2);
+  const QuadPatch mesh = treated(boundary, *make_linf_delquad(), FunctionCross(0), size);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_GT(worst(cleaned(mesh, boundary, size)), 0);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,115 @@
+#include "smoothing/optimisation/quad_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "smoothing/quad_relocation.h"
+#include "tests/support/quad_patches.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::grid_patch;
+using testing_support::jittered;
+
+std::vector<char> interior(const QuadPatch& mesh) {
+  std::vector<char> free(mesh.points.size(), 1);
+  std::fill_n(free.begin(), mesh.n_boundary, 0);
+  return free;
+}
+
+QuadEnergy energy_of(const QuadPatch& mesh, double delta, double theta, double least,
+                     const QuadEnergyWeights& weights) {
+  const std::size_t n = mesh.points.size();
+  return {
+      mesh,  interior(mesh), std::vector<double>(n, delta), std::vector<Cross>(n, Cross::from_angle(theta)),
+      least, weights};
+}
+
+TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
+  const double step = 1e-6;
+  for (int seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const QuadPatch mesh = jittered(grid_patch(5, 4), seed, 0.2);
+    // Each part by itself, and all; with the exponents of both kinds of passes.
+    const QuadEnergyWeights all[] = {{0.5, 0, 0, 0},   {4, 0, 0, 0},     {0.5, 0.7, 0, 0},
+                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {4, 0.4, 0.1, 0.1}};
+    for (const QuadEnergyWeights& weights : all) {
+      const QuadEnergy energy = energy_of(mesh, 0.8, 0.2, 0.05, weights);
+      std::vector<double> at(energy.variables()), gradient(at.size());
+      std::mt19937_64 random(seed);
+      for (double& x : at) x = 0.04 * (shapes::uniform(random) - 0.5);
+      double value = 0;
+      ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        std::vector<double> high = at, low = at;
+        high[i] += step, low[i] -= step;
+        double above = 0, below = 0;
+        ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
+        ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
+        const double difference = (above - below) / (2 * step);
+        EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
+      }
+    }
+  }
+}
+
+TEST(QuadEnergy, RegularGridIsAMinimum) {
+  const QuadPatch grid = grid_patch(5, 4);
+  const QuadEnergy energy = energy_of(grid, 1, 0, 0, {});
+  const std::vector<double> rest(energy.variables(), 0.0);
+  std::vector<double> gradient(rest.size());
+  double least = 0;
+  ASSERT_TRUE(energy.evaluate(rest.data(), least, gradient.data()));
+  for (const double g : gradient) EXPECT_NEAR(g, 0, 1e-12);
+  for (int seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<double> at(rest.size());
+    for (double& x : at) x = 0.1 * (shapes::uniform(random) - 0.5);
+    double value = 0;
+    ASSERT_TRUE(energy.evaluate(at.data(), value, nullptr));
+    EXPECT_GT(value, least);
+  }
+}
+
+TEST(QuadEnergy, InfiniteOnceACornerReachesTheLeastSine) {
+  const QuadPatch grid = grid_patch(2, 2);
+  const QuadEnergy energy = energy_of(grid, 1, 0, 0.5, {});
+  ASSERT_EQ(energy.variables(), 2);
+  // The middle goes right by x: the corners at the middles of bottom and top have the sine 1 / sqrt(1 + x^2),
+  // those at the middle itself the same; the length of the sides to the right does not change any.
+  for (const double x : {0.2, 0.5, 0.9}) {
+    const double at[] = {x, 0}, beyond[] = {-x, 0};
+    double value = 0, mirrored = 0;
+    EXPECT_TRUE(energy.evaluate(at, value, nullptr));
+    EXPECT_TRUE(energy.evaluate(beyond, mirrored, nullptr));
+    EXPECT_NEAR(value, mirrored, 1e-9);
+  }
+  const QuadEnergy strict = energy_of(grid, 1, 0, 0.8, {});
+  double value = 0;
+  const double limit = 0.75;  // 1 / sqrt(1 + 9/16) = 0.8
+  const double inside[] = {limit - 1e-6, 0}, outside[] = {limit + 1e-6, 0}, turned_over[] = {1.5, 0};
+  EXPECT_TRUE(strict.evaluate(inside, value, nullptr));
+  EXPECT_FALSE(strict.evaluate(outside, value, nullptr));
+  EXPECT_FALSE(energy.evaluate(turned_over, value, nullptr));
+}
+
+TEST(QuadEnergy, SizeAndCrossPull) {
+  const QuadPatch grid = grid_patch(4, 4);
+  const auto value = [&](double delta, double theta) {
+    double result = 0;
+    const std::vector<double> rest(18, 0.0);
+    EXPECT_TRUE(energy_of(grid, delta, theta, 0, {0, 2, 1, 1, 0}).evaluate(rest.data(), result, nullptr));
+    return result;
+  };
+  const int edges = 24;  // with an interior end
+  // At a factor of two every edge lacks a half; a cross at 45 degrees is as far off as can be.
+  EXPECT_NEAR(value(2, 0) - value(1, 0), edges * 0.5, 0.02 * edges);
+  EXPECT_NEAR(value(0.5, 0) - value(1, 0), edges * 0.5, 0.02 * edges);
+  EXPECT_NEAR(value(1, std::atan(1.0)) - value(1, 0), edges, 1e-9);
+}
+
+}  // namespace
+}  // namespace delquad

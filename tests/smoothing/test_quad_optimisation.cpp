@@ -1,0 +1,116 @@
+#include "smoothing/optimisation/quad_optimisation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "smoothing/quad_relocation.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/quad_patches.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::check_quad_patch;
+using testing_support::FunctionCross;
+using testing_support::FunctionSize;
+using testing_support::grid_patch;
+using testing_support::jittered;
+using testing_support::scrambled;
+
+const double kFloorSine = std::sin(kOptimisedFloorEta * std::numbers::pi / 2);
+
+double worst(const QuadPatch& mesh) {
+  const QuadTopology topology(mesh);
+  double least = 1;
+  for (int e = 0; e < topology.element_slots(); ++e) least = std::min(least, least_sine(topology, e));
+  return least;
+}
+
+TEST(QuadOptimisation, JitteredGridBecomesRegular) {
+  const QuadPatch grid = grid_patch(8, 7);
+  OptimisationSummary summary;
+  const QuadPatch result =
+      optimise_vertices(jittered(grid, 3, 0.3), FunctionSize(1), FunctionCross(0), {}, &summary);
+  for (std::size_t v = 0; v < grid.points.size(); ++v)
+    EXPECT_LT(norm(result.points[v] - grid.points[v]), 0.02);
+  EXPECT_EQ(result.quads, grid.quads);
+  EXPECT_LT(summary.energy_after, summary.energy_before);
+}
+
+TEST(QuadOptimisation, NeverWorseThanTheWorstBeforeNorTheFloor) {
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    QuadPatch mesh = jittered(scrambled(grid_patch(10, 9), seed, seed % 4), seed, 0.25);
+    QuadTopology topology(mesh);
+    const FunctionSize size([](Vec2 p) { return 0.5 + 0.1 * p.x; });
+    QuadRelocation relocation(topology, size);
+    relocation.keep_convex_corners();
+    relocation.activate_all();
+    relocation.relax(0.01, 20);
+    mesh = topology.to_patch();
+    const QuadPatch result = optimise_vertices(mesh, size, FunctionCross(0.1));
+    EXPECT_EQ(result.quads, mesh.quads);
+    const auto wrong = check_quad_patch(result, shapes::rectangle(10, 9, 10, 9), 1);
+    EXPECT_TRUE(wrong.empty()) << wrong.front();
+    EXPECT_GE(worst(result), std::min(worst(mesh), kFloorSine));
+    const QuadPatch again = optimise_vertices(mesh, size, FunctionCross(0.1));
+    EXPECT_EQ(again.points, result.points);
+  }
+}
+
+TEST(QuadOptimisation, UntanglesFirst) {
+  const QuadPatch mesh = jittered(grid_patch(8, 8), 5, 2);
+  ASSERT_LT(worst(mesh), -0.5);
+  OptimisationSummary summary;
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), {}, &summary);
+  EXPECT_GT(summary.untangled, 0);
+  EXPECT_EQ(summary.held, 0);
+  EXPECT_GT(worst(result), 0.99);
+}
+
+TEST(QuadOptimisation, WhatCannotBeUntangledIsHeld) {
+  // A vertex between two quads only, beside a grid that is fit to move.
+  QuadPatch mesh = jittered(grid_patch(6, 6), 1, 0.2);
+  QuadTopology topology(mesh);
+  int h = -1;
+  for (int e = 0; e < topology.element_slots() && h < 0; ++e)
+    for (int k = 0; k < 4 && h < 0; ++k)
+      if (!topology.on_boundary(topology.origin(4 * e + k)) &&
+          !topology.on_boundary(topology.target(4 * e + k)))
+        h = 4 * e + k;
+  for (int turn = 0; turn < 2; ++turn) {
+    ASSERT_TRUE(topology.can_rotate(h, true));
+    h = topology.rotate(h, true);
+  }
+  mesh = topology.to_patch();
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0));
+  EXPECT_GE(worst(result), std::min(worst(mesh), kFloorSine));
+  EXPECT_NE(result.points, mesh.points);
+}
+
+TEST(QuadOptimisation, WorstQuadIsLifted) {
+  // A sharp corner of the outline cannot be helped; a displaced vertex can.
+  QuadPatch mesh = grid_patch(6, 6);
+  mesh.points[mesh.n_boundary + 12] += Vec2{0.45, 0.4};
+  OptimisationSummary summary;
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), {}, &summary);
+  EXPECT_GT(summary.worst_after, summary.worst_before + 0.2);
+  EXPECT_NEAR(summary.worst_after, 2 / std::numbers::pi * std::asin(worst(result)), 1e-12);
+}
+
+TEST(QuadOptimisation, NothingToMove) {
+  const QuadPatch one = grid_patch(1, 1);
+  EXPECT_EQ(optimise_vertices(one, FunctionSize(1), FunctionCross(0)).points, one.points);
+  QuadPatch triangle;
+  triangle.points = shapes::disk(1, 3).points;
+  triangle.triangles = {{0, 1, 2}};
+  triangle.n_boundary = 3;
+  EXPECT_EQ(optimise_vertices(triangle, FunctionSize(1), FunctionCross(0)).triangles.size(), 1u);
+}
+
+}  // namespace
+}  // namespace delquad
