@@ -33,15 +33,6 @@ const std::vector<Vec2>& points_of(const PatchMesh& patch) {
   return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
 }
 
-/// The points inside a patch, in space.
-std::vector<Vec3> lift_inside(const PreparedPatch& patch, const std::vector<Vec2>& points) {
-  std::vector<Vec3> lifted;
-  int hint = -1;
-  for (std::size_t i = patch.boundary.points.size(); i < points.size(); ++i)
-    lifted.push_back(patch.lift(points[i], hint));
-  return lifted;
-}
-
 /// Mesh node of each point of a patch; nodes are made for the points inside.
 std::vector<int> add_points(const std::vector<Vec3>& inside, const PreparedPatch& patch, Mesh& mesh) {
   std::vector<int> node = patch.boundary.point_node;
@@ -81,7 +72,7 @@ void drop_stray_lines(Mesh& mesh) {
 std::string run_on_patch(const Stage& stage, const Case& c, const PreparedCase& prepared, std::size_t i,
                          PatchMesh& mesh, StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
-  const StageInput input{patch.boundary, *patch.cross, *patch.size, c.options};
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, c.options, prepared.surface != nullptr};
   if (!prepared.surface) {
     stage.run(input, mesh, log);
     return "";
@@ -178,8 +169,8 @@ constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
 
 /// On surfaces, quads may be worse in space than in the plane in which they were treated.
-void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patches,
-                    const std::vector<char>& left_out, StageLog& log) {
+void lift_bad_quads(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
+                    std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog& log) {
   if (prepared.background) return;  // a planar domain
   const Stopwatch watch;
   parallel_for(
@@ -187,8 +178,7 @@ void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patche
       [&](std::size_t i) {
         if (patches[i].form != PatchForm::kQuads || left_out[prepared.patches[i].region]) return;
         std::vector<Vec3> boundary;
-        for (const int node : prepared.patches[i].boundary.point_node)
-          boundary.push_back(prepared.boundary.points[node]);
+        for (const int node : prepared.patches[i].boundary.point_node) boundary.push_back(nodes[node]);
         patches[i].inside = lift_worst_in_space(patches[i].quads, boundary, prepared.patches[i].lift,
                                                 kPoorInSpace, kLiftSweeps);
       },
@@ -200,19 +190,20 @@ void lift_bad_quads(const PreparedCase& prepared, std::vector<PatchMesh>& patche
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
 
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches,
-              const std::vector<char>& left_out, StageLog* log) {
+Mesh assemble(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
+              const std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog* log) {
   const Stopwatch projection;
   std::vector<std::vector<Vec3>> inside(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         if (left_out[prepared.patches[i].region]) return;
-        inside[i] = patches[i].inside.empty() ? lift_inside(prepared.patches[i], points_of(patches[i]))
-                                              : patches[i].inside;
+        inside[i] =
+            patches[i].inside.empty() ? places_inside(prepared.patches[i], patches[i]) : patches[i].inside;
       },
       [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
   Mesh mesh = prepared.boundary;
+  mesh.points = nodes;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
     const int region = prepared.patches[i].region;
@@ -244,13 +235,16 @@ double rough_quads(const PatchBoundary& boundary) {
   return double_area / 2 / (edge * edge);
 }
 
-/// Takes every patch through one stage, but those that there are `reasons` to leave out.
+/// Takes every patch through one stage, but those that there are `reasons` to leave out. `nodes`: those on
+/// curves.
 void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
-               std::vector<PatchMesh>& patches, std::vector<std::string>& reasons, StageLog& log) {
+               std::vector<PatchMesh>& patches, std::vector<std::string>& reasons, SurfaceNodes& nodes,
+               StageLog& log) {
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
+        patches[i].inside.clear();
         if (reasons[i].empty()) reasons[i] = run_on_patch(stage, c, prepared, i, patches[i], logs[i]);
       },
       [&](std::size_t i) {
@@ -258,6 +252,10 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
                                                        : static_cast<double>(points_of(patches[i]).size());
       });
   for (const StageLog& one : logs) log.add(one);
+  if (!stage.finish || !prepared.surface) return;
+  std::vector<char> left_out;
+  for (const std::string& reason : reasons) left_out.push_back(!reason.empty());
+  stage.finish({prepared, c.options, patches, left_out, nodes}, log);
 }
 
 }  // namespace
@@ -266,18 +264,22 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
   const Stopwatch watch;
   std::vector<PatchMesh> patches(prepared.patches.size());
   std::vector<std::string> reasons(patches.size());  // to leave a face out
+  SurfaceNodes nodes;
+  if (prepared.surface) nodes = prepared.surface->domain.nodes;
+  nodes.points = prepared.boundary.points;
   RunResult result;
   for (const Stage* stage : word.stages) {
     progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
-    run_stage(*stage, c, prepared, patches, reasons, result.log);
+    run_stage(*stage, c, prepared, patches, reasons, nodes, result.log);
     if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
       throw InputError(
           fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
                       result.log.insertion->inserted, c.options.max_elements));
   }
   const std::vector<char> left_out = collect_failures(prepared, reasons, result);
-  if (c.options.treatment == Treatment::kPaper) lift_bad_quads(prepared, patches, left_out, result.log);
-  result.mesh = assemble(prepared, patches, left_out, &result.log);
+  if (c.options.treatment == Treatment::kPaper)
+    lift_bad_quads(prepared, nodes.points, patches, left_out, result.log);
+  result.mesh = assemble(prepared, nodes.points, patches, left_out, &result.log);
   patches.clear();
   result.seconds = watch.seconds();
   progress.step(fmt::format("{} {}: metrics", c.name, word.text));

@@ -32,10 +32,11 @@ int run_steps(const Word& word);
 /// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
 
-/// The patches as one mesh: boundary nodes stand once, the points inside each patch follow. Those of the
-/// faces that are `left_out` (by region), and what only they use, are missing. `log` receives the time of
-/// bringing the points back to space, as "projection".
-Mesh assemble(const PreparedCase& prepared, const std::vector<PatchMesh>& patches,
-              const std::vector<char>& left_out, StageLog* log = nullptr);
+/// The patches as one mesh: boundary nodes, which are at `nodes`, stand once, the points inside each patch
+/// follow. Those of the faces that are `left_out` (by region), and what only they use, are missing. `log`
+/// receives the time of bringing the points back to space, as "projection".
+Mesh assemble(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
+              const std::vector<PatchMesh>& patches, const std::vector<char>& left_out,
+              StageLog* log = nullptr);
 
 }  // namespace delquad

@@ -5,7 +5,9 @@
 
 #include "algorithms/insertion/packing.h"
 #include "mesh/error.h"
+#include "pipeline/prepare.h"
 #include "pipeline/stopwatch.h"
+#include "surfaces/surface_tracks.h"
 
 namespace delquad {
 namespace {
@@ -124,9 +126,33 @@ void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
 void optimise_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   OptimisationSummary summary;
-  patch.quads = optimise_vertices(patch.quads, in.size, in.cross, in.options.optimisation, &summary);
+  if (in.in_space)
+    summary.untangled = untangle_flat(patch.quads, in.size);
+  else
+    patch.quads = optimise_vertices(patch.quads, in.size, in.cross, in.options.optimisation, &summary);
   add(log.optimisation, summary);
   log.add_seconds("optimisation", watch.seconds());
+}
+
+/// Each patch is untangled in its plane; then all of them move in space, nodes along their curves.
+void optimise_surface(const PatchesInSpace& in, StageLog& log) {
+  const Stopwatch watch;
+  const PreparedSurface& surface = *in.prepared.surface;
+  std::vector<SurfaceTracks::Patch> patches;
+  for (std::size_t i = 0; i < in.patches.size(); ++i) {
+    if (in.left_out[i]) continue;
+    PatchMesh& patch = in.patches[i];
+    patch.inside = places_inside(in.prepared.patches[i], patch);
+    patches.push_back(
+        {&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &patch.quads, &patch.inside});
+  }
+  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(patches));
+  std::vector<Vec3> points = tracks.points();
+  OptimisationSummary summary = optimise_on_tracks(points, tracks.quads(), tracks, in.options.optimisation);
+  summary.seconds = watch.work_seconds();
+  tracks.store(points);
+  add(log.optimisation, summary);
+  log.add_seconds("optimisation", watch.work_seconds());
 }
 
 std::string form_name(PatchForm form) {
@@ -149,6 +175,16 @@ std::string known_letters() {
 }
 
 }  // namespace
+
+std::vector<Vec3> places_inside(const PreparedPatch& patch, const PatchMesh& mesh) {
+  const std::vector<Vec2>& points =
+      mesh.form == PatchForm::kTriangles ? mesh.triangles.points : mesh.quads.points;
+  std::vector<Vec3> lifted;
+  int hint = -1;
+  for (std::size_t i = patch.boundary.points.size(); i < points.size(); ++i)
+    lifted.push_back(patch.lift(points[i], hint));
+  return lifted;
+}
 
 void StageLog::add_seconds(const std::string& step, double s) {
   const auto at =
@@ -187,7 +223,7 @@ std::span<const Stage> stage_registry() {
       {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
-      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads},
+      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads, optimise_surface},
   };
   return stages;
 }

@@ -9,6 +9,7 @@
 
 #include "algorithms/recombination/recombine.h"
 #include "pipeline/options.h"
+#include "surfaces/curve_nodes.h"
 
 namespace delquad {
 
@@ -28,6 +29,7 @@ struct StageInput {
   const CrossField& cross;
   const ParametricSize& size;
   const MeshingOptions& options;
+  bool in_space;  ///< a patch of a surface; else the plane is what is meshed
 };
 
 /// What the stages did: on one patch, or summed over patches.
@@ -47,12 +49,29 @@ struct StageLog {
   void add(const StageLog& other);
 };
 
+struct PreparedCase;
+struct PreparedPatch;
+
+/// The places in space of the points inside a patch.
+std::vector<Vec3> places_inside(const PreparedPatch& patch, const PatchMesh& mesh);
+
+/// What a word has made of all patches of a surface so far.
+struct PatchesInSpace {
+  const PreparedCase& prepared;
+  const MeshingOptions& options;
+  std::vector<PatchMesh>& patches;
+  const std::vector<char>& left_out;  ///< by patch
+  SurfaceNodes& nodes;                ///< on curves
+};
+
 /// One letter of a pipeline word: takes a patch from one form to another.
 struct Stage {
   char letter;
   std::string name;
   PatchForm from, to;
   std::function<void(const StageInput&, PatchMesh&, StageLog&)> run;
+  /// On surfaces: what it then does to all patches together. May be empty.
+  std::function<void(const PatchesInSpace&, StageLog&)> finish = {};
 };
 
 /// Every stage. A new idea is a new entry here.

@@ -165,14 +165,15 @@ CurvePlaces equal_places(const std::vector<int>& counts) {
   return places;
 }
 
-namespace {
-
-Vec3 projected(const SurfaceModel& model, int curve, int cut_face, const Vec3& x) {
+Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
+                    double s) {
+  const size_t line = std::min(static_cast<size_t>(s), chain.points.size() - 2);
+  const Vec3 a = model.fine.points[chain.points[line]], b = model.fine.points[chain.points[line + 1]];
+  const Vec3 x = a + (s - static_cast<double>(line)) * (b - a);
   if (!model.projector) return x;
-  return cut_face >= 0 ? model.projector->to_face(cut_face, x) : model.projector->to_curve(curve, x);
+  const int face = cut_face[chain.curve];
+  return face >= 0 ? model.projector->to_face(face, x) : model.projector->to_curve(chain.curve, x);
 }
-
-}  // namespace
 
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
@@ -192,11 +193,8 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
     const size_t n = places[c].size() - 1;
     for (size_t k = 1; k < n; ++k) {
       const double s = integrals[c].s_at(places[c][k] / static_cast<double>(n));
-      const size_t line = std::min(static_cast<size_t>(s), points.size() - 2);
-      const Vec3 a = fine.points[points[line]], b = fine.points[points[line + 1]];
-      const Vec3 x = a + (s - static_cast<double>(line)) * (b - a);
       on_curve.push_back({s, static_cast<int>(nodes.points.size())});
-      nodes.points.push_back(projected(model, chains[c].curve, cut_face[chains[c].curve], x));
+      nodes.points.push_back(place_on_curve(model, chains[c], cut_face, s));
     }
     on_curve.push_back({static_cast<double>(points.size() - 1), end_node(points.back())});
   }

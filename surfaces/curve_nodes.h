@@ -73,4 +73,8 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places);
 
+/// The place in space of a node at `s`, as in CurveNode.
+Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
+                    double s);
+
 }  // namespace delquad

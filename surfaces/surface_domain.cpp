@@ -213,8 +213,12 @@ class DomainBuilder {
     }
     for (size_t p = 0; p < maps_.size(); ++p) {
       auto background = std::make_shared<BackgroundMesh>(maps_[p].flat);
-      domain.patches.push_back({std::move(maps_[p]), std::move(boundaries_[p]), std::move(background)});
+      domain.patches.push_back(
+          {std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]), std::move(background)});
     }
+    domain.chains = std::move(chains_);
+    domain.cut_face = std::move(cut_face_);
+    domain.nodes = std::move(nodes_);
     return domain;
   }
 

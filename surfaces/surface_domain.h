@@ -10,6 +10,7 @@
 #include "geometry/surface/surface_model.h"
 #include "mesh/patch.h"
 #include "surfaces/face_corners.h"
+#include "surfaces/patch_outline.h"
 #include "surfaces/surface_size.h"
 
 namespace delquad {
@@ -20,6 +21,7 @@ inline constexpr double kBadEta = 0.1;
 /// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
 struct SurfacePatch {
   FlatPatch map;
+  PatchOutline outline;
   PatchBoundary boundary;
   std::shared_ptr<const BackgroundMesh> background;  ///< the map's triangulation
 };
@@ -27,6 +29,9 @@ struct SurfacePatch {
 struct SurfaceDomain {
   Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
   std::vector<SurfacePatch> patches;
+  std::vector<CurveChain> chains;
+  std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
+  SurfaceNodes nodes;                      ///< those of `boundary`
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<std::string> warnings;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/optimisation/quad_corners.h"
+
 namespace delquad {
 
 namespace {
@@ -10,114 +12,152 @@ namespace {
 /// Where |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
 
+double power(double x, int n) {
+  double result = 1;
+  for (; n > 0; --n) result *= x;
+  return result;
+}
+
 }  // namespace
 
-QuadEnergy::QuadEnergy(const QuadPatch& mesh, const std::vector<char>& free, const std::vector<double>& delta,
-                       const std::vector<Cross>& cross, double least_sine, const QuadEnergyWeights& weights)
-    : weights_(weights), least_sine_(least_sine), start_(mesh.points) {
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (free[v]) free_.push_back(static_cast<int>(v)), scale_.push_back(delta[v]);
-  std::vector<std::array<int, 2>> sides;
-  for (const auto& quad : mesh.quads) {
-    if (std::none_of(quad.begin(), quad.end(), [&](int v) { return free[v]; })) continue;
+template <class Vec>
+QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights)
+    : weights_(weights),
+      start_(std::move(mesh.points)),
+      moving_(std::move(mesh.moving)),
+      at_(start_),
+      slope_(start_.size()) {
+  std::vector<char> moves(start_.size(), 0);
+  for (const auto& m : moving_) moves[m.vertex] = 1;
+  struct Side {
+    int a, b, quad, k;
+  };
+  std::vector<Side> sides;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const auto& v = mesh.quads[q];
+    if (std::none_of(v.begin(), v.end(), [&](int i) { return moves[i]; })) continue;
     unsigned movable = 0;
     for (int k = 0; k < 4; ++k)
-      if (free[quad[(k + 3) % 4]] || free[quad[k]] || free[quad[(k + 1) % 4]]) movable |= 1U << k;
-    quads_.push_back({quad, movable});
+      if (moves[v[(k + 3) % 4]] || moves[v[k]] || moves[v[(k + 1) % 4]]) movable |= 1U << k;
+    quads_.push_back({v, movable, quad_normal(start_[v[2]] - start_[v[0]], start_[v[3]] - start_[v[1]]),
+                      mesh.least_sine[q], mesh.weight[q]});
     for (int k = 0; k < 4; ++k) {
-      const int a = quad[k], b = quad[(k + 1) % 4];
-      if (free[a] || free[b]) sides.push_back({std::min(a, b), std::max(a, b)});
+      const int a = v[k], b = v[(k + 1) % 4];
+      if (moves[a] || moves[b]) sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(q), k});
     }
   }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  for (const auto& [a, b] : sides) {
-    const Cross mean = cross[a] + cross[b];
-    const double n = std::hypot(mean.c, mean.s);
-    const Cross unit = n > 0 ? Cross{mean.c / n, mean.s / n} : Cross{0, 0};
-    edges_.push_back({a, b, (delta[a] + delta[b]) / 2, unit});
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& s, const Side& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& [a, b, quad, k] = sides[i];
+    if (i > 0 && sides[i - 1].a == a && sides[i - 1].b == b) continue;
+    edges_.push_back({a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.arm(quad, k)});
   }
 }
 
-std::vector<Vec2> QuadEnergy::points(const double* displacement) const {
-  std::vector<Vec2> at = start_;
-  for (std::size_t i = 0; i < free_.size(); ++i)
-    at[free_[i]] += scale_[i] * Vec2{displacement[2 * i], displacement[2 * i + 1]};
+template <class Vec>
+void QuadEnergy<Vec>::place(const double* x, std::vector<Vec>& at) const {
+  for (const auto& [vertex, axes] : moving_) {
+    at[vertex] = start_[vertex] + (x[0] * axes[0] + x[1] * axes[1]);
+    x += 2;
+  }
+}
+
+template <class Vec>
+std::vector<Vec> QuadEnergy<Vec>::points(const double* x) const {
+  std::vector<Vec> at = start_;
+  place(x, at);
   return at;
 }
 
-bool QuadEnergy::evaluate(const double* displacement, double& energy, double* gradient) const {
-  const std::vector<Vec2> at = points(displacement);
-  std::vector<Vec2> slope;
-  if (gradient != nullptr) slope.resize(at.size());
-  std::vector<Vec2>* const target = gradient != nullptr ? &slope : nullptr;
+template <class Vec>
+bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient) const {
+  place(x, at_);
   energy = 0;
-  for (const Quad& quad : quads_)
-    if (!add_quad(quad, at, energy, target)) return false;
-  for (const Edge& edge : edges_) add_edge(edge, at, energy, target);
-  if (!std::isfinite(energy)) return false;
-  for (std::size_t i = 0; gradient != nullptr && i < free_.size(); ++i) {
-    gradient[2 * i] = scale_[i] * slope[free_[i]].x;
-    gradient[2 * i + 1] = scale_[i] * slope[free_[i]].y;
+  if (gradient == nullptr) return add_all<false>(energy);
+  std::fill(slope_.begin(), slope_.end(), Vec{});
+  if (!add_all<true>(energy)) return false;
+  for (const auto& [vertex, axes] : moving_) {
+    *gradient++ = dot(axes[0], slope_[vertex]);
+    *gradient++ = dot(axes[1], slope_[vertex]);
   }
   return true;
 }
 
-bool QuadEnergy::add_quad(const Quad& quad, const std::vector<Vec2>& at, double& energy,
-                          std::vector<Vec2>* slope) const {
+template <class Vec>
+template <bool kSlope>
+bool QuadEnergy<Vec>::add_all(double& energy) const {
+  for (const Quad& quad : quads_)
+    if (!add_quad<kSlope>(quad, energy)) return false;
+  for (const Edge& edge : edges_) add_edge<kSlope>(edge, energy);
+  return std::isfinite(energy);
+}
+
+template <class Vec>
+template <bool kSlope>
+bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
   const auto& v = quad.vertices;
-  Vec2 side[4];  // unit vectors
-  double inverse[4], sine[4];
+  Vec side[4];  // unit vectors
+  double inverse[4];
   for (int k = 0; k < 4; ++k) {
-    side[k] = at[v[(k + 1) % 4]] - at[v[k]];
+    side[k] = at_[v[(k + 1) % 4]] - at_[v[k]];
     inverse[k] = 1 / norm(side[k]);
     side[k] = inverse[k] * side[k];
   }
+  const QuadCorner<Vec> corner[4] = {{side[3], side[0], quad.normal},
+                                     {side[0], side[1], quad.normal},
+                                     {side[1], side[2], quad.normal},
+                                     {side[2], side[3], quad.normal}};
   double shape = kShapeKink * kShapeKink / 2, clearance = 1;
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
-    sine[k] = cross(side[(k + 3) % 4], side[k]);
-    if (!(sine[k] > least_sine_)) return false;
-    shape += 1 / sine[k] - 1;
-    clearance *= sine[k] - least_sine_;
+    if (!(corner[k].sine > quad.least_sine)) return false;
+    shape += 1 / corner[k].sine - 1;
+    clearance *= corner[k].sine - quad.least_sine;
   }
-  energy -= weights_.barrier * std::log(clearance);
-  const double good = std::sqrt(shape), bad = weights_.bad * std::pow(shape, weights_.bad_power);
+  if (weights_.barrier > 0) energy -= weights_.barrier * std::log(clearance);
+  const double good = quad.weight * std::sqrt(shape),
+               bad = quad.weight * weights_.bad * power(shape, weights_.bad_power);
   energy += good + bad;
-  if (slope == nullptr) return true;
+  if constexpr (!kSlope) return true;
   const double steep = (0.5 * good + weights_.bad_power * bad) / shape;
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
     const int before = (k + 3) % 4;
-    const double by_sine = -steep / (sine[k] * sine[k]) - weights_.barrier / (sine[k] - least_sine_);
+    const double sine = corner[k].sine;
+    const double by_sine = -steep / (sine * sine) - weights_.barrier / (sine - quad.least_sine);
     // The sine's derivative by the angle between both sides is their cosine.
     const double by_turn = by_sine * dot(side[before], side[k]);
-    const Vec2 first = by_turn * inverse[before] * perp(side[before]);
-    const Vec2 second = by_turn * inverse[k] * perp(side[k]);
-    (*slope)[v[k]] += -first - second;
-    (*slope)[v[before]] += first;
-    (*slope)[v[(k + 1) % 4]] += second;
+    const Vec first = by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
+    const Vec second = by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
+    slope_[v[k]] = slope_[v[k]] - first - second;
+    slope_[v[before]] = slope_[v[before]] + first;
+    slope_[v[(k + 1) % 4]] = slope_[v[(k + 1) % 4]] + second;
   }
   return true;
 }
 
-void QuadEnergy::add_edge(const Edge& edge, const std::vector<Vec2>& at, double& energy,
-                          std::vector<Vec2>* slope) const {
-  const Vec2 along = at[edge.b] - at[edge.a];
-  const double length = norm(along), misfit = std::log(length / edge.length);
+template <class Vec>
+template <bool kSlope>
+void QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
+  const Vec along = at_[edge.b] - at_[edge.a];
+  const double length = norm(along), inverse = 1 / length;
+  const double misfit = std::log(length * edge.inverse_length);
   const double rounded = std::sqrt(misfit * misfit + kSizeKink * kSizeKink),
                lack = std::exp(kSizeKink - rounded);
-  energy += weights_.size * (1 - lack);
-  const Vec2 u = (1 / length) * along;
-  const Cross direction = Cross::along(u);
-  energy += weights_.alignment * (1 - direction.c * edge.cross.c - direction.s * edge.cross.s) / 2;
-  if (slope == nullptr) return;
-  const double by_length = weights_.size * lack * misfit / rounded / length;
-  const double by_angle =
-      2 * weights_.alignment * (direction.s * edge.cross.c - direction.c * edge.cross.s) / length;
-  const Vec2 by_end = by_length * u + by_angle * perp(u);
-  (*slope)[edge.b] += by_end;
-  (*slope)[edge.a] += -by_end;
+  const Vec u = inverse * along;
+  // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
+  const double c = dot(u, edge.arm), c2 = c * c;
+  energy += weights_.size * (1 - lack) + 4 * weights_.alignment * c2 * (1 - c2);
+  if constexpr (!kSlope) return;
+  const double by_length = weights_.size * lack * misfit / rounded * inverse;
+  const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
+  const Vec by_end = by_length * u + by_cosine * (edge.arm - c * u);
+  slope_[edge.b] = slope_[edge.b] + by_end;
+  slope_[edge.a] = slope_[edge.a] - by_end;
 }
+
+template class QuadEnergy<Vec2>;
+template class QuadEnergy<Vec3>;
 
 }  // namespace delquad

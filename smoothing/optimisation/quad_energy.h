@@ -1,71 +1,95 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
-#include "fields/cross_field.h"
-#include "mesh/patch.h"
+#include "mesh/vec.h"
 
 namespace delquad {
 
 /// How the parts of the energy are weighed against each other.
 struct QuadEnergyWeights {
   double bad = 2;           ///< of the quads' second term, against the first
-  double bad_power = 2;     ///< its exponent
+  int bad_power = 2;        ///< its exponent
   double size = 0.25;       ///< of the edges' lengths
   double alignment = 0.02;  ///< of the edges' directions
   double barrier = 0.002;   ///< of the corners' barrier
 };
 
+/// A vertex that moves, to its place + x * axes[0] + y * axes[1]. Along a curve: the second axis is zero.
+template <class Vec>
+struct MovingVertex {
+  int vertex;
+  std::array<Vec, 2> axes;
+};
+
+/// What an energy is made of, in the plane (Vec2) or in space (Vec3).
+template <class Vec>
+struct QuadEnergyMesh {
+  std::vector<Vec> points;
+  std::vector<std::array<int, 4>> quads;  ///< counterclockwise, in space: seen from outside
+  std::vector<MovingVertex<Vec>> moving;  ///< each vertex once at most
+  std::vector<double> delta;              ///< wanted edge length, by vertex
+  std::vector<double> least_sine;         ///< that no corner may fall to, by quad
+  std::vector<double> weight;             ///< of the quads' shapes
+  /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
+  std::function<Vec(int quad, int side)> arm;
+};
+
 /// What vertex optimisation minimises: the sum of
-///   s^(1/2) + bad * s^bad_power over the quads, s the sum over the corners of 1/sin alpha - 1: the first
-///   term
+///   weight * (s^(1/2) + bad * s^bad_power) over the quads, s the sum over the corners of 1/sin alpha - 1:
+///   the first term
 ///     is about as linear in |angle - 90 degrees| as eta is, the second keeps the mean from being bought with
 ///     some bad quads,
-///   size * (1 - exp(-|log(l/d)|)) over the edges, l the length, d the mean of delta' at both ends: what an
+///   size * (1 - exp(-|log(l/d)|)) over the edges, l the length, d the mean of delta at both ends: what an
 ///     edge lacks in tau,
-///   alignment * (1 - cos 4(phi - theta)) / 2 over the edges, phi the edge's direction and theta the cross's,
+///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
 ///   barrier * -log(sin alpha - least sine) over the corners,
 /// the first two rounded off where they have a kink. The energy is infinite where a corner's sine does not
-/// exceed the least sine. Corners whose three vertices stay do not count.
+/// exceed its quad's least sine. Corners whose three vertices stay do not count. In space a corner's angle is
+/// that between its sides, reflex where it turns against the normal that its quad had at the start.
 ///
-/// Variables: the free vertices' displacement from the mesh's places, x then y of each, over delta' there.
+/// Variables: x, y of each moving vertex.
+template <class Vec>
 class QuadEnergy {
  public:
-  /// By vertex: whether it moves, delta' and the cross. Corners and edges without a free vertex do not count.
-  QuadEnergy(const QuadPatch& mesh, const std::vector<char>& free, const std::vector<double>& delta,
-             const std::vector<Cross>& cross, double least_sine, const QuadEnergyWeights& weights);
+  QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights);
 
-  int variables() const { return 2 * static_cast<int>(free_.size()); }
-  /// False where the energy is infinite. `gradient` may be null.
-  bool evaluate(const double* displacement, double& energy, double* gradient) const;
+  int variables() const { return 2 * static_cast<int>(moving_.size()); }
+  /// False where the energy is infinite. `gradient` may be null. Not from two threads at once.
+  bool evaluate(const double* x, double& energy, double* gradient) const;
   /// All points of the mesh after a displacement.
-  std::vector<Vec2> points(const double* displacement) const;
+  std::vector<Vec> points(const double* x) const;
 
  private:
   struct Quad {
     std::array<int, 4> vertices;
     unsigned movable;  ///< a bit for each corner
+    Vec normal;        ///< in space
+    double least_sine, weight;
     bool moves(int k) const { return (movable >> k & 1U) != 0; }
   };
   struct Edge {
     int a, b;
-    double length;  ///< wanted
-    Cross cross;    ///< of unit length, or zero
+    double inverse_length;  ///< wanted
+    Vec arm;
   };
 
-  bool add_quad(const Quad& quad, const std::vector<Vec2>& at, double& energy,
-                std::vector<Vec2>* slope) const;
-  void add_edge(const Edge& edge, const std::vector<Vec2>& at, double& energy,
-                std::vector<Vec2>* slope) const;
+  void place(const double* x, std::vector<Vec>& at) const;
+  template <bool kSlope>
+  bool add_all(double& energy) const;
+  template <bool kSlope>
+  bool add_quad(const Quad& quad, double& energy) const;
+  template <bool kSlope>
+  void add_edge(const Edge& edge, double& energy) const;
 
   QuadEnergyWeights weights_;
-  double least_sine_;
-  std::vector<Vec2> start_;
-  std::vector<int> free_;      ///< vertices
-  std::vector<double> scale_;  ///< delta' of each
+  std::vector<Vec> start_;
+  std::vector<MovingVertex<Vec>> moving_;
   std::vector<Quad> quads_;
   std::vector<Edge> edges_;
+  mutable std::vector<Vec> at_, slope_;  // of all points; where nothing moves, at_ never changes
 };
 
 }  // namespace delquad

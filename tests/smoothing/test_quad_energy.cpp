@@ -14,18 +14,18 @@ namespace {
 using testing_support::grid_patch;
 using testing_support::jittered;
 
-std::vector<char> interior(const QuadPatch& mesh) {
-  std::vector<char> free(mesh.points.size(), 1);
-  std::fill_n(free.begin(), mesh.n_boundary, 0);
-  return free;
-}
-
-QuadEnergy energy_of(const QuadPatch& mesh, double delta, double theta, double least,
-                     const QuadEnergyWeights& weights) {
-  const std::size_t n = mesh.points.size();
-  return {
-      mesh,  interior(mesh), std::vector<double>(n, delta), std::vector<Cross>(n, Cross::from_angle(theta)),
-      least, weights};
+QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, double least,
+                           const QuadEnergyWeights& weights) {
+  QuadEnergyMesh<Vec2> mesh;
+  mesh.points = patch.points;
+  mesh.quads = patch.quads;
+  for (int v = patch.n_boundary; v < static_cast<int>(patch.points.size()); ++v)
+    mesh.moving.push_back({v, {Vec2{delta, 0}, Vec2{0, delta}}});
+  mesh.delta.assign(patch.points.size(), delta);
+  mesh.arm = [theta](int, int) { return Vec2{std::cos(theta), std::sin(theta)}; };
+  mesh.least_sine.assign(patch.quads.size(), least);
+  mesh.weight.assign(patch.quads.size(), 1);
+  return {std::move(mesh), weights};
 }
 
 TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
@@ -34,8 +34,8 @@ TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
     SCOPED_TRACE(seed);
     const QuadPatch mesh = jittered(grid_patch(5, 4), seed, 0.2);
     // Each part by itself, and all; with the exponents of both kinds of passes.
-    const QuadEnergyWeights all[] = {{0.5, 0, 0, 0},   {4, 0, 0, 0},     {0.5, 0.7, 0, 0},
-                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {4, 0.4, 0.1, 0.1}};
+    const QuadEnergyWeights all[] = {{0.5, 0, 0, 0},   {4, 2, 0, 0, 0},  {0.5, 1, 0.7, 0, 0},
+                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {30, 3, 0.4, 0.1, 0.1}};
     for (const QuadEnergyWeights& weights : all) {
       const QuadEnergy energy = energy_of(mesh, 0.8, 0.2, 0.05, weights);
       std::vector<double> at(energy.variables()), gradient(at.size());
@@ -52,6 +52,42 @@ TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
         const double difference = (above - below) / (2 * step);
         EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
       }
+    }
+  }
+}
+
+TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
+  const double step = 1e-6;
+  for (int seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const QuadPatch patch = jittered(grid_patch(5, 4), seed, 0.2);
+    std::mt19937_64 random(seed);
+    const auto number = [&] { return shapes::uniform(random) - 0.5; };
+    QuadEnergyMesh<Vec3> mesh;
+    for (const Vec2 p : patch.points) mesh.points.push_back({p.x, p.y, 0.2 * p.x * p.x - 0.1 * p.x * p.y});
+    mesh.quads = patch.quads;
+    // Every other vertex moves one way only.
+    for (int v = 0; v < static_cast<int>(patch.points.size()); ++v)
+      mesh.moving.push_back({v,
+                             {Vec3{0.8 + number(), number(), number()},
+                              v % 2 == 0 ? Vec3{number(), 0.8 + number(), number()} : Vec3{}}});
+    mesh.delta.assign(patch.points.size(), 0.8);
+    mesh.arm = [](int, int side) { return side % 2 == 0 ? Vec3{0.6, 0.8, 0} : Vec3{}; };
+    mesh.least_sine.assign(patch.quads.size(), 0.02);
+    mesh.weight.assign(patch.quads.size(), 0.7);
+    const QuadEnergy<Vec3> energy(mesh, {});
+    std::vector<double> at(energy.variables()), gradient(at.size());
+    for (double& x : at) x = 0.04 * number();
+    double value = 0;
+    ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      std::vector<double> high = at, low = at;
+      high[i] += step, low[i] -= step;
+      double above = 0, below = 0;
+      ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
+      ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
+      const double difference = (above - below) / (2 * step);
+      EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
     }
   }
 }

@@ -1,0 +1,60 @@
+#include "smoothing/optimisation/minimise_energy.h"
+
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+
+namespace delquad {
+
+namespace {
+
+/// Vectors that L-BFGS remembers.
+constexpr int kMemory = 12;
+/// The descent ends when a step gains less than this part of the energy.
+constexpr double kLeastGain = 1e-5;
+
+template <class Vec>
+class CeresEnergy final : public ceres::FirstOrderFunction {
+ public:
+  explicit CeresEnergy(const QuadEnergy<Vec>& energy) : energy_(energy) {}
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
+    return energy_.evaluate(parameters, *cost, gradient);
+  }
+  int NumParameters() const override { return energy_.variables(); }
+
+ private:
+  const QuadEnergy<Vec>& energy_;
+};
+
+}  // namespace
+
+template <class Vec>
+EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations) {
+  EnergyDescent descent;
+  descent.x.assign(energy.variables(), 0.0);
+  if (descent.x.empty()) return descent;
+  ceres::GradientProblemSolver::Options options;
+  options.line_search_direction_type = ceres::LBFGS;
+  options.line_search_type = ceres::WOLFE;
+  options.max_lbfgs_rank = kMemory;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = kLeastGain;
+  options.gradient_tolerance = 0;
+  options.parameter_tolerance = 1e-9;
+  options.logging_type = ceres::SILENT;
+  ceres::GradientProblemSolver::Summary report;
+  const ceres::GradientProblem problem(new CeresEnergy<Vec>(energy));
+  ceres::Solve(options, problem, descent.x.data(), &report);
+  descent.iterations = static_cast<int>(report.iterations.size());
+  descent.evaluations = report.num_cost_evaluations + report.num_gradient_evaluations;
+  descent.energy_before = report.initial_cost;
+  descent.energy_after = report.final_cost;
+  // What the solver left may be its last trial, of infinite energy.
+  double value = 0;
+  if (!energy.evaluate(descent.x.data(), value, nullptr)) descent.x.assign(descent.x.size(), 0.0);
+  return descent;
+}
+
+template EnergyDescent minimise(const QuadEnergy<Vec2>&, int);
+template EnergyDescent minimise(const QuadEnergy<Vec3>&, int);
+
+}  // namespace delquad

@@ -1,0 +1,25 @@
+#pragma once
+
+namespace delquad {
+
+struct OptimisationOptions {
+  int passes = 3;           ///< delta and the cross are evaluated anew before each
+  int iterations = 40;      ///< of L-BFGS in a pass, at most
+  double size = 0.4;        ///< weight of the edges' lengths, see QuadEnergyWeights
+  double alignment = 0.02;  ///< weight of the edges' directions
+};
+
+struct OptimisationSummary {
+  int untangled = 0;   ///< inverted or flat quads of the input that are so no more
+  int held = 0;        ///< vertices kept in place that could move, but for flat quads
+  int iterations = 0;  ///< of L-BFGS, the pass for the worst quads included
+  int evaluations = 0;
+  double energy_before = 0, energy_after = 0;  ///< of the last pass over all quads
+  double worst_before = 1, worst_after = 1;    ///< least eta of quads that can move, after untangling
+  double seconds = 0;
+};
+
+/// The least eta never falls below both this and what it was.
+inline constexpr double kOptimisedFloorEta = 0.6;
+
+}  // namespace delquad

@@ -1,0 +1,239 @@
+#include "smoothing/optimisation/track_optimisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "smoothing/optimisation/minimise_energy.h"
+#include "smoothing/optimisation/quad_corners.h"
+
+namespace delquad {
+
+namespace {
+
+/// A quad with a corner of this sine or less is flat or inverted, and held.
+constexpr double kHeldSine = 1e-3;
+/// The least sine that a quad must keep is so much, as a part, below what it was.
+constexpr double kRoom = 0.005;
+/// The barrier stands at this part of that: what falls between both when the pass is over goes back. A
+/// nearer barrier would hold up the descent.
+constexpr double kBarrier = 0.8;
+/// The pass for the worst: quads below this eta, with so many rings around them.
+constexpr double kWorstEta = 0.6;
+constexpr int kWorstRings = 2;
+/// Weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
+constexpr double kWorstWeight = 30;
+constexpr int kWorstPower = 3;
+/// Sum over the corners of 1/sin alpha - 1 from which on quads weigh less, so that those beyond help do not
+/// drown the others.
+constexpr double kHopelessShape = 3;
+/// Where a move makes a quad bad it is halved, and left out below this part of it.
+constexpr double kLeastPart = 0.2;
+
+double sine_for(double eta) { return std::sin(eta * std::numbers::pi / 2); }
+double eta_for(double sine) { return std::max(0.0, 2 / std::numbers::pi * std::asin(std::min(sine, 1.0))); }
+
+template <class Vec>
+class TrackOptimisation {
+ public:
+  TrackOptimisation(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
+                    VertexTracks<Vec>& tracks, const OptimisationOptions& options)
+      : points_(points), quads_(quads), tracks_(tracks), options_(options) {}
+
+  OptimisationSummary run();
+
+ private:
+  std::array<double, 4> movable_sines(std::size_t quad) const;
+  double movable_sine(std::size_t quad) const;
+  double least() const;
+  void find_free();
+  std::vector<char> around_worst() const;
+  QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
+  void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
+  void descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
+  void settle(const std::vector<MovingVertex<Vec>>& moving, const std::vector<double>& x);
+
+  std::vector<Vec>& points_;
+  const std::vector<std::array<int, 4>>& quads_;
+  VertexTracks<Vec>& tracks_;
+  OptimisationOptions options_;
+  std::vector<char> free_;    ///< by vertex
+  std::vector<double> kept_;  ///< the least sine that each quad must keep in this pass
+  OptimisationSummary summary_;
+};
+
+/// Sines of the corners, 1 for those that cannot move.
+template <class Vec>
+std::array<double, 4> TrackOptimisation<Vec>::movable_sines(std::size_t quad) const {
+  const auto& v = quads_[quad];
+  auto sines = corner_sines(std::array{points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]});
+  for (int k = 0; k < 4; ++k)
+    if (!free_[v[(k + 3) % 4]] && !free_[v[k]] && !free_[v[(k + 1) % 4]]) sines[k] = 1;
+  return sines;
+}
+
+template <class Vec>
+double TrackOptimisation<Vec>::movable_sine(std::size_t quad) const {
+  const auto sines = movable_sines(quad);
+  return std::min({sines[0], sines[1], sines[2], sines[3]});
+}
+
+template <class Vec>
+double TrackOptimisation<Vec>::least() const {
+  double sine = 1;
+  for (std::size_t q = 0; q < quads_.size(); ++q) sine = std::min(sine, movable_sine(q));
+  return sine;
+}
+
+template <class Vec>
+void TrackOptimisation<Vec>::find_free() {
+  free_.assign(points_.size(), 0);
+  for (const auto& quad : quads_)
+    for (const int v : quad) free_[v] = 1;
+  for (std::size_t v = 0; v < points_.size(); ++v)
+    if (free_[v] && tracks_.axes(static_cast<int>(v)) == std::array<Vec, 2>{}) free_[v] = 0;
+  const std::vector<char> all = free_;
+  for (std::size_t q = 0; q < quads_.size(); ++q) {
+    const auto& v = quads_[q];
+    const auto sines = corner_sines(std::array{points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]});
+    if (std::min({sines[0], sines[1], sines[2], sines[3]}) <= kHeldSine)
+      for (const int i : v) free_[i] = 0;
+  }
+  for (std::size_t v = 0; v < free_.size(); ++v) summary_.held += all[v] && !free_[v];
+}
+
+template <class Vec>
+std::vector<char> TrackOptimisation<Vec>::around_worst() const {
+  std::vector<char> near(points_.size(), 0);
+  for (std::size_t q = 0; q < quads_.size(); ++q)
+    if (movable_sine(q) < sine_for(kWorstEta))
+      for (const int v : quads_[q]) near[v] = 1;
+  for (int ring = 0; ring < kWorstRings; ++ring) {
+    const std::vector<char> inner = near;
+    for (const auto& quad : quads_)
+      if (std::any_of(quad.begin(), quad.end(), [&](int v) { return inner[v]; }))
+        for (const int v : quad) near[v] = 1;
+  }
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] &= free_[v];
+  return near;
+}
+
+/// Without barriers and weights. A step of 1 is a vertex's shortest edge, or delta where that is less.
+template <class Vec>
+QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>& free) const {
+  QuadEnergyMesh<Vec> mesh;
+  mesh.points = points_;
+  mesh.quads = quads_;
+  for (const Vec& place : points_) mesh.delta.push_back(tracks_.delta(place));
+  std::vector<double> reach = mesh.delta;
+  for (const auto& quad : quads_)
+    for (int k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      const double length = norm(points_[b] - points_[a]);
+      reach[a] = std::min(reach[a], length), reach[b] = std::min(reach[b], length);
+    }
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    if (!free[v]) continue;
+    auto axes = tracks_.axes(static_cast<int>(v));
+    for (Vec& axis : axes)
+      if (const double n = norm(axis); n > 0) axis = (reach[v] / n) * axis;
+    mesh.moving.push_back({static_cast<int>(v), axes});
+  }
+  mesh.arm = [this](int quad, int side) { return tracks_.arm(quad, side); };
+  return mesh;
+}
+
+template <class Vec>
+void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
+  const double floor = sine_for(kOptimisedFloorEta), worst = std::min(least(), floor);
+  kept_.clear();
+  for (std::size_t q = 0; q < quads_.size(); ++q) {
+    const auto sines = movable_sines(q);
+    const double bound = std::min({sines[0], sines[1], sines[2], sines[3], floor});
+    kept_.push_back(std::max((1 - kRoom) * bound, worst));
+    mesh.least_sine.push_back(kBarrier * bound);
+    double shape = 0;
+    for (const double sine : sines) shape += 1 / std::max(sine, kHeldSine) - 1;
+    mesh.weight.push_back(1 / (1 + std::pow(shape / kHopelessShape, weights.bad_power)));
+  }
+}
+
+template <class Vec>
+void TrackOptimisation<Vec>::descend(const std::vector<char>& free, const QuadEnergyWeights& weights) {
+  QuadEnergyMesh<Vec> mesh = energy_mesh(free);
+  if (mesh.moving.empty()) return;
+  set_barriers(weights, mesh);
+  const std::vector<MovingVertex<Vec>> moving = mesh.moving;
+  const QuadEnergy<Vec> energy(std::move(mesh), weights);
+  const EnergyDescent descent = minimise(energy, options_.iterations);
+  summary_.iterations += descent.iterations;
+  summary_.evaluations += descent.evaluations;
+  summary_.energy_before = descent.energy_before;
+  summary_.energy_after = descent.energy_after;
+  settle(moving, descent.x);
+}
+
+/// Puts the vertices on their tracks, as far as no quad falls below what it must keep.
+template <class Vec>
+void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving,
+                                    const std::vector<double>& x) {
+  struct Move {
+    Vec2 from, by;
+    double part = 0;
+  };
+  std::vector<Move> moves(points_.size());
+  const auto put = [&](int v) { points_[v] = tracks_.put(v, moves[v].from + moves[v].part * moves[v].by); };
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto& [v, scaled] = moving[i];
+    const auto axes = tracks_.axes(v);
+    moves[v] = {tracks_.position(v), {}, 1};
+    if (const double n = norm(axes[0]); n > 0) moves[v].by.x = x[2 * i] * norm(scaled[0]) / n;
+    if (const double n = norm(axes[1]); n > 0) moves[v].by.y = x[2 * i + 1] * norm(scaled[1]) / n;
+    put(v);
+  }
+  for (bool worse = true; worse;) {
+    worse = false;
+    for (std::size_t q = 0; q < quads_.size(); ++q) {
+      const auto& quad = quads_[q];
+      if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
+      if (movable_sine(q) >= kept_[q]) continue;
+      worse = true;
+      for (const int v : quad) {
+        if (moves[v].part == 0) continue;
+        moves[v].part = moves[v].part > kLeastPart ? moves[v].part / 2 : 0;
+        put(v);
+      }
+    }
+  }
+}
+
+template <class Vec>
+OptimisationSummary TrackOptimisation<Vec>::run() {
+  find_free();
+  summary_.worst_before = eta_for(least());
+  QuadEnergyWeights weights;
+  weights.size = options_.size;
+  weights.alignment = options_.alignment;
+  QuadEnergyWeights for_worst = weights;
+  for_worst.bad = kWorstWeight;
+  for_worst.bad_power = kWorstPower;
+  descend(around_worst(), for_worst);
+  for (int pass = 0; pass < options_.passes; ++pass) descend(free_, weights);
+  summary_.worst_after = eta_for(least());
+  return summary_;
+}
+
+}  // namespace
+
+template <class Vec>
+OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
+                                       VertexTracks<Vec>& tracks, const OptimisationOptions& options) {
+  return TrackOptimisation<Vec>(points, quads, tracks, options).run();
+}
+
+template OptimisationSummary optimise_on_tracks(std::vector<Vec2>&, const std::vector<std::array<int, 4>>&,
+                                                VertexTracks<Vec2>&, const OptimisationOptions&);
+template OptimisationSummary optimise_on_tracks(std::vector<Vec3>&, const std::vector<std::array<int, 4>>&,
+                                                VertexTracks<Vec3>&, const OptimisationOptions&);
+
+}  // namespace delquad

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/vec.h"
+#include "smoothing/optimisation/optimisation_options.h"
+
+namespace delquad {
+
+/// Where the vertices of a quad mesh can go, in the plane (Vec2) or in space (Vec3): over surfaces, or along
+/// curves.
+template <class Vec>
+class VertexTracks {
+ public:
+  virtual ~VertexTracks() = default;
+  /// Parameters on the surface, or one along the curve and 0.
+  virtual Vec2 position(int v) const = 0;
+  /// Puts v at a position and returns its place. A curve ends where it ends.
+  virtual Vec put(int v, Vec2 position) = 0;
+  /// Derivatives of the place by the position, where v is; zero: it does not move that way.
+  virtual std::array<Vec, 2> axes(int v) const = 0;
+  /// The wanted edge length.
+  virtual double delta(const Vec& place) const = 0;
+  /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
+  virtual Vec arm(int quad, int side) const = 0;
+};
+
+/// Moves the vertices of a quad mesh together to the least of QuadEnergy by L-BFGS (Ceres). Those around the
+/// worst quads move first by themselves, with a weight on bad quads that lifts these. `points` are the places
+/// of the vertices on their tracks, and are updated.
+///
+/// Vertices of flat or inverted quads stay. In each pass vertices move along their tangents and are then put
+/// on their tracks. No quad's least sine falls below both that of eta kOptimisedFloorEta and half a percent
+/// less than it was before the pass, and none below both that floor and the least of the whole mesh: where
+/// that would be, the quad's vertices go only part of the way, or stay. The same input gives the same mesh.
+template <class Vec>
+OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
+                                       VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});
+
+}  // namespace delquad

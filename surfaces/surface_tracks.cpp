@@ -1,0 +1,145 @@
+#include "surfaces/surface_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delquad {
+
+namespace {
+
+/// Derivatives of the place in space by both parameters, on a triangle of a patch's map.
+std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int triangle) {
+  const auto& v = patch.map.flat.triangles[triangle];
+  const auto& u = patch.map.flat.points;
+  const auto x = [&](int k) { return fine.points[patch.map.fine_node[v[k]]]; };
+  const Vec2 a = u[v[1]] - u[v[0]], b = u[v[2]] - u[v[0]];
+  const Vec3 p = x(1) - x(0), q = x(2) - x(0);
+  const double inverse = 1 / cross(a, b);
+  return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
+}
+
+}  // namespace
+
+SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, const SurfaceDomain& domain,
+                             SurfaceNodes& nodes, std::vector<Patch> patches)
+    : model_(model),
+      size_(size),
+      domain_(domain),
+      nodes_(nodes),
+      patches_(std::move(patches)),
+      on_curve_(nodes.points.size()),
+      points_(nodes.points),
+      position_(nodes.points.size()),
+      stays_(nodes.points.size(), 0),
+      vertex_patch_(nodes.points.size(), -1) {
+  add_curves();
+  for (const Patch& patch : patches_) add_patch(patch);
+  hint_.assign(points_.size(), -1);
+}
+
+void SurfaceTracks::add_curves() {
+  for (std::size_t c = 0; c < domain_.chains.size(); ++c) {
+    const auto& points = domain_.chains[c].points;
+    auto& length = lengths_.emplace_back(1, 0.0);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      length.push_back(length.back() +
+                       norm(model_.fine.points[points[i + 1]] - model_.fine.points[points[i]]));
+    const auto& on_curve = nodes_.on_curve[c];
+    for (std::size_t k = 1; k + 1 < on_curve.size(); ++k) {
+      const auto line = std::min(static_cast<std::size_t>(on_curve[k].s), points.size() - 2);
+      const double t = on_curve[k].s - static_cast<double>(line);
+      on_curve_[on_curve[k].node] = {static_cast<int>(c), k};
+      position_[on_curve[k].node] = {length[line] + t * (length[line + 1] - length[line]), 0};
+    }
+  }
+}
+
+void SurfaceTracks::add_patch(const Patch& patch) {
+  const int p = static_cast<int>(&patch - patches_.data());
+  std::vector<int> vertex = patch.patch->boundary.point_node;
+  for (std::size_t i = 0; i < patch.inside->size(); ++i) {
+    vertex.push_back(static_cast<int>(points_.size()));
+    points_.push_back((*patch.inside)[i]);
+    position_.push_back(patch.mesh->points[patch.mesh->n_boundary + i]);
+    vertex_patch_.push_back(p);
+  }
+  for (std::array<int, 4> quad : patch.mesh->quads) {
+    for (int& v : quad) v = vertex[v];
+    quads_.push_back(quad);
+    quad_patch_.push_back(p);
+  }
+  stays_.resize(points_.size(), 0);
+  for (const auto& triangle : patch.mesh->triangles)
+    for (const int v : triangle) stays_[vertex[v]] = 1;
+}
+
+double SurfaceTracks::s_at(int chain, double length) const {
+  const auto& lengths = lengths_[chain];
+  const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, length);
+  const double before = *(after - 1);
+  const double t = *after > before ? (length - before) / (*after - before) : 0;
+  return static_cast<double>(after - lengths.begin() - 1) + std::clamp(t, 0.0, 1.0);
+}
+
+Vec3 SurfaceTracks::direction(int chain, double length) const {
+  const auto& points = domain_.chains[chain].points;
+  const auto line = std::min(static_cast<std::size_t>(s_at(chain, length)), points.size() - 2);
+  const Vec3 along = model_.fine.points[points[line + 1]] - model_.fine.points[points[line]];
+  const double n = norm(along);
+  return n > 0 ? (1 / n) * along : Vec3{};
+}
+
+Vec3 SurfaceTracks::put(int v, Vec2 position) {
+  if (vertex_patch_[v] >= 0) {
+    position_[v] = position;
+    return lift(*patches_[vertex_patch_[v]].patch, model_, position, hint_[v]);
+  }
+  const auto [chain, k] = on_curve_[v];
+  position_[v] = {std::clamp(position.x, 0.0, lengths_[chain].back()), 0};
+  nodes_.on_curve[chain][k].s = s_at(chain, position_[v].x);
+  return place_on_curve(model_, domain_.chains[chain], domain_.cut_face, nodes_.on_curve[chain][k].s);
+}
+
+std::array<Vec3, 2> SurfaceTracks::axes(int v) const {
+  if (stays_[v]) return {};
+  if (vertex_patch_[v] >= 0) {
+    const SurfacePatch& patch = *patches_[vertex_patch_[v]].patch;
+    return tangents(patch, model_.fine, patch.background->locate(position_[v], hint_[v]).triangle);
+  }
+  if (on_curve_[v].chain < 0) return {};
+  return {direction(on_curve_[v].chain, position_[v].x), Vec3{}};
+}
+
+Vec3 SurfaceTracks::arm(int quad, int side) const {
+  const Patch& patch = patches_[quad_patch_[quad]];
+  const int a = quads_[quad][side], b = quads_[quad][(side + 1) % 4];
+  // The parameters of nodes on curves may be old: the end inside says enough.
+  const int inside = vertex_patch_[a] >= 0 ? a : b;
+  if (vertex_patch_[inside] < 0) return {};
+  Vec2 u = position_[inside];
+  if (vertex_patch_[a] >= 0 && vertex_patch_[b] >= 0) u = 0.5 * (position_[a] + position_[b]);
+  int hint = hint_[inside];
+  const auto axis = tangents(*patch.patch, model_.fine, patch.patch->background->locate(u, hint).triangle);
+  int cross_hint = -1;
+  const Cross c = patch.cross->at(u, cross_hint);
+  if (c.c == 0 && c.s == 0) return {};
+  const double angle = c.angle();
+  const Vec3 arm = std::cos(angle) * axis[0] + std::sin(angle) * axis[1];
+  return (1 / norm(arm)) * arm;
+}
+
+void SurfaceTracks::store(const std::vector<Vec3>& points) {
+  std::copy_n(points.begin(), nodes_.points.size(), nodes_.points.begin());
+  std::size_t v = nodes_.points.size();
+  for (const Patch& patch : patches_) {
+    const PatchBoundary boundary =
+        place_boundary(patch.patch->map, patch.patch->outline, domain_.chains, nodes_);
+    std::copy(boundary.points.begin(), boundary.points.end(), patch.mesh->points.begin());
+    for (std::size_t i = 0; i < patch.inside->size(); ++i, ++v) {
+      patch.mesh->points[patch.mesh->n_boundary + i] = position_[v];
+      (*patch.inside)[i] = points[v];
+    }
+  }
+}
+
+}  // namespace delquad

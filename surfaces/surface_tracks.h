@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "fields/cross_field.h"
+#include "mesh/patch.h"
+#include "smoothing/optimisation/track_optimisation.h"
+#include "surfaces/surface_domain.h"
+
+namespace delquad {
+
+/// The vertices of all patches of a surface as one mesh, each on its track: nodes inside curves slide along
+/// these, ends of curves stay, vertices inside a patch move in its parameter plane. Vertices of leftover
+/// triangles stay.
+///
+/// Vertices: the nodes of the curves, then those inside each patch, patch by patch. All arguments outlive
+/// this object.
+class SurfaceTracks final : public VertexTracks<Vec3> {
+ public:
+  /// A patch that takes part. `inside`: places in space of its points inside.
+  struct Patch {
+    const SurfacePatch* patch;
+    const CrossField* cross;
+    QuadPatch* mesh;
+    std::vector<Vec3>* inside;
+  };
+  SurfaceTracks(const SurfaceModel& model, const SizeField& size, const SurfaceDomain& domain,
+                SurfaceNodes& nodes, std::vector<Patch> patches);
+
+  const std::vector<Vec3>& points() const { return points_; }
+  const std::vector<std::array<int, 4>>& quads() const { return quads_; }
+  /// Writes places and positions back to the patches and the nodes.
+  void store(const std::vector<Vec3>& points);
+
+  Vec2 position(int v) const override { return position_[v]; }
+  Vec3 put(int v, Vec2 position) override;
+  std::array<Vec3, 2> axes(int v) const override;
+  double delta(const Vec3& place) const override { return size_.at(place, size_hint_); }
+  Vec3 arm(int quad, int side) const override;
+
+ private:
+  struct OnCurve {
+    int chain = -1;  ///< -1: an end of curves
+    std::size_t k;   ///< its place in SurfaceNodes::on_curve
+  };
+
+  void add_curves();
+  void add_patch(const Patch& patch);
+  /// Index of the line and the fraction along it, at a length along the chain.
+  double s_at(int chain, double length) const;
+  Vec3 direction(int chain, double length) const;
+
+  const SurfaceModel& model_;
+  const SizeField& size_;
+  const SurfaceDomain& domain_;
+  SurfaceNodes& nodes_;
+  std::vector<Patch> patches_;
+  std::vector<std::vector<double>> lengths_;  ///< of each chain, at its points
+  std::vector<OnCurve> on_curve_;             ///< of each node
+  std::vector<Vec3> points_;
+  std::vector<Vec2> position_;
+  std::vector<std::array<int, 4>> quads_;
+  std::vector<int> quad_patch_;
+  std::vector<char> stays_;
+  std::vector<int> vertex_patch_;  ///< of the vertices inside patches; -1: a node
+  mutable std::vector<int> hint_;  ///< into the maps, by vertex
+  mutable int size_hint_ = -1;
+};
+
+}  // namespace delquad
