@@ -2,6 +2,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 #include "algorithms/insertion/frontal_mesher.h"
 #include "benchmarks/square_case.h"
 #include "mesh/parallel.h"
@@ -33,8 +35,8 @@ void evaluate(benchmark::State& state) {
   const std::vector<Vec2> here = problem.seeds();
   problem.evaluate(here);
   std::vector<Vec2> there = here;
-  const double way = problem.newton_scale() * problem.spacing() * problem.spacing();
-  for (std::size_t i = 0; i < there.size(); ++i) there[i] += -way * problem.gradient()[i];
+  for (std::size_t i = 0; i < there.size(); ++i)
+    there[i] += -problem.newton_scale() * std::pow(problem.lengths()[i], 2) * problem.gradient()[i];
   const long long flips = problem.delaunay().flips();
   bool forth = false;
   for (auto _ : state) benchmark::DoNotOptimize(problem.evaluate((forth = !forth) ? there : here));

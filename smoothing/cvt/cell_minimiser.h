@@ -52,7 +52,7 @@ std::unique_ptr<CellMinimiser> make_lbfgs_minimiser();
 /// may rise.
 std::unique_ptr<CellMinimiser> make_lloyd_minimiser();
 
-/// The largest derivative of F by a seed's position over spacing(), in newton_scale().
+/// The largest derivative of F by a seed's position over lengths(), in newton_scale().
 double scaled_gradient_norm(const CvtProblem& problem);
 
 }  // namespace delquad

@@ -7,34 +7,54 @@
 namespace delquad {
 namespace {
 
-double area_of(const TriPatch& tri) {
+/// The integral of 1/length^2, taken as linear on triangles.
+double squares_in(const TriPatch& tri, const std::vector<double>& length) {
+  double sum = 0;
+  for (const auto& v : tri.triangles) {
+    const double area = cross(tri.points[v[1]] - tri.points[v[0]], tri.points[v[2]] - tri.points[v[0]]) / 2;
+    for (const int i : v) sum += area / (3 * length[i] * length[i]);
+  }
+  return sum;
+}
+
+/// The gradient of f around an inner point, f linear on triangles: the mean of the triangles by area.
+Vec2 gradient_at(const MovingDelaunay& delaunay, int i, const std::vector<double>& f) {
+  const std::vector<Vec2>& points = delaunay.patch().points;
+  Vec2 sum;
   double twice = 0;
-  for (const auto& v : tri.triangles)
-    twice += cross(tri.points[v[1]] - tri.points[v[0]], tri.points[v[2]] - tri.points[v[0]]);
-  return twice / 2;
+  for_each_corner(delaunay, i, [&](int t, int k) {
+    const auto& v = delaunay.patch().triangles[t];
+    const int a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+    const Vec2 to_a = points[a] - points[i], to_b = points[b] - points[i];
+    twice += cross(to_a, to_b);
+    sum += (f[b] - f[i]) * perp(to_a) - (f[a] - f[i]) * perp(to_b);
+  });
+  return (1 / twice) * sum;
 }
 
 }  // namespace
 
-CvtProblem::CvtProblem(MovingDelaunay delaunay, int p)
-    : delaunay_(std::move(delaunay)),
-      energy_(p),
-      p_(p),
-      area_(area_of(delaunay_.patch())),
-      spacing_(std::sqrt(area_ / delaunay_.n_points())) {}
+CvtProblem::CvtProblem(MovingDelaunay delaunay, int p) : delaunay_(std::move(delaunay)), energy_(p), p_(p) {}
 
 void CvtProblem::hold_frames(const CrossField& cross, const ParametricSize& size) {
   const std::vector<Vec2>& points = delaunay_.patch().points;
+  const std::size_t n = points.size();
   last_.reset();
-  frames_.axis.resize(points.size());
-  frames_.weight.resize(points.size());
+  frames_ = {std::vector<Vec2>(n), std::vector<double>(n), std::vector<Vec2>(n), points};
+  length_.resize(n);
+  std::vector<double> log_weight(n);
   int cross_hint = -1, size_hint = -1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const double theta = cross.at(points[i], cross_hint).angle();
     frames_.axis[i] = {std::cos(theta), std::sin(theta)};
-    // Scaled here, not at the end, so that no power overflows: (p + 1) / 2 (2 / delta)^p / area.
-    frames_.weight[i] = (p_ + 1) / (2 * area_) * std::pow(2 / size.at(points[i], size_hint), p_);
+    length_[i] = size.at(points[i], size_hint);
+    log_weight[i] = -(p_ + 2) * std::log(length_[i]);
   }
+  squares_ = squares_in(delaunay_.patch(), length_);
+  for (std::size_t i = 0; i < n; ++i)  // scaled here, not at the end, so that no power overflows
+    frames_.weight[i] = (p_ + 1) / (2 * squares_) * std::pow(2 / length_[i], p_) / (length_[i] * length_[i]);
+  for (int i = delaunay_.n_boundary(); i < delaunay_.n_points(); ++i)
+    frames_.slope[i] = gradient_at(delaunay_, i, log_weight);
 }
 
 std::vector<Vec2> CvtProblem::seeds() const {
@@ -56,10 +76,14 @@ std::span<const Vec2> CvtProblem::gradient() const {
   return std::span(gradient_).subspan(delaunay_.n_boundary());
 }
 
+std::span<const double> CvtProblem::lengths() const {
+  return std::span(length_).subspan(delaunay_.n_boundary());
+}
+
 double CvtProblem::newton_scale() const {
   // Of a seed in a square cell of side delta' that stays: weight p (p - 1) times the integral of x^(p-2) is
-  // 2 p (p + 1) / area, whatever delta'.
-  return area_ / (2.0 * p_ * (p_ + 1) * spacing_ * spacing_);
+  // 2 p (p + 1) / (N delta'^2).
+  return squares_ / (2.0 * p_ * (p_ + 1));
 }
 
 }  // namespace delquad

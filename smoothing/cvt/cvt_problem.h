@@ -14,14 +14,16 @@ namespace delquad {
 
 /// The Lp energy of a patch's points as a function of the inner ones, without dimension:
 ///
-///     F = (p + 1) 2^p / (2 area) * sum over seeds of integral over the cell of (|y - x|_p / delta'(x))^p dy
+///     F = (p + 1) 2^p / (2 N) * sum over seeds of integral over the cell of |y - x|_p^p / delta'(x)^(p + 2)
+///     dy
 ///
-/// 1 when all cells are squares of side delta' along the cross field. Cross and size are held where the
-/// seeds were when they were last taken.
+/// with N the integral of 1/delta'^2 over the patch: 1 when all cells are squares of side delta' along the
+/// cross field. The cross is held where the seeds were when it was last taken; log delta' is linear around
+/// there, with the gradient that the triangulation gives.
 ///
-/// Differs from [levy2010] and [baudouin2014], whose weight delta'^-(p + 2) varies in space: a weight that
-/// goes with its seed balances two neighbours' cells when weight * width^p is the same for both, so that
-/// widths follow delta' for delta'^-p.
+/// A density of points of 1/h^2 makes F the integral of h^p / delta'^(p + 2), least for h in proportion to
+/// delta' [levy2010, baudouin2014]. That needs the derivative of delta' in the gradient: seeds that carry
+/// their weights along would settle at widths of delta'^(1 + 2/p).
 class CvtProblem {
  public:
   CvtProblem(MovingDelaunay delaunay, int p);
@@ -36,10 +38,10 @@ class CvtProblem {
   std::optional<double> evaluate(std::span<const Vec2> seeds);
   /// dF/dx of each seed, of the last evaluation.
   std::span<const Vec2> gradient() const;
-  /// A length: the root of the patch's area a point.
-  double spacing() const { return spacing_; }
-  /// F in such units that its second derivatives by positions over spacing() are about 1 on a regular
-  /// lattice.
+  /// delta' where each seed was when the frames were taken: the unit to measure its way in.
+  std::span<const double> lengths() const;
+  /// F in such units that its second derivatives by positions over lengths() are about 1 on a lattice of
+  /// the wanted size.
   double newton_scale() const;
 
   int p() const { return p_; }
@@ -53,7 +55,8 @@ class CvtProblem {
   SeedFrames frames_;
   LpEnergy energy_;
   int p_;
-  double area_, spacing_;
+  std::vector<double> length_;  ///< delta' of each point
+  double squares_ = 0;          ///< N above
   std::vector<Vec2> gradient_;
   std::optional<double> last_;  ///< F where the seeds are, when it is known
 };

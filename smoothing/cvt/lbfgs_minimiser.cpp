@@ -10,8 +10,8 @@
 namespace delquad {
 namespace {
 
-/// F in newton_scale() by the seeds' ways from where they were, over spacing(). Where that makes the first
-/// step longer than one spacing for some seed, F is scaled down: Ceres would shorten it by the largest
+/// F in newton_scale() by the seeds' ways from where they were, over lengths(). Where that makes the first
+/// step longer than one length for some seed, F is scaled down: Ceres would shorten it by the largest
 /// component, which depends on how the axes lie.
 class ScaledEnergy final : public ceres::FirstOrderFunction {
  public:
@@ -25,11 +25,11 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
     if (scale_ == 0) scale_ = problem_.newton_scale() / std::max(1.0, scaled_gradient_norm(problem_));
     *cost = scale_ * *energy;
     if (gradient == nullptr) return true;
-    const double scale = scale_ * problem_.spacing();
+    const auto h = problem_.lengths();
     const auto g = problem_.gradient();
     for (std::size_t i = 0; i < g.size(); ++i) {
-      gradient[2 * i] = scale * g[i].x;
-      gradient[2 * i + 1] = scale * g[i].y;
+      gradient[2 * i] = scale_ * h[i] * g[i].x;
+      gradient[2 * i + 1] = scale_ * h[i] * g[i].y;
     }
     return true;
   }
@@ -40,7 +40,7 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
   std::vector<Vec2> seeds(const double* parameters) const {
     std::vector<Vec2> x = start_;
     for (std::size_t i = 0; i < x.size(); ++i)
-      x[i] += problem_.spacing() * Vec2{parameters[2 * i], parameters[2 * i + 1]};
+      x[i] += problem_.lengths()[i] * Vec2{parameters[2 * i], parameters[2 * i + 1]};
     return x;
   }
 
@@ -91,7 +91,9 @@ class LbfgsMinimiser final : public CellMinimiser {
     solver.logging_type = ceres::SILENT;
     solver.callbacks.push_back(&mark);
     ceres::GradientProblemSolver::Summary summary;
+    const std::size_t first = samples.size();
     ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
+    samples[first].accepted = true;  // not marked where the search converges at once
 
     const std::vector<Vec2> best = energy->seeds(parameters.data());
     problem.evaluate(best);

@@ -102,8 +102,9 @@ std::unique_ptr<CellMinimiser> make_lloyd_minimiser() { return std::make_unique<
 
 double scaled_gradient_norm(const CvtProblem& problem) {
   double largest = 0;
-  for (const Vec2 g : problem.gradient()) largest = std::max(largest, norm(g));
-  return largest * problem.newton_scale() * problem.spacing();
+  const auto g = problem.gradient();
+  for (std::size_t i = 0; i < g.size(); ++i) largest = std::max(largest, problem.lengths()[i] * norm(g[i]));
+  return largest * problem.newton_scale();
 }
 
 }  // namespace delquad

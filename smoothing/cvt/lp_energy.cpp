@@ -52,6 +52,9 @@ struct Arrays {
   std::vector<double>& energy;
   std::vector<Vec2>&by_centre, &by_clip, &gradient;
 
+  double weight(std::size_t i) const {
+    return frames.weight[i] * std::exp(dot(frames.slope[i], tri.points[i] - frames.from[i]));
+  }
   /// Where the derivative by an end of an edge of seed i's cell is added up.
   Vec2* slot(int seed, const CellEnd& end) const {
     if (end.kind == CellEnd::kCentre) return &by_centre[end.index];
@@ -65,7 +68,7 @@ template <int P>
 void add_cells(const MovingDelaunay& delaunay, const Arrays& a, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const int seed = static_cast<int>(i);
-    CellEnergy<P> cell(a.tri.points[i], {a.frames.axis[i]}, a.frames.weight[i]);
+    CellEnergy<P> cell(a.tri.points[i], {a.frames.axis[i]}, a.weight(i));
     Powers<P> last;  // of the end before, which two edges often share
     int last_centre = -1;
     for_each_corner(delaunay, seed, [&](int t, int k) { a.by_centre[3 * t + k] = {}; });
@@ -86,7 +89,7 @@ template <int P>
 void add_pieces(const Arrays& a) {
   for (const BoundedVoronoi::Piece& piece : a.cells.pieces()) {
     const int i = piece.seed;
-    CellEnergy<P> cell(a.tri.points[i], {a.frames.axis[i]}, a.frames.weight[i]);
+    CellEnergy<P> cell(a.tri.points[i], {a.frames.axis[i]}, a.weight(i));
     const auto end_of = [&](int clip) { return CellEnd{CellEnd::kClip, clip, a.cells.clips()[clip].at}; };
     const CellEnd first = end_of(piece.from), second = end_of(piece.to);
     cell.add(cell.corner(first.at), cell.corner(second.at), a.slot(i, first), a.slot(i, second));
@@ -136,9 +139,11 @@ void evaluate_cells(const MovingDelaunay& delaunay, const Arrays& a) {
   parallel_blocks(a.tri.triangles.size(),
                   [&](std::size_t begin, std::size_t end) { chain_through_centres(a, begin, end); });
   parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
+      a.gradient[i] += a.energy[i] * a.frames.slope[i];
       for_each_corner(delaunay, static_cast<int>(i),
                       [&](int t, int k) { a.gradient[i] += a.by_centre[3 * t + k]; });
+    }
   });
   chain_through_clips(a);
 }

@@ -28,12 +28,15 @@ inline SeedFrames random_frames(std::size_t n, std::uint64_t seed) {
     const double t = 2 * std::numbers::pi * shapes::uniform(random);
     frames.axis.push_back({std::cos(t), std::sin(t)});
     frames.weight.push_back(0.5 + shapes::uniform(random));
+    frames.slope.push_back({2 * shapes::uniform(random) - 1, 2 * shapes::uniform(random) - 1});
+    frames.from.push_back({shapes::uniform(random), shapes::uniform(random)});
   }
   return frames;
 }
 
 inline SeedFrames equal_frames(std::size_t n, double angle = 0) {
-  return {std::vector<Vec2>(n, {std::cos(angle), std::sin(angle)}), std::vector<double>(n, 1.0)};
+  return {std::vector<Vec2>(n, {std::cos(angle), std::sin(angle)}), std::vector<double>(n, 1.0),
+          std::vector<Vec2>(n), std::vector<Vec2>(n)};
 }
 
 /// Points that are not the boundary's.

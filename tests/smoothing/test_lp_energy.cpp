@@ -94,6 +94,8 @@ TEST(LpEnergies, RotationTranslationAndScale) {
   for (Vec2& x : boundary2.points) x = moved(x);
   for (Vec2& x : seeds2) x = moved(x);
   for (Vec2& a : frames2.axis) a = turned(a);
+  for (Vec2& s : frames2.slope) s = (1 / scale) * turned(s);
+  for (Vec2& x : frames2.from) x = moved(x);
   for (const int p : {2, 6}) {
     const EnergyAndGradient at = energy_of(boundary, seeds, frames, p);
     const EnergyAndGradient at2 = energy_of(boundary2, seeds2, frames2, p);
