@@ -54,6 +54,25 @@ void add_elements(const std::vector<std::array<int, N>>& elements, const std::ve
   }
 }
 
+/// Adds the quads around tips of cones, where meshes are still of triangles each as two.
+void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches,
+              const std::vector<char>& left_out, Mesh& mesh) {
+  for (const auto& [patch, cap] : domain.caps) {
+    const int region = domain.patches[patch].map.face;
+    if (left_out[region]) continue;
+    for (const auto& [a, b, c, d] : cap.quads) {
+      if (patches[patch].form == PatchForm::kTriangles) {
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+        mesh.triangle_region.insert(mesh.triangle_region.end(), 2, region);
+      } else {
+        mesh.quads.push_back({a, b, c, d});
+        mesh.quad_region.push_back(region);
+      }
+    }
+  }
+  if (!domain.caps.empty()) drop_unused_points(mesh);
+}
+
 /// Takes out lines that are on no element, and points that nothing uses then.
 void drop_stray_lines(Mesh& mesh) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
@@ -216,6 +235,7 @@ Mesh assemble(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
   }
+  if (prepared.surface) add_caps(prepared.surface->domain, patches, left_out, mesh);
   if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
   if (log != nullptr) log->add_seconds("projection", projection.work_seconds());
   return mesh;

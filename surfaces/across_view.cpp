@@ -114,6 +114,8 @@ void AcrossView::look_from(const Side& side, double t, double reach, std::vector
 
 bool AcrossView::faces(const Side& side, double t, Vec2 direction, const Side& other, double along,
                        double distance) const {
+  // The two sides of a cut are the same place.
+  if (side.curve->chain == other.curve->chain && side.curve->forward != other.curve->forward) return false;
   const FlatPatch& map = maps_[side.patch];
   const Vec2 e = flat_point(map, other.curve->to) - flat_point(map, other.curve->from);
   const double cosine = cross(direction, e) / norm(e);

@@ -118,20 +118,25 @@ constexpr int kMostPieces = 4096;
 
 }  // namespace
 
-SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size) {
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size,
+                           std::span<const double> limits) {
   constexpr double kGauss = 0.21132486540518713;  // (1 - 1/sqrt 3) / 2
   SizeIntegral table;
   table.entries.push_back({0, 0});
   for (size_t i = 0; i + 1 < chain.points.size(); ++i) {
     const Vec3 a = fine.points[chain.points[i]], d = fine.points[chain.points[i + 1]] - a;
     const double length = norm(d), shortest = 1.0 / kMostPieces;
+    const auto size_at = [&](double t) {
+      const double wanted = size(a + t * d);
+      return limits.empty() ? wanted : std::min(wanted, (1 - t) * limits[i] + t * limits[i + 1]);
+    };
     for (double t = 0; t < 1;) {
       // The size at the piece's middle may be far smaller than at its beginning: halved until it fits.
-      double step = std::clamp(kPiece * size(a + t * d) / length, shortest, 1.0);
-      while (step > shortest && step * length > 2 * kPiece * size(a + std::min(t + step, 1.0) * d)) step /= 2;
+      double step = std::clamp(kPiece * size_at(t) / length, shortest, 1.0);
+      while (step > shortest && step * length > 2 * kPiece * size_at(std::min(t + step, 1.0))) step /= 2;
       if (t + 1.5 * step > 1) step = 1 - t;
       double sum = 0;
-      for (const double g : {kGauss, 1 - kGauss}) sum += 1 / size(a + (t + g * step) * d);
+      for (const double g : {kGauss, 1 - kGauss}) sum += 1 / size_at(t + g * step);
       t = t + step < 1 ? t + step : 1;
       table.entries.push_back({static_cast<double>(i) + t, table.total() + step * length * sum / 2});
     }

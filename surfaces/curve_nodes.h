@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "algorithms/recombination/matching.h"
@@ -59,8 +60,10 @@ struct SizeIntegral {
   double part_at(double s) const;
 };
 
-/// Two-point Gauss on pieces of the fine lines that are short against the size.
-SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size);
+/// Two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if any): what the
+/// size may be at most at each point of the chain, linear between them.
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeFunction& size,
+                           std::span<const double> limits = {});
 
 /// Places along each curve, ascending, both ends included, in edges from its beginning: the k-th is k where
 /// all edges are of equal integral.

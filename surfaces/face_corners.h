@@ -15,6 +15,8 @@ struct FaceCorner {
   int before, after;             ///< curves (chains), in the order of the patch's boundary
   bool before_ends, after_ends;  ///< whether the corner is the chain's last point, not its first
   double angle;  ///< inside the patch, in space: the sum of its fine triangles' angles; radians
+  /// The tip of a cone: both sides are the same.
+  bool is_tip() const { return before == after && before_ends == after_ends; }
 };
 
 std::vector<FaceCorner> face_corners(const Mesh& fine, const std::vector<CurveChain>& chains,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "surfaces/narrow_places.h"
 #include "surfaces/narrow_seeds.h"
 #include "surfaces/patch_outline.h"
+#include "surfaces/tube_sizes.h"
 
 namespace delquad {
 
@@ -23,6 +25,8 @@ namespace {
 
 /// A boundary loop of quads needs four edges to enclose an area.
 constexpr int kFewestLoopEdges = 4;
+/// A cut to the tip of a cone has a node besides its ends.
+constexpr int kFewestTipEdges = 2;
 /// So many times curves are refined to keep boundary polygons from crossing.
 constexpr int kRefinements = 8;
 /// Curves shorter than this part of the size are warned of.
@@ -43,6 +47,7 @@ class DomainBuilder {
     const LineIndex lines(chains_);
     for (const FlatPatch& map : maps_) outlines_.push_back(lines.outline(map, chains_, face_name(map)));
     corners_ = face_corners(fine_, chains_, maps_, outlines_);
+    tube_sizes_ = tube_sizes(fine_, chains_, maps_, outlines_, size_);
     across_.emplace(fine_, chains_, maps_, outlines_);
   }
 
@@ -70,16 +75,38 @@ class DomainBuilder {
   }
 
   void measure_curves() {
+    const std::vector<std::vector<double>> limits = limits_on_curves();
     int hint = -1;
     const SizeFunction delta = [&](const Vec3& x) { return size_.at(x, hint); };
     for (const CurveChain& chain : chains_) {
-      integrals_.push_back(size_integral(fine_, chain, delta));
+      const auto& limit = limits[integrals_.size()];
+      integrals_.push_back(size_integral(fine_, chain, delta, limit));
+      lengths_.push_back(limit.empty() ? integrals_.back().total()
+                                       : size_integral(fine_, chain, delta).total());
       demands_.push_back({integrals_.back().total(), chain.closed() ? 3 : 1, {}});
     }
     for (size_t p = 0; p < maps_.size(); ++p)
       for (const auto& loop : outlines_[p])
         for (const CurveSide& side : loop)
           if (side.begins(chains_[side.chain])) demands_[side.chain].patches.push_back(static_cast<int>(p));
+  }
+
+  /// What tubes allow at each point of each curve; empty for curves that bound none.
+  std::vector<std::vector<double>> limits_on_curves() const {
+    std::vector<std::vector<double>> limits(chains_.size());
+    for (size_t p = 0; p < maps_.size(); ++p) {
+      if (tube_sizes_[p].empty()) continue;
+      for (const auto& loop : outlines_[p])
+        for (const CurveSide& side : loop) {
+          auto& of_chain = limits[side.chain];
+          of_chain.resize(chains_[side.chain].points.size(), std::numeric_limits<double>::max());
+          const auto [first, second] =
+              std::pair(side.forward ? side.from : side.to, side.forward ? side.to : side.from);
+          of_chain[side.line] = std::min(of_chain[side.line], tube_sizes_[p][first]);
+          of_chain[side.line + 1] = std::min(of_chain[side.line + 1], tube_sizes_[p][second]);
+        }
+    }
+    return limits;
   }
 
   /// The curves of a strip want the mean of what each wants alone.
@@ -94,7 +121,7 @@ class DomainBuilder {
 
   void warn_of_short_curves() {
     for (size_t c = 0; c < chains_.size(); ++c)
-      if (const double length = integrals_[c].total(); length < kShort)
+      if (const double length = lengths_[c]; length < kShort)
         warnings_.push_back(fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
                                         fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum));
   }
@@ -103,7 +130,9 @@ class DomainBuilder {
     // The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
     std::vector<std::map<int, int>> sharp_ends(chains_.size());  // of each curve, by patch
     for (const FaceCorner& corner : corners_)
-      if (corner.angle < kSharpAngle)
+      if (corner.is_tip())
+        demands_[corner.after].minimum = std::max(demands_[corner.after].minimum, kFewestTipEdges);
+      else if (corner.angle < kSharpAngle)
         ++sharp_ends[corner.before][corner.patch], ++sharp_ends[corner.after][corner.patch];
     for (size_t c = 0; c < chains_.size(); ++c)
       for (const auto& [patch, ends] : sharp_ends[c])
@@ -198,28 +227,46 @@ class DomainBuilder {
   }
 
   SurfaceDomain collect() {
-    for (size_t p = 0; p < maps_.size(); ++p) seed_narrow_places(boundaries_[p]);
     SurfaceDomain domain;
     domain.sharp_corners = find_sharp_corners(corners_, chains_, maps_, nodes_, kBadEta);
-    domain.warnings = std::move(warnings_);
-    domain.boundary.points = nodes_.points;
     domain.boundary.curves = fine_.curves;
     domain.boundary.regions = fine_.regions;
+    for (size_t p = 0; p < maps_.size(); ++p) {
+      auto background = std::make_shared<BackgroundMesh>(maps_[p].flat);
+      domain.patches.push_back({std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]),
+                                std::move(background), std::move(tube_sizes_[p])});
+      cap_tips_of(static_cast<int>(p), domain);
+      seed_narrow_places(domain.patches[p].boundary);
+    }
     for (size_t c = 0; c < chains_.size(); ++c) {
       for (size_t i = 0; i + 1 < nodes_.on_curve[c].size(); ++i) {
         domain.boundary.lines.push_back({nodes_.on_curve[c][i].node, nodes_.on_curve[c][i + 1].node});
         domain.boundary.line_curve.push_back(chains_[c].curve);
       }
     }
-    for (size_t p = 0; p < maps_.size(); ++p) {
-      auto background = std::make_shared<BackgroundMesh>(maps_[p].flat);
-      domain.patches.push_back(
-          {std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]), std::move(background)});
-    }
+    domain.boundary.points = nodes_.points;
     domain.chains = std::move(chains_);
     domain.cut_face = std::move(cut_face_);
     domain.nodes = std::move(nodes_);
+    domain.warnings = std::move(warnings_);
     return domain;
+  }
+
+  /// Takes pointed tips out of a patch, and the nodes that this drops from their curves.
+  void cap_tips_of(int p, SurfaceDomain& domain) {
+    SurfacePatch& patch = domain.patches[p];
+    int hint = -1;
+    const auto add_node = [&](Vec2 u) {
+      nodes_.points.push_back(lift(patch, model_, u, hint));
+      return static_cast<int>(nodes_.points.size()) - 1;
+    };
+    for (TipCap& cap : cap_tips(patch.boundary, add_node)) {
+      for (auto& on_curve : nodes_.on_curve)
+        std::erase_if(on_curve, [&](const CurveNode& n) {
+          return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
+        });
+      domain.caps.push_back({p, std::move(cap)});
+    }
   }
 
   const SurfaceModel& model_;
@@ -229,11 +276,13 @@ class DomainBuilder {
   std::vector<FlatPatch> maps_;
   std::vector<int> cut_face_;
   std::vector<CurveChain> chains_;
-  std::vector<PatchOutline> outlines_;  ///< of each map
+  std::vector<PatchOutline> outlines_;           ///< of each map
+  std::vector<std::vector<double>> tube_sizes_;  ///< at the vertices of each map
   std::vector<FaceCorner> corners_;
   std::optional<AcrossView> across_;
   std::vector<int> group_;  ///< of each curve, those that face each other along strips
   std::vector<SizeIntegral> integrals_;
+  std::vector<double> lengths_;  ///< of each curve, in sizes that take no account of tubes
   std::vector<CurveDemand> demands_;
   SurfaceNodes nodes_;
   std::vector<PatchBoundary> boundaries_;
@@ -269,14 +318,16 @@ double SurfacePatchSize::at(Vec2 u, int& hint) const {
   const auto& v = patch_.map.flat.triangles[t];
   std::array<int, 3> nodes;
   Vec3 x;
-  double stretch = 0;
+  double stretch = 0, limit = 0;
   for (int k = 0; k < 3; ++k) {
     nodes[k] = patch_.map.fine_node[v[k]];
+    if (!patch_.tube_size.empty()) limit += b[k] * patch_.tube_size[v[k]];
     x = x + b[k] * fine_.points[nodes[k]];
     stretch += b[k] * stretch_[v[k]];
   }
   int size_hint = -1;
-  return stretch * size_.on_fine(nodes, b, x, size_hint);
+  const double wanted = size_.on_fine(nodes, b, x, size_hint);
+  return stretch * (patch_.tube_size.empty() ? wanted : std::min(wanted, limit));
 }
 
 Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint) {

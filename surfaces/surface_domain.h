@@ -12,6 +12,7 @@
 #include "surfaces/face_corners.h"
 #include "surfaces/patch_outline.h"
 #include "surfaces/surface_size.h"
+#include "surfaces/tip_caps.h"
 
 namespace delquad {
 
@@ -24,6 +25,15 @@ struct SurfacePatch {
   PatchOutline outline;
   PatchBoundary boundary;
   std::shared_ptr<const BackgroundMesh> background;  ///< the map's triangulation
+  std::vector<double> tube_size;  ///< at the map's vertices, see tube_sizes(); may be empty
+};
+
+/// Quads that belong to a patch but are not within its boundary.
+struct PatchCap {
+  int patch;
+  TipCap cap;
+  int tip() const { return cap.quads[0][0]; }
+  int foot() const { return cap.quads[0][1]; }  ///< the next node of the cut
 };
 
 struct SurfaceDomain {
@@ -32,6 +42,7 @@ struct SurfaceDomain {
   std::vector<CurveChain> chains;
   std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
   SurfaceNodes nodes;                      ///< those of `boundary`
+  std::vector<PatchCap> caps;              ///< at tips of cones
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<std::string> warnings;
 };
@@ -43,9 +54,9 @@ struct SurfaceDomain {
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
                                   const MatchingSolver& solver);
 
-/// delta' of a patch: delta at the point in space, times the local stretch parameter length / surface length,
-/// which is |det M|^(-1/4) (the paper's sections 2 and 5 print +1/4), averaged to the map's vertices so that
-/// it is continuous.
+/// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
+/// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
+/// +1/4), averaged to the map's vertices so that it is continuous.
 class SurfacePatchSize final : public ParametricSize {
  public:
   SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size);

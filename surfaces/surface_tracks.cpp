@@ -33,6 +33,7 @@ SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, c
       stays_(nodes.points.size(), 0),
       vertex_patch_(nodes.points.size(), -1) {
   add_curves();
+  for (const PatchCap& cap : domain.caps) on_curve_[cap.foot()] = {};
   for (const Patch& patch : patches_) add_patch(patch);
   hint_.assign(points_.size(), -1);
 }
@@ -128,13 +129,26 @@ Vec3 SurfaceTracks::arm(int quad, int side) const {
   return (1 / norm(arm)) * arm;
 }
 
+bool SurfaceTracks::is_capped(const SurfacePatch& patch, int node) const {
+  return std::ranges::any_of(domain_.caps, [&](const PatchCap& cap) {
+    return &domain_.patches[cap.patch] == &patch && cap.tip() == node;
+  });
+}
+
 void SurfaceTracks::store(const std::vector<Vec3>& points) {
   std::copy_n(points.begin(), nodes_.points.size(), nodes_.points.begin());
   std::size_t v = nodes_.points.size();
   for (const Patch& patch : patches_) {
     const PatchBoundary boundary =
         place_boundary(patch.patch->map, patch.patch->outline, domain_.chains, nodes_);
-    std::copy(boundary.points.begin(), boundary.points.end(), patch.mesh->points.begin());
+    // Where a tip was cut off, the boundary has three fixed points instead.
+    auto to = patch.mesh->points.begin();
+    for (size_t i = 0; i < boundary.points.size(); ++i) {
+      if (is_capped(*patch.patch, boundary.point_node[i]))
+        to += 3;
+      else
+        *to++ = boundary.points[i];
+    }
     for (std::size_t i = 0; i < patch.inside->size(); ++i, ++v) {
       patch.mesh->points[patch.mesh->n_boundary + i] = position_[v];
       (*patch.inside)[i] = points[v];

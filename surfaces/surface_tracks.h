@@ -46,6 +46,7 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
 
   void add_curves();
   void add_patch(const Patch& patch);
+  bool is_capped(const SurfacePatch& patch, int node) const;
   /// Index of the line and the fraction along it, at a length along the chain.
   double s_at(int chain, double length) const;
   Vec3 direction(int chain, double length) const;

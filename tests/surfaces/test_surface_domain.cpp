@@ -11,6 +11,7 @@
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/recombination/treatment.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "mesh/drop_unused_points.h"
 #include "metrics/metrics.h"
 #include "smoothing/space_lift.h"
 #include "tests/support/polygon_face.h"
@@ -57,6 +58,12 @@ Meshed mesh_surface(SurfaceModel model, double h) {
       mesh.quad_region.push_back(patch.map.face);
     }
   }
+  for (const auto& [patch, cap] : domain.caps)
+    for (const auto& quad : cap.quads) {
+      mesh.quads.push_back(quad);
+      mesh.quad_region.push_back(domain.patches[patch].map.face);
+    }
+  drop_unused_points(mesh);
   return {std::move(mesh), domain.warnings, domain.sharp_corners};
 }
 

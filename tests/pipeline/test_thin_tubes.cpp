@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fields/fields.h"
+#include "metrics/metrics.h"
+#include "pipeline/prepare_surface.h"
+#include "pipeline/runner.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+namespace surfaces = testing_support;
+
+/// run_word() throws where an element meets itself or two have the same vertices.
+RunResult mesh_of(SurfaceModel model, double size, const char* word) {
+  Case c;
+  c.name = c.where = "tube";
+  const PreparedCase prepared = prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
+  Progress progress;
+  return run_word(c, prepared, parse_word(word), progress);
+}
+
+double worst_eta(const Mesh& mesh) {
+  const std::vector<double> etas = quad_etas(mesh);
+  return *std::min_element(etas.begin(), etas.end());
+}
+
+TEST(ThinTubes, QuadsDoNotMeetThemselvesAround) {
+  for (const double size : {0.2, 0.5, 1.0, 2.0}) {
+    const RunResult result = mesh_of(surfaces::cylinder(16, 96, 0.1, 4), size, "DB");
+    EXPECT_TRUE(result.mesh.triangles.empty());
+    EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
+    EXPECT_GT(worst_eta(result.mesh), 0.3) << size;
+  }
+}
+
+TEST(ThinTubes, TwoQuadsMeetAtAPointedTip) {
+  for (const double degrees : {2, 5, 10, 20, 33}) {
+    const double half_angle = degrees * std::numbers::pi / 180;
+    for (const double size : {0.07, 0.2}) {
+      const RunResult result = mesh_of(surfaces::cone(48, 24, half_angle), size, "DB");
+      EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
+      const auto at_tip = std::ranges::count_if(result.mesh.quads, [&](const auto& quad) {
+        return std::ranges::any_of(quad, [&](int v) { return norm(result.mesh.points[v]) < 1e-12; });
+      });
+      EXPECT_EQ(at_tip, 2) << degrees << " " << size;
+      // Their sides lie on opposite generators.
+      EXPECT_GT(worst_eta(result.mesh), std::min(0.3, 0.95 * degrees / 45)) << degrees << " " << size;
+      EXPECT_EQ(result.bad_elsewhere, 0);
+    }
+  }
+}
+
+TEST(ThinTubes, VerticesMoveBesideTips) {
+  const RunResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
+  EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
+  EXPECT_GT(worst_eta(result.mesh), 0.9 * 0.15 / (std::numbers::pi / 4));
+}
+
+TEST(ThinTubes, TrianglesCoverThemToo) {
+  EXPECT_EQ(mesh_of(surfaces::cylinder(16, 96, 0.1, 4), 1, "D").surface->mesh.euler_characteristic, 0);
+  EXPECT_EQ(mesh_of(surfaces::cone(48, 24, 0.15), 0.2, "D").surface->mesh.euler_characteristic, 1);
+}
+
+}  // namespace
+}  // namespace delquad
