@@ -14,6 +14,8 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 
+#include "mesh/parallel.h"
+
 namespace delquad::cad {
 
 namespace {
@@ -43,12 +45,16 @@ void replace(CadShape& cad, const TopoDS_Shape& shape, Image image) {
   cad.names = names;
 }
 
+BRepCheck_Analyzer check_shape(const TopoDS_Shape& shape) {
+  return BRepCheck_Analyzer(shape, /*GeomControls=*/true, /*theIsParallel=*/thread_count() > 1);
+}
+
 void fix(CadShape& cad) {
-  if (BRepCheck_Analyzer(cad.shape).IsValid()) return;
+  if (check_shape(cad.shape).IsValid()) return;
   ShapeFix_Shape fixer(cad.shape);
   fixer.Perform();
   const TopoDS_Shape fixed = fixer.Shape();
-  const BRepCheck_Analyzer check(fixed);
+  const BRepCheck_Analyzer check = check_shape(fixed);
   replace(cad, fixed, [&](const TopoDS_Shape& face) { return fixer.Context()->Apply(face); });
   if (check.IsValid()) {
     cad.warnings.push_back("the shape was invalid and has been healed");

@@ -8,6 +8,8 @@
 #include <Bnd_Box.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <OSD_Parallel.hxx>
+#include <OSD_ThreadPool.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -23,6 +25,7 @@
 #include "cad/shape_file.h"
 #include "cad/tessellate.h"
 #include "mesh/error.h"
+#include "mesh/parallel.h"
 
 namespace delquad::cad {
 
@@ -94,8 +97,15 @@ CadShape prepare(CadShape cad, const CadOptions& options) {
   return cad;
 }
 
+/// The kernel's own threads, as many as parallel_for() has: those of oneTBB do not live on in a child.
+void set_kernel_threads() {
+  OSD_Parallel::SetUseOcctThreads(true);
+  OSD_ThreadPool::DefaultPool()->Init(thread_count());
+}
+
 std::string answer(const std::function<CadShape()>& make, const CadOptions& options) {
   try {
+    set_kernel_threads();
     return kShape + to_bytes(prepare(make(), options));
   } catch (const Standard_Failure& failure) {
     return kMessage + fmt::format("damaged: the CAD kernel gave up: {} {}", failure.DynamicType()->Name(),

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/parallel.h"
 
 namespace delquad::cad {
 
@@ -81,6 +82,7 @@ void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& fa
     parameters.Angle = angle * std::pow(kFiner, trial);
     // The smallest sides follow the deflection, or a small edge's own length.
     parameters.AdjustMinSize = true;
+    parameters.InParallel = thread_count() > 1;
     BRepMesh_IncrementalMesh(shape, parameters);
     if (is_whole(faces)) return;
   }

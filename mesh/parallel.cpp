@@ -87,4 +87,10 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
     if (error) std::rethrow_exception(error);
 }
 
+void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work) {
+  constexpr std::size_t kLength = 1024;
+  parallel_for((n + kLength - 1) / kLength,
+               [&](std::size_t i) { work(i * kLength, std::min(n, (i + 1) * kLength)); });
+}
+
 }  // namespace delquad

@@ -18,6 +18,9 @@ int thread_count();
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
                   const std::function<double(std::size_t)>& cost = {});
 
+/// Calls work(begin, end) for ranges of a fixed length, the last one excepted, that make up [0, n).
+void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work);
+
 /// Seconds by which the parallel_for() calls of this thread so far took longer than the clock on the wall
 /// says, when the times of their work(i) are added up (nested calls included). For measuring: see Stopwatch.
 double parallel_surplus();

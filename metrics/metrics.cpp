@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesh/half_edges.h"
+#include "mesh/parallel.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 
@@ -42,11 +43,14 @@ void add_angles(const ElementShape<N>& shape, MeshMetrics& metrics) {
 
 void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
   const auto normal = common_normal(mesh);
+  std::vector<ElementShape<4>> shapes(mesh.quads.size());
+  parallel_ranges(shapes.size(), [&](size_t begin, size_t end) {
+    for (size_t q = begin; q < end; ++q) shapes[q] = quad_shape(mesh, static_cast<int>(q), normal);
+  });
   std::vector<double> etas;
-  etas.reserve(mesh.quads.size());
+  etas.reserve(shapes.size());
   double inverted = 0, worst_jacobian = 1, jacobian_sum = 0, eta_sum = 0;
-  for (size_t q = 0; q < mesh.quads.size(); ++q) {
-    const ElementShape<4> shape = quad_shape(mesh, static_cast<int>(q), normal);
+  for (const ElementShape<4>& shape : shapes) {
     add_angles(shape, metrics);
     etas.push_back(eta_of(shape.angle));
     add_to(metrics.eta, etas.back());
@@ -142,11 +146,11 @@ double quad_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 std::vector<double> quad_etas(const Mesh& mesh) {
   const auto normal = common_normal(mesh);
-  std::vector<double> etas;
-  etas.reserve(mesh.quads.size());
-  for (size_t q = 0; q < mesh.quads.size(); ++q) {
-    etas.push_back(eta_of(quad_shape(mesh, static_cast<int>(q), normal).angle));
-  }
+  std::vector<double> etas(mesh.quads.size());
+  parallel_ranges(etas.size(), [&](size_t begin, size_t end) {
+    for (size_t q = begin; q < end; ++q)
+      etas[q] = eta_of(quad_shape(mesh, static_cast<int>(q), normal).angle);
+  });
   return etas;
 }
 

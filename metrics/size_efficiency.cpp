@@ -1,7 +1,11 @@
 #include "metrics/size_efficiency.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "mesh/parallel.h"
 
 namespace delquad {
 
@@ -50,20 +54,25 @@ double adimensional_length(const Vec3& a, const Vec3& b, const SizeField& size) 
 
 double efficiency_index(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size) {
   if (sides.empty()) return std::numeric_limits<double>::quiet_NaN();
-  int hint = -1;
-  std::vector<double> inverse_size;
-  inverse_size.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points) inverse_size.push_back(1 / size.at(p, hint));
-  double sum = 0;
-  long long n_edges = 0;
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    const auto& [lo, hi, element, forward] = edge[0];
-    const double l =
-        EdgeIntegral(mesh.points[lo], mesh.points[hi], size, hint).length(inverse_size[lo], inverse_size[hi]);
-    sum += l < 1 ? l - 1 : 1 / l - 1;
-    ++n_edges;
+  std::vector<double> inverse_size(mesh.points.size());
+  parallel_ranges(inverse_size.size(), [&](std::size_t begin, std::size_t end) {
+    int hint = -1;
+    for (std::size_t i = begin; i < end; ++i) inverse_size[i] = 1 / size.at(mesh.points[i], hint);
   });
-  return 100 * std::exp(sum / static_cast<double>(n_edges));
+  std::vector<std::array<int, 2>> edges;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) { edges.push_back({edge[0].lo, edge[0].hi}); });
+  std::vector<double> lengths(edges.size());
+  parallel_ranges(edges.size(), [&](std::size_t begin, std::size_t end) {
+    int hint = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [lo, hi] = edges[i];
+      lengths[i] = EdgeIntegral(mesh.points[lo], mesh.points[hi], size, hint)
+                       .length(inverse_size[lo], inverse_size[hi]);
+    }
+  });
+  double sum = 0;
+  for (const double l : lengths) sum += l < 1 ? l - 1 : 1 / l - 1;
+  return 100 * std::exp(sum / static_cast<double>(edges.size()));
 }
 
 }  // namespace delquad

@@ -309,8 +309,9 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
   result.log.add_seconds("metrics", measuring.work_seconds());
   if (prepared.surface) {
     const PreparedSurface& surface = *prepared.surface;
+    const Stopwatch reporting;
     result.surface = report_surface(surface.model, surface.cuts, left_out, result.mesh);
-    result.log.add_seconds("surface report", result.surface->seconds);
+    result.log.add_seconds("surface report", reporting.work_seconds());
   }
   result.peak_memory = peak_memory();
   warn_of_bad_quads(c.name + " " + word.text, result);

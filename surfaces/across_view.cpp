@@ -36,6 +36,14 @@ void AcrossView::add_patch(int patch) {
       owner[{v[(k + 1) % 3], v[(k + 2) % 3]}] = {static_cast<int>(t), k};
     }
   auto& side_at = side_at_.emplace_back(map.flat.triangles.size(), std::array{-1, -1, -1});
+  auto& stretch = stretch_.emplace_back();
+  for (const auto& v : map.flat.triangles) {
+    const auto space = [&](int k) { return fine_.points[map.fine_node[v[k]]]; };
+    const auto plane = [&](int k) { return flat_point(map, v[k]); };
+    const double in_space = norm(cross(space(1) - space(0), space(2) - space(0)));
+    const double in_plane = cross(plane(1) - plane(0), plane(2) - plane(0));
+    stretch.push_back(in_space > 0 ? std::sqrt(in_plane / in_space) : 1);
+  }
   auto& loop_length = loop_length_.emplace_back();
   for (size_t l = 0; l < outlines_[patch].size(); ++l) {
     double path = 0;
@@ -65,15 +73,6 @@ std::vector<Opposite> AcrossView::look(int chain, double s, double reach) const 
   return seen;
 }
 
-/// Parameter length over length in space.
-double AcrossView::stretch(const FlatPatch& map, int triangle) const {
-  const auto& v = map.flat.triangles[triangle];
-  const auto space = [&](int k) { return fine_.points[map.fine_node[v[k]]]; };
-  const auto plane = [&](int k) { return flat_point(map, v[k]); };
-  const double in_space = norm(cross(space(1) - space(0), space(2) - space(0)));
-  return in_space > 0 ? std::sqrt(cross(plane(1) - plane(0), plane(2) - plane(0)) / in_space) : 1;
-}
-
 void AcrossView::look_from(const Side& side, double t, double reach, std::vector<Opposite>& seen) const {
   const FlatPatch& map = maps_[side.patch];
   const Vec2 a = flat_point(map, side.curve->from), b = flat_point(map, side.curve->to),
@@ -93,7 +92,7 @@ void AcrossView::look_from(const Side& side, double t, double reach, std::vector
       if (at < way) way = at, exit = k;
     }
     if (exit < 0) return;
-    distance += std::max(way - before, 0.0) / stretch(map, triangle);
+    distance += std::max(way - before, 0.0) / stretch_[side.patch][triangle];
     before = std::max(way, before);
     if (distance > reach) return;
     const int next = map.flat.neighbours[triangle][exit];

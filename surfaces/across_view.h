@@ -39,7 +39,6 @@ class AcrossView {
   };
 
   void add_patch(int patch);
-  double stretch(const FlatPatch& map, int triangle) const;
   void look_from(const Side& side, double t, double reach, std::vector<Opposite>& seen) const;
   bool faces(const Side& side, double t, Vec2 direction, const Side& other, double along,
              double distance) const;
@@ -51,7 +50,8 @@ class AcrossView {
   std::vector<Side> sides_;
   std::vector<std::vector<std::array<int, 3>>> side_at_;   ///< of each map's triangles; -1 inside
   std::vector<std::vector<std::array<int, 2>>> sides_on_;  ///< of each curve's lines; -1: none
-  std::vector<std::vector<double>> loop_length_;           ///< of each map's loops
+  std::vector<std::vector<double>> stretch_;      ///< of each map's triangles: parameter length over length
+  std::vector<std::vector<double>> loop_length_;  ///< of each map's loops
 };
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/parallel.h"
 #include "surfaces/narrow_places.h"
 
 namespace delquad {
@@ -64,19 +65,25 @@ class Facing {
   }
 
   void look_all() {
+    parallel_for(
+        places_.size(),
+        [&](size_t c) {
+          if (live_[c]) look_from(c);
+        },
+        [&](size_t c) { return total(c); });
+  }
+
+  void look_from(size_t c) {
     int hint = -1;
-    for (size_t c = 0; c < places_.size(); ++c) {
-      if (!live_[c]) continue;
-      for (size_t i = 0; i < places_[c].size(); ++i) {
-        auto& sees = sees_[c][i];
-        sees.clear();
-        const double s = to_s(c, places_[c][i]);
-        const double delta = size_.at(point(c, s), hint);
-        for (const Opposite& o : across_.look(static_cast<int>(c), s, kReach * delta)) {
-          const double ratio = delta / std::max(o.distance, 1e-3 * delta);
-          sees.push_back({o.chain, integrals_[o.chain].part_at(o.s) * total(o.chain),
-                          std::clamp(ratio * ratio, kLeastPull, kMostPull)});
-        }
+    for (size_t i = 0; i < places_[c].size(); ++i) {
+      auto& sees = sees_[c][i];
+      sees.clear();
+      const double s = to_s(c, places_[c][i]);
+      const double delta = size_.at(point(c, s), hint);
+      for (const Opposite& o : across_.look(static_cast<int>(c), s, kReach * delta)) {
+        const double ratio = delta / std::max(o.distance, 1e-3 * delta);
+        sees.push_back({o.chain, integrals_[o.chain].part_at(o.s) * total(o.chain),
+                        std::clamp(ratio * ratio, kLeastPull, kMostPull)});
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
+#include "mesh/parallel.h"
 #include "mesh/predicates.h"
 #include "surfaces/curve_nodes.h"
 #include "surfaces/face_nodes.h"
@@ -72,6 +74,12 @@ class DomainBuilder {
  private:
   std::string face_name(const FlatPatch& map) const {
     return fmt::format("face {}", fine_.regions[map.face].tag);
+  }
+
+  /// Calls work(patch), in parallel.
+  void for_each_patch(const std::function<void(size_t)>& work) const {
+    parallel_for(maps_.size(), work,
+                 [&](size_t p) { return static_cast<double>(maps_[p].flat.points.size()); });
   }
 
   void measure_curves() {
@@ -160,14 +168,17 @@ class DomainBuilder {
     const auto counts = even_counts(demands_, static_cast<int>(maps_.size()), solver_, odd);
     nodes_ = place_nodes(model_, chains_, cut_face_, integrals_,
                          face_nodes(fine_, chains_, *across_, integrals_, counts, group_, size_));
-    boundaries_.clear();
+    boundaries_.resize(maps_.size());
+    std::vector<std::vector<int>> bad(maps_.size());
+    for_each_patch([&](size_t p) {
+      std::vector<int> chain_of_edge;
+      boundaries_[p] = place_boundary(maps_[p], outlines_[p], chains_, nodes_, &chain_of_edge);
+      bad[p] = curves_at_fault(boundaries_[p], chain_of_edge, outlines_[p]);
+    });
     std::vector<int> refine;
     for (size_t p = 0; p < maps_.size(); ++p) {
-      std::vector<int> chain_of_edge;
-      boundaries_.push_back(place_boundary(maps_[p], outlines_[p], chains_, nodes_, &chain_of_edge));
-      const std::vector<int> bad = curves_at_fault(boundaries_.back(), chain_of_edge, outlines_[p]);
-      if (!bad.empty()) crossing_ = p;
-      refine.insert(refine.end(), bad.begin(), bad.end());
+      if (!bad[p].empty()) crossing_ = p;
+      refine.insert(refine.end(), bad[p].begin(), bad[p].end());
     }
     std::sort(refine.begin(), refine.end());
     refine.erase(std::unique(refine.begin(), refine.end()), refine.end());
@@ -227,14 +238,15 @@ class DomainBuilder {
   }
 
   SurfaceDomain collect() {
+    std::vector<std::shared_ptr<BackgroundMesh>> backgrounds(maps_.size());
+    for_each_patch([&](size_t p) { backgrounds[p] = std::make_shared<BackgroundMesh>(maps_[p].flat); });
     SurfaceDomain domain;
     domain.sharp_corners = find_sharp_corners(corners_, chains_, maps_, nodes_, kBadEta);
     domain.boundary.curves = fine_.curves;
     domain.boundary.regions = fine_.regions;
     for (size_t p = 0; p < maps_.size(); ++p) {
-      auto background = std::make_shared<BackgroundMesh>(maps_[p].flat);
       domain.patches.push_back({std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]),
-                                std::move(background), std::move(tube_sizes_[p])});
+                                std::move(backgrounds[p]), std::move(tube_sizes_[p])});
       cap_tips_of(static_cast<int>(p), domain);
       seed_narrow_places(domain.patches[p].boundary);
     }

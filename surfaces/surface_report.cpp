@@ -1,14 +1,15 @@
 #include "surfaces/surface_report.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "mesh/half_edges.h"
 #include "mesh/nearest_triangle.h"
+#include "mesh/parallel.h"
 
 namespace delquad {
 
@@ -45,17 +46,48 @@ int region_of(const Mesh& mesh, int element) {
   return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
 }
 
-/// The triangles of a mesh, each quad as four around its centre.
-NearestTriangle make_searcher(const Mesh& mesh) {
-  std::vector<Vec3> points = mesh.points;
-  std::vector<std::array<int, 3>> triangles = mesh.triangles;
-  for (const auto& [a, b, c, d] : mesh.quads) {
-    const int centre = static_cast<int>(points.size());
-    points.push_back(0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]));
-    triangles.insert(triangles.end(), {{a, b, centre}, {b, c, centre}, {c, d, centre}, {d, a, centre}});
+/// Finds the distance to the elements of a mesh, each quad being four triangles around its centre.
+class NearestElement {
+ public:
+  explicit NearestElement(const Mesh& mesh) : mesh_(mesh) {
+    for_each_element(mesh, [&](int, const auto& v) {
+      auto& box = boxes_.emplace_back(Box<Vec3>::around({mesh.points[v[0]]}));
+      for (const int i : v) box = {lower(box.low, mesh.points[i]), upper(box.high, mesh.points[i])};
+    });
+    tree_ = BoxTree<Vec3>(boxes_);
   }
-  return NearestTriangle(std::move(points), std::move(triangles));
-}
+
+  /// Infinite where nothing is within `reach`.
+  double distance(const Vec3& x, double reach) const {
+    double best2 = reach * reach;
+    bool found = false;
+    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+      const auto w = nearest_weights(a, b, c, x);
+      const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;
+      if (dot(d, d) > best2) return;
+      best2 = dot(d, d);
+      found = true;
+    };
+    const int n_triangles = static_cast<int>(mesh_.triangles.size());
+    tree_.nearest(x, best2, [&](int element) {
+      if (boxes_[element].distance2(x) > best2) return;
+      const auto& p = mesh_.points;
+      if (element < n_triangles) {
+        const auto& [a, b, c] = mesh_.triangles[element];
+        return add(p[a], p[b], p[c]);
+      }
+      const auto& v = mesh_.quads[element - n_triangles];
+      const Vec3 centre = 0.25 * (p[v[0]] + p[v[1]] + p[v[2]] + p[v[3]]);
+      for (int k = 0; k < 4; ++k) add(p[v[k]], p[v[(k + 1) % 4]], centre);
+    });
+    return found ? std::sqrt(best2) : kInf;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<Box<Vec3>> boxes_;
+  BoxTree<Vec3> tree_;
+};
 
 /// The model without the faces that were left out.
 Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
@@ -73,6 +105,23 @@ Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   return kept;
 }
 
+Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides) {
+  Topology topology;
+  std::vector<char> used(mesh.points.size(), 0);
+  for_each_element(mesh, [&](int, const auto& v) {
+    ++topology.euler_characteristic;
+    for (const int i : v)
+      if (!std::exchange(used[i], 1)) ++topology.euler_characteristic;
+  });
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    --topology.euler_characteristic;
+    topology.free_edges += edge.size() == 1;
+    topology.branching_edges += edge.size() > 2;
+    topology.disagreeing_edges += edge.size() == 2 && edge[0].forward == edge[1].forward;
+  });
+  return topology;
+}
+
 class Comparison {
  public:
   Comparison(const SurfaceModel& model, std::span<const SurfaceCut> cuts, const std::vector<char>& left_out,
@@ -88,18 +137,24 @@ class Comparison {
   }
 
   SurfaceReport run() {
-    const auto start = std::chrono::steady_clock::now();
     report_.model = topology_of(fine_);
-    report_.mesh = topology_of(mesh_);
-    measure_edges();
-    measure_elements();
-    measure_nodes();
-    measure_surface();
-    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    sides_ = sorted_half_edges(mesh_);
+    report_.mesh = topology_of(mesh_, sides_);
+    std::optional<NearestElement> elements;
+    const std::function<void()> parts[] = {[&] { elements.emplace(mesh_); }, [&] { measure_elements(); },
+                                           [&] { measure_nodes(); }};
+    parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
+    measure_surface(*elements);
     return report_;
   }
 
  private:
+  /// A place on the mesh, and the curve or, if that is -1, the face that it belongs to.
+  struct Sample {
+    Vec3 x;
+    int face, curve = -1;
+  };
+
   /// Distance to the true surface near a face, in diagonals.
   double to_face(int face, const Vec3& x) const {
     return (projector_ ? norm(projector_->to_face(face, x) - x) : triangles_[0].find(x).distance) / diagonal_;
@@ -108,35 +163,44 @@ class Comparison {
     return norm(projector_->to_curve(curve, x) - x) / diagonal_;
   }
 
-  void measure_edges() {
+  void measure(const std::vector<Sample>& samples, Distances& distances) const {
+    std::vector<double> found(samples.size());
+    parallel_ranges(samples.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& [x, face, curve] = samples[i];
+        found[i] = curve >= 0 ? to_curve(curve, x) : to_face(face, x);
+      }
+    });
+    for (const double d : found) distances.add(d);
+  }
+
+  void measure_elements() {
+    std::vector<Sample> samples;
     const std::vector<int> elements_on_curve = elements_on_curves(fine_);
-    const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
-    for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
+    for_each_edge(std::span<const HalfEdge>(sides_), [&](std::span<const HalfEdge> edge) {
       const auto& [lo, hi, element, forward] = edge[0];
       const int curve = lines_.curve_of(lo, hi);
       const int wanted = curve < 0 ? 2 : elements_on_curve[curve];
       if (static_cast<int>(edge.size()) != wanted) ++report_.nonconforming_edges;
-      const Vec3 middle = 0.5 * (mesh_.points[lo] + mesh_.points[hi]);
-      report_.mesh_to_surface.add(projector_ && curve >= 0 && !is_cut_[curve]
-                                      ? to_curve(curve, middle)
-                                      : to_face(region_of(mesh_, element), middle));
+      const bool on_true_curve = projector_ && curve >= 0 && !is_cut_[curve];
+      samples.push_back({0.5 * (mesh_.points[lo] + mesh_.points[hi]), region_of(mesh_, element),
+                         on_true_curve ? curve : -1});
     });
-  }
-
-  void measure_elements() {
     for_each_element(mesh_, [&](int element, const auto& v) {
       Vec3 centre;
       for (const int i : v) centre = centre + (1.0 / static_cast<double>(v.size())) * mesh_.points[i];
-      report_.mesh_to_surface.add(to_face(region_of(mesh_, element), centre));
+      samples.push_back({centre, region_of(mesh_, element)});
     });
+    measure(samples, report_.mesh_to_surface);
   }
 
+  struct Node {
+    std::vector<int> curves, faces;
+    int lines = 0;
+  };
+
   void measure_nodes() {
-    struct Node {
-      std::vector<int> curves, faces;
-      int lines = 0;
-    };
-    std::map<int, Node> on_lines;
+    std::vector<Node> on_lines(mesh_.points.size());
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
       for (const int v : mesh_.lines[l]) {
         Node& node = on_lines[v];
@@ -144,53 +208,69 @@ class Comparison {
         if (std::ranges::find(node.curves, mesh_.line_curve[l]) == node.curves.end())
           node.curves.push_back(mesh_.line_curve[l]);
       }
+    std::vector<Sample> inside;
     std::vector<char> seen(mesh_.points.size(), 0);
     for_each_element(mesh_, [&](int element, const auto& vertices) {
       const int face = region_of(mesh_, element);
       for (const int v : vertices) {
-        if (const auto at = on_lines.find(v); at != on_lines.end()) {
-          auto& faces = at->second.faces;
+        if (auto& faces = on_lines[v].faces; on_lines[v].lines > 0) {
           if (std::ranges::find(faces, face) == faces.end()) faces.push_back(face);
-        } else if (!seen[v]) {
-          seen[v] = 1;
-          report_.nodes_in_faces.add(to_face(face, mesh_.points[v]));
+        } else if (!std::exchange(seen[v], 1)) {
+          inside.push_back({mesh_.points[v], face});
         }
       }
     });
-    for (const auto& [v, node] : on_lines) {
-      double distance = kInf;
-      for (const int c : node.curves)
-        if (projector_ && !is_cut_[c]) distance = std::min(distance, to_curve(c, mesh_.points[v]));
-      for (const int f : node.faces) distance = std::min(distance, to_face(f, mesh_.points[v]));
-      const bool corner = node.curves.size() > 1 || node.lines != 2;
-      if (std::isfinite(distance))
-        (corner ? report_.nodes_at_corners : report_.nodes_on_curves).add(distance);
+    measure(inside, report_.nodes_in_faces);
+    measure_nodes_on_lines(on_lines);
+  }
+
+  void measure_nodes_on_lines(const std::vector<Node>& nodes) {
+    std::vector<double> distances(nodes.size(), kInf);
+    parallel_ranges(nodes.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        for (const int c : nodes[v].curves)
+          if (projector_ && !is_cut_[c]) distances[v] = std::min(distances[v], to_curve(c, mesh_.points[v]));
+        for (const int f : nodes[v].faces) distances[v] = std::min(distances[v], to_face(f, mesh_.points[v]));
+      }
+    });
+    for (std::size_t v = 0; v < nodes.size(); ++v) {
+      if (nodes[v].lines == 0 || !std::isfinite(distances[v])) continue;
+      const bool corner = nodes[v].curves.size() > 1 || nodes[v].lines != 2;
+      (corner ? report_.nodes_at_corners : report_.nodes_on_curves).add(distances[v]);
     }
   }
 
-  void measure_surface() {
+  std::vector<Vec3> places_on_surface() const {
     constexpr double kSpacing = 1.0 / 50;  // of the diagonal
-    const NearestTriangle elements = make_searcher(mesh_);
-    Vec3 last;
-    double distance = kInf;
-    const auto add = [&](const Vec3& x) {
-      // The distance changes by no more than the point moves.
-      constexpr double kRounding = 1 + 1e-9;
-      const double reach = kRounding * (distance + norm(x - last)) + kRounding * 1e-12 * diagonal_;
-      distance = elements.find(x, reach).distance;
-      last = x;
-      report_.surface_to_mesh.add(distance / diagonal_);
-    };
+    std::vector<Vec3> places;
     std::vector<char> seen(fine_.points.size(), 0);
     for (const auto& v : fine_.triangles) {
       for (const int i : v)
-        if (!std::exchange(seen[i], 1)) add(fine_.points[i]);
+        if (!std::exchange(seen[i], 1)) places.push_back(fine_.points[i]);
       const Vec3 a = fine_.points[v[0]], ab = fine_.points[v[1]] - a, ac = fine_.points[v[2]] - a;
       const int n = static_cast<int>(std::sqrt(norm(cross(ab, ac))) / (kSpacing * diagonal_));
       if (n < 2) continue;
       for (int i = 0; i < n; ++i)
-        for (int j = 0; i + j < n; ++j) add(a + ((i + 1.0 / 3) / n) * ab + ((j + 1.0 / 3) / n) * ac);
+        for (int j = 0; i + j < n; ++j)
+          places.push_back(a + ((i + 1.0 / 3) / n) * ab + ((j + 1.0 / 3) / n) * ac);
     }
+    return places;
+  }
+
+  void measure_surface(const NearestElement& elements) {
+    const std::vector<Vec3> places = places_on_surface();
+    std::vector<double> distances(places.size());
+    parallel_ranges(places.size(), [&](std::size_t begin, std::size_t end) {
+      double reach = kInf;
+      for (std::size_t i = begin; i < end; ++i) {
+        distances[i] = elements.distance(places[i], reach);
+        if (i + 1 == end) break;
+        // The distance changes by no more than the place moves.
+        constexpr double kRounding = 1 + 1e-9;
+        reach = kRounding * (distances[i] + norm(places[i + 1] - places[i])) + kRounding * 1e-12 * diagonal_;
+      }
+    });
+    for (const double d : distances) report_.surface_to_mesh.add(d / diagonal_);
   }
 
   const SurfaceProjector* projector_;
@@ -198,6 +278,7 @@ class Comparison {
   const Mesh& mesh_;
   double diagonal_;
   LineIndex lines_;
+  std::vector<HalfEdge> sides_;  ///< of the mesh
   std::vector<char> is_cut_;
   std::vector<NearestTriangle> triangles_;  ///< one, of a model without a projector
   SurfaceReport report_;
@@ -211,23 +292,7 @@ void Distances::add(double distance) {
   mean += (distance - mean) / samples;
 }
 
-Topology topology_of(const Mesh& mesh) {
-  Topology topology;
-  std::vector<char> used(mesh.points.size(), 0);
-  for_each_element(mesh, [&](int, const auto& v) {
-    ++topology.euler_characteristic;
-    for (const int i : v)
-      if (!std::exchange(used[i], 1)) ++topology.euler_characteristic;
-  });
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
-    --topology.euler_characteristic;
-    topology.free_edges += edge.size() == 1;
-    topology.branching_edges += edge.size() > 2;
-    topology.disagreeing_edges += edge.size() == 2 && edge[0].forward == edge[1].forward;
-  });
-  return topology;
-}
+Topology topology_of(const Mesh& mesh) { return topology_of(mesh, sorted_half_edges(mesh)); }
 
 std::vector<int> elements_on_curves(const Mesh& mesh) {
   std::vector<int> elements(mesh.curves.size(), 0);

@@ -47,7 +47,6 @@ struct SurfaceReport {
   Distances nodes_on_curves;   ///< to the nearest of the curve and the faces around
   Distances nodes_at_corners;  ///< the same
   Distances mesh_to_surface, surface_to_mesh;
-  double seconds = 0;
 };
 
 MapReport report_maps(std::span<const FlatPatch* const> maps);

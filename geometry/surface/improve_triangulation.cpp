@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <queue>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -40,10 +40,9 @@ class Improver {
   }
 
   void run() {
-    std::set<Edge> all;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k) all.insert(side(static_cast<int>(t), k));
-    flip(std::move(all));
+      for (int k = 0; k < 3; ++k) queue_.push_back(side(static_cast<int>(t), k));
+    flip();
     find_targets();
     split_all();
     editor_.finish();
@@ -105,21 +104,36 @@ class Improver {
     return true;
   }
 
-  // Flips these edges and those around each edge that was flipped, until all are well.
-  void flip(std::set<Edge> queue) {
-    std::size_t budget = 20 * queue.size();  // flips in space have no energy that falls
-    while (!queue.empty() && budget > 0) {
-      const Edge e = *queue.begin();
-      queue.erase(queue.begin());
-      const std::vector<int> on_edge = editor_.triangles_on(e.first, e.second);
-      if (on_edge.size() != 2) continue;
-      const auto [a, b, c] = seen_from(on_edge[0], e);
-      const int d = seen_from(on_edge[1], e)[2];
+  /// Takes the least edge out of the queue, a heap, as often as it is there.
+  Edge next_in_queue() {
+    const Edge e = queue_.front();
+    while (!queue_.empty() && queue_.front() == e) {
+      std::ranges::pop_heap(queue_, std::greater<>{});
+      queue_.pop_back();
+    }
+    return e;
+  }
+
+  /// Flips the edges in the queue and those around each edge that was flipped, until all are well.
+  void flip() {
+    std::ranges::sort(queue_);
+    queue_.erase(std::unique(queue_.begin(), queue_.end()), queue_.end());
+    std::size_t budget = 20 * queue_.size();  // flips in space have no energy that falls
+    while (!queue_.empty() && budget > 0) {
+      const Edge e = next_in_queue();
+      editor_.find_triangles_on(e.first, e.second, on_edge_);
+      if (on_edge_.size() != 2) continue;
+      const auto [a, b, c] = seen_from(on_edge_[0], e);
+      const int d = seen_from(on_edge_[1], e)[2];
       if (!should_flip(a, b, c, d) || !editor_.flip_edge(a, b)) continue;
       --budget;
-      for (int t : on_edge) flipped_.push_back(t);
-      for (const Edge& next : {edge(a, c), edge(a, d), edge(b, c), edge(b, d)}) queue.insert(next);
+      for (int t : on_edge_) flipped_.push_back(t);
+      for (const Edge& next : {edge(a, c), edge(a, d), edge(b, c), edge(b, d)}) {
+        queue_.push_back(next);
+        std::ranges::push_heap(queue_, std::greater<>{});
+      }
     }
+    queue_.clear();
   }
 
   /// The triangle as (a, b, c) with a-b the edge.
@@ -175,10 +189,9 @@ class Improver {
       const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
       if (rule_ != nullptr) rule_->node_added(node, a, b, face, on_line);
       flipped_.clear();
-      std::set<Edge> around;
       for (int t : editor_.triangles_at(node))
-        for (int k = 0; k < 3; ++k) around.insert(side(t, k));
-      flip(std::move(around));
+        for (int k = 0; k < 3; ++k) queue_.push_back(side(t, k));
+      flip();
       for (int t : flipped_) consider(t);
       for (int t : editor_.triangles_at(node)) consider(t);
     }
@@ -201,6 +214,8 @@ class Improver {
   RefinementRule* rule_ = nullptr;
   std::vector<char> curved_;    ///< of each face
   std::vector<double> target_;  ///< of each triangle
+  std::vector<Edge> queue_;     ///< edges that may have to be flipped
+  std::vector<int> on_edge_;    ///< triangles, in flip()
   std::vector<int> flipped_;    ///< triangles, since the last split
   std::priority_queue<Candidate> candidates_;
 };

@@ -16,11 +16,19 @@ SurfaceEditor::SurfaceEditor(SurfaceModel& model)
     for (int v : mesh_.lines[l]) lines_at_[v].push_back(static_cast<int>(l));
 }
 
+void SurfaceEditor::find_triangles_on(int a, int b, std::vector<int>& found) const {
+  found.clear();
+  if (triangles_at_[b].size() < triangles_at_[a].size()) std::swap(a, b);
+  for (int t : triangles_at_[a]) {
+    const auto& v = mesh_.triangles[t];
+    if (v[0] == b || v[1] == b || v[2] == b) found.push_back(t);
+  }
+  std::ranges::sort(found);
+}
+
 std::vector<int> SurfaceEditor::triangles_on(int a, int b) const {
   std::vector<int> found;
-  for (int t : triangles_at_[a])
-    if (std::ranges::find(mesh_.triangles[t], b) != mesh_.triangles[t].end()) found.push_back(t);
-  std::ranges::sort(found);
+  find_triangles_on(a, b, found);
   return found;
 }
 

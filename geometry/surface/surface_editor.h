@@ -17,6 +17,8 @@ class SurfaceEditor {
 
   /// Triangles that hold both nodes, ascending: empty when there is no such edge.
   std::vector<int> triangles_on(int a, int b) const;
+  /// The same, into a vector whose memory is used again.
+  void find_triangles_on(int a, int b, std::vector<int>& found) const;
   /// Index of the line between two nodes, -1: none.
   int line_on(int a, int b) const;
   std::span<const int> triangles_at(int node) const { return triangles_at_[node]; }

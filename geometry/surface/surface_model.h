@@ -16,7 +16,8 @@ class SurfaceProjector {
   /// The point of a face (index into SurfaceModel::fine.regions) nearest to x; safe to call from several
   /// threads.
   virtual Vec3 to_face(int face, const Vec3& x) const = 0;
-  /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x.
+  /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x; safe to call from several
+  /// threads.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
   /// The largest curvature (1 / length, >= 0) of a face in any direction near x, a point next to it; NaN
   /// where it is not known: at singular points of the parametrisation. Safe to call from several threads.

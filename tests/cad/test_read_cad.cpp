@@ -23,8 +23,11 @@
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 #include <numbers>
+#include <optional>
 
 #include "cad/cad_reader.h"
+#include "cad/example_models.h"
+#include "mesh/parallel.h"
 #include "tests/cad/cad_files.h"
 #include "tests/cad/surface_counts.h"
 #include "tests/support/temporary_folder.h"
@@ -100,6 +103,23 @@ TEST(ReadCad, GivesTheSameBytesTwice) {
   const SurfaceModel first = read_cad(path), second = read_cad(path);
   EXPECT_EQ(first.fine.points, second.fine.points);
   EXPECT_EQ(first.fine.triangles, second.fine.triangles);
+}
+
+TEST(ReadCad, GivesTheSameForEveryNumberOfThreads) {
+  const int before = thread_count();
+  for (const char* example : {"bracket", "hood"}) {
+    std::optional<SurfaceModel> first;
+    for (const int threads : {1, 2, 4}) {
+      set_thread_count(threads);
+      const SurfaceModel model = read_example(example);
+      if (!first) first = model;
+      EXPECT_EQ(model.fine.points, first->fine.points) << example;
+      EXPECT_EQ(model.fine.triangles, first->fine.triangles) << example;
+      EXPECT_EQ(model.fine.lines, first->fine.lines) << example;
+      EXPECT_EQ(model.warnings, first->warnings) << example;
+    }
+  }
+  set_thread_count(before);
 }
 
 TEST(ReadCad, TellsTheFormatByContent) {

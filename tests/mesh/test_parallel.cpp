@@ -31,6 +31,17 @@ TEST_P(Parallel, EachIndexIsVisitedOnce) {
   }
 }
 
+TEST_P(Parallel, RangesMakeUpAllAndAreTheSameForEveryNumberOfThreads) {
+  for (const std::size_t n : {0u, 1u, 1024u, 1025u, 5000u}) {
+    std::vector<std::size_t> length(n, 0), expected(n, 1024);
+    parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) length[i] += end - begin;
+    });
+    for (std::size_t i = n - n % 1024; i < n; ++i) expected[i] = n % 1024;
+    EXPECT_EQ(length, expected);
+  }
+}
+
 TEST_P(Parallel, CallsMayNest) {
   std::vector<std::vector<int>> visits(20, std::vector<int>(50, 0));
   parallel_for(20, [&](std::size_t i) { parallel_for(50, [&, i](std::size_t j) { ++visits[i][j]; }); });
