@@ -4,7 +4,7 @@
 
 #include "io/mesh_io.h"
 #include "mesh/error.h"
-#include "pipeline/experiment_runner.h"
+#include "sweep/run_experiment.h"
 
 namespace delquad {
 namespace {

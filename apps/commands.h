@@ -7,6 +7,7 @@
 
 #include "mesh/parallel.h"
 #include "pipeline/case.h"
+#include "sweep/run_experiment.h"
 
 namespace delquad {
 
@@ -19,10 +20,22 @@ struct RunArguments {
   std::filesystem::path data = kDataFolder;
   std::optional<std::string> pipelines;  ///< words separated by commas; else those of the file
   long long max_elements = 50'000'000;
-  int threads = thread_count();
+  int threads = 0;  ///< of each process; 0: the cores, shared out among the processes
+  SweepOptions options;
+  bool dry_run = false;  ///< only list the cells
   bool allow_triangles = false;
 };
 int run_command(const RunArguments& arguments);
+
+struct TablesArguments {
+  std::filesystem::path folder;
+};
+int tables_command(const TablesArguments& arguments);
+
+struct RerunArguments {
+  std::filesystem::path record;
+};
+int rerun_command(const RerunArguments& arguments);
 
 struct MeshArguments {
   std::filesystem::path model, output, json;

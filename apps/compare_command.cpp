@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
-#include "pipeline/comparison.h"
+#include "sweep/comparison.h"
 
 namespace delquad {
 

@@ -36,6 +36,19 @@ const CLI::Validator kCount(
     },
     "");
 
+/// "i/n"
+const CLI::Validator kShard(
+    [](std::string& text) -> std::string {
+      const auto slash = text.find('/');
+      const auto index = as_number(text.substr(0, slash));
+      const auto count = slash == std::string::npos ? std::nullopt : as_number(text.substr(slash + 1));
+      constexpr double kMost = 1e6;
+      const bool good = index && count && *index == std::floor(*index) && *count == std::floor(*count) &&
+                        *index >= 0 && *index < *count && *count <= kMost;
+      return good ? "" : "'" + text.substr(0, 40) + "': expected i/n with 0 <= i < n, such as 0/4";
+    },
+    "");
+
 constexpr double kMostPerTurn = 1e6;
 const CLI::Validator kLength(
     [](std::string& text) -> std::string {
@@ -56,8 +69,36 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   run->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
       ->transform(kCount);
-  run->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
+  run->add_option("--threads", arguments.threads,
+                  "threads of each process; default: all cores, shared out among the processes")
+      ->check(CLI::Range(1, kMostThreads));
   run->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
+  SweepOptions& sweep = arguments.options;
+  run->add_option("-j,--jobs", sweep.limits.jobs, "cells at a time, each in a process of its own")
+      ->capture_default_str()
+      ->check(CLI::Range(1, kMostThreads));
+  run->add_option("--timeout", sweep.limits.seconds, "seconds after which a cell has failed")->check(kLength);
+  run->add_option("--memory", sweep.limits.bytes,
+                  "memory a cell may take, such as 500M or 4G; more, and it has failed")
+      ->transform(CLI::AsSizeValue(false));
+  run->add_flag("--force", sweep.force, "run cells again that are done");
+  run->add_flag("--dry-run", arguments.dry_run, "list the cells, and which of them are done");
+  run->add_option_function<std::string>(
+         "--shard",
+         [&sweep](const std::string& text) {
+           const auto slash = text.find('/');
+           sweep.shard = {std::stoul(text.substr(0, slash)), std::stoul(text.substr(slash + 1))};
+         },
+         "i/n: the i-th of n parts (from 0), for several runs on one folder")
+      ->check(kShard);
+}
+
+void add_records(CLI::App& app, TablesArguments& tables, RerunArguments& rerun) {
+  CLI::App* table = app.add_subcommand("tables", "Make the tables of an experiment from its results");
+  table->add_option("folder", tables.folder, "folder of 'delquad run'")->required();
+  CLI::App* again = app.add_subcommand(
+      "rerun", "Make a result again from its record: the same bytes, or what stands in their way");
+  again->add_option("record", rerun.record, "record.json of a cell")->required();
 }
 
 void add_mesh(CLI::App& app, MeshArguments& arguments) {
@@ -145,7 +186,10 @@ int run_program(int argc, char** argv) {
   CompareArguments compare;
   InfoArguments info;
   ExampleArguments example;
+  TablesArguments tables;
+  RerunArguments rerun;
   add_run(app, run);
+  add_records(app, tables, rerun);
   add_mesh(app, mesh);
   add_metrics(app, metrics);
   add_compare(app, compare);
@@ -157,6 +201,8 @@ int run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   if (app.got_subcommand("run")) return run_command(run);
+  if (app.got_subcommand("tables")) return tables_command(tables);
+  if (app.got_subcommand("rerun")) return rerun_command(rerun);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);

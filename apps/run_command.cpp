@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "apps/commands.h"
-#include "pipeline/experiment_runner.h"
 #include "pipeline/located.h"
+#include "sweep/run_experiment.h"
 
 namespace delquad {
 
@@ -22,27 +22,45 @@ std::vector<std::string> split(const std::string& list) {
   return words;
 }
 
-}  // namespace
-
-int run_command(const RunArguments& arguments) {
-  set_thread_count(arguments.threads);
-  Experiment experiment = read_experiment(arguments.experiment, arguments.data);
-  if (arguments.pipelines)
-    experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });
-  for (Case& c : experiment.cases) c.options.max_elements = arguments.max_elements;
-
-  ExperimentOutcome outcome;
-  {
-    Progress progress(experiment_steps(experiment));
-    outcome = run_experiment(experiment, arguments.folder, progress);
-  }
-  fmt::print("{}\nresults: {}\n", to_markdown(outcome.table), arguments.folder.string());
-  if (outcome.internal_errors > 0) return kInternalError;
+int exit_code(const Outcome& outcome, bool allow_triangles) {
+  if (outcome.others_failed > 0) return kInternalError;
   if (outcome.bad_inputs > 0) return kBadInput;
-  if (outcome.leftover_triangles == 0 || arguments.allow_triangles) return kDone;
+  if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
   fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
              outcome.leftover_triangles);
   return kTrianglesLeft;
+}
+
+void print_tables(const Outcome& outcome) {
+  fmt::print("{}\n", to_markdown(outcome.table));
+  if (!outcome.pairs.rows.empty()) fmt::print("{}\n", to_markdown(outcome.pairs));
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  set_thread_count(arguments.threads > 0 ? arguments.threads
+                                         : std::max(1, thread_count() / arguments.options.limits.jobs));
+  Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
+  experiment.max_elements = arguments.max_elements;
+  if (arguments.pipelines)
+    experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });
+  if (arguments.dry_run) {
+    fmt::print("{}", list_cells(experiment, arguments.folder));
+    return kDone;
+  }
+  const Outcome outcome = run_experiment(experiment, arguments.folder, arguments.options);
+  print_tables(outcome);
+  fmt::print("results: {}\n", arguments.folder.string());
+  return exit_code(outcome, arguments.allow_triangles);
+}
+
+int tables_command(const TablesArguments& arguments) {
+  const Outcome outcome = make_tables(arguments.folder);
+  print_tables(outcome);
+  const std::vector<std::string> errors = write_tables(arguments.folder, outcome);
+  for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
+  return errors.empty() ? kDone : kBadInput;
 }
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <map>
 #include <ostream>
 #include <string>
@@ -57,6 +58,7 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// MSH 4.1 text with $PhysicalNames and $Entities. Coordinates read back exactly. A group whose name is a
 /// number gets that number as its tag.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh);
+void write_msh(std::ostream& stream, const Mesh& mesh);
 /// VTK XML (base64), with the tag of its entity for each cell and one value per cell (lines, then triangles,
 /// then quads) for each field in `cell_data`; a NaN there means that the cell has no value.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,

@@ -156,18 +156,20 @@ void write_elements(TextWriter& out, const Mesh& mesh, const std::vector<Block>&
 
 }  // namespace
 
-void write_msh(const std::filesystem::path& path, const Mesh& mesh) {
+void write_msh(std::ostream& stream, const Mesh& mesh) {
   const std::vector<Block> blocks = make_blocks(mesh);
   const Groups groups = number_groups(blocks);
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
-    out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-    write_names(out, groups);
-    write_entities(out, blocks, groups);
-    write_nodes(out, mesh, blocks);
-    write_elements(out, mesh, blocks);
-    out.flush();
-  });
+  TextWriter out(stream);
+  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  write_names(out, groups);
+  write_entities(out, blocks, groups);
+  write_nodes(out, mesh, blocks);
+  write_elements(out, mesh, blocks);
+  out.flush();
+}
+
+void write_msh(const std::filesystem::path& path, const Mesh& mesh) {
+  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh); });
 }
 
 }  // namespace delquad

@@ -2,15 +2,44 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "mesh/error.h"
 
 namespace delquad {
+namespace {
+
+/// What stands in for the values at dotted keys, seen from the table that they were chosen for.
+struct Choices {
+  TomlTable lists;  // keeps the nodes alive
+  std::map<std::string, const toml::node*> values;
+  toml::table empty;  // for tables that hold nothing but choices
+};
+
+/// As short as it can be read back.
+std::string number_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+void collect_leaves(const toml::table& table, const std::string& prefix, std::vector<std::string>& leaves) {
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    if (const toml::table* inner = node.as_table())
+      collect_leaves(*inner, name + ".", leaves);
+    else
+      leaves.push_back(name);
+  }
+}
+
+}  // namespace
 
 struct TomlTable::Data {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
@@ -18,6 +47,8 @@ struct TomlTable::Data {
   std::filesystem::path file;
   std::string path;  // of the table inside the file, for messages; empty at the top
   std::set<std::string> asked;
+  std::shared_ptr<const Choices> choices;  // null: none
+  std::string below;                       // dotted path from the table with choices, with its dot at the end
 
   std::string place(const toml::node& node) const {
     return file.string() + ":" + std::to_string(node.source().begin.line);
@@ -26,7 +57,27 @@ struct TomlTable::Data {
 
   const toml::node* find(const std::string& key) {
     asked.insert(key);
-    return table->get(key);
+    const toml::node* node = table->get(key);
+    if (!choices) return node;
+    const std::string path_to = below + key;
+    if (const auto chosen = choices->values.find(path_to); chosen != choices->values.end())
+      return chosen->second;
+    const auto inside = choices->values.lower_bound(path_to + ".");
+    if (inside == choices->values.end() || !inside->first.starts_with(path_to + ".")) return node;
+    if (node && !node->is_table())
+      throw InputError(place(*inside->second) + ": '" + inside->first + "' is varied, but '" + path_to +
+                       "' is no table at " + place(*node));
+    return node ? node : &choices->empty;
+  }
+  /// Own keys and chosen ones.
+  std::set<std::string> keys() const {
+    std::set<std::string> names;
+    for (const auto& [key, node] : *table) names.emplace(key.str());
+    if (!choices) return names;
+    for (auto at = choices->values.lower_bound(below);
+         at != choices->values.end() && at->first.starts_with(below); ++at)
+      names.insert(at->first.substr(below.size(), at->first.find('.', below.size()) - below.size()));
+    return names;
   }
   [[noreturn]] void expected(const toml::node& node, const std::string& key, const std::string& what) const {
     throw InputError(place(node) + ": '" + name(key) + "' must be " + what);
@@ -55,7 +106,7 @@ struct TomlTable::Data {
     return *node.as_array();
   }
   std::shared_ptr<Data> child(const toml::table& inner, const std::string& inner_path) const {
-    return std::make_shared<Data>(Data{root, &inner, file, inner_path, {}});
+    return std::make_shared<Data>(Data{root, &inner, file, inner_path, {}, nullptr, ""});
   }
 };
 
@@ -69,7 +120,7 @@ TomlTable TomlTable::read(const std::filesystem::path& file) {
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(stream, file.string()));
     const toml::table* top = root.get();
-    return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file, "", {}}));
+    return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file, "", {}, nullptr, ""}));
   } catch (const toml::parse_error& error) {
     throw InputError(file.string() + ":" + std::to_string(error.source().begin.line) +
                      ": not TOML: " + std::string(error.description()));
@@ -94,9 +145,8 @@ TomlKind TomlTable::kind(const std::string& key) const {
 }
 
 std::vector<std::string> TomlTable::keys() const {
-  std::vector<std::string> names;
-  for (const auto& [key, node] : *data_->table) names.emplace_back(key.str());
-  return names;
+  const std::set<std::string> names = data_->keys();
+  return {names.begin(), names.end()};
 }
 
 double TomlTable::number(const std::string& key) const {
@@ -147,9 +197,7 @@ std::string TomlTable::expression(const std::string& key) const {
   constexpr const char* kWhat = "a finite number or an expression in quotes";
   const toml::node& node = data_->need(key, kWhat);
   if (node.is_string()) return *node.value<std::string>();
-  const double value = data_->number(node, key, kWhat);
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+  return number_text(data_->number(node, key, kWhat));
 }
 
 Vec2 TomlTable::point(const std::string& key) const {
@@ -210,7 +258,10 @@ TomlTable TomlTable::table(const std::string& key) const {
   const std::string what = "a table of keys and values";
   const toml::node& node = data_->need(key, what);
   if (!node.is_table()) data_->expected(node, key, what);
-  return TomlTable(data_->child(*node.as_table(), data_->name(key)));
+  auto inner = data_->child(*node.as_table(), data_->name(key));
+  inner->choices = data_->choices;
+  inner->below = data_->below + key + ".";
+  return TomlTable(std::move(inner));
 }
 
 std::optional<TomlTable> TomlTable::optional_table(const std::string& key) const {
@@ -230,13 +281,65 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   return result;
 }
 
+std::vector<std::string> TomlTable::leaves() const {
+  std::vector<std::string> leaves;
+  collect_leaves(*data_->table, "", leaves);
+  std::ranges::sort(leaves);
+  return leaves;
+}
+
+namespace {
+
+const toml::node& element(const toml::table& table, const std::string& leaf, std::size_t i) {
+  return *table.at_path(leaf).as_array()->get(i);
+}
+
+}  // namespace
+
+std::size_t TomlTable::count(const std::string& leaf) const {
+  const toml::node& node = *data_->table->at_path(leaf).node();
+  const toml::array* list = node.as_array();
+  if (list == nullptr || list->empty()) data_->expected(node, leaf, "a list of at least one value");
+  return list->size();
+}
+
+std::string TomlTable::element_text(const std::string& leaf, std::size_t i) const {
+  const toml::node& node = element(*data_->table, leaf, i);
+  if (node.is_string()) return *node.value<std::string>();
+  if (node.is_floating_point()) return number_text(*node.value<double>());
+  std::ostringstream text;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_table<decltype(value)>)
+      text << toml::toml_formatter(value);
+    else
+      text << value;
+  });
+  return text.str();
+}
+
+TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
+                                 const std::vector<std::size_t>& choice) const {
+  auto choices = std::make_shared<Choices>(Choices{lists, {}, {}});
+  for (std::size_t k = 0; k < leaves.size(); ++k)
+    choices->values[leaves[k]] = &element(*lists.data_->table, leaves[k], choice[k]);
+  auto data = std::make_shared<Data>(*data_);
+  data->asked.clear();
+  data->choices = std::move(choices);
+  data->below.clear();
+  return TomlTable(std::move(data));
+}
+
 void TomlTable::finish() const {
-  for (const auto& [key, node] : *data_->table) {
-    const std::string name(key.str());
+  for (const std::string& name : data_->keys()) {
     if (data_->asked.contains(name)) continue;
     const std::vector<std::string> known(data_->asked.begin(), data_->asked.end());
-    std::string message = data_->file.string() + ":" + std::to_string(key.source().begin.line) +
-                          ": unknown key '" + data_->name(name) + "'";
+    const auto key = data_->table->find(name);
+    std::string place = data_->file.string() + ":";
+    if (key != data_->table->end())
+      place += std::to_string(key->first.source().begin.line);
+    else
+      place = data_->place(*data_->choices->values.lower_bound(data_->below + name)->second);
+    std::string message = place + ": unknown key '" + data_->name(name) + "'";
     if (const auto near = nearest_name(name, known)) {
       message += "; did you mean '" + *near + "'?";
     } else {

@@ -58,6 +58,17 @@ class TomlTable {
   /// An array of tables, or one table; none when absent.
   std::vector<TomlTable> tables(const std::string& key) const;
 
+  /// Dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
+  std::vector<std::string> leaves() const;
+  /// How many elements the list at a dotted key has, at least one.
+  std::size_t count(const std::string& leaf) const;
+  /// Element `i` of the list at a dotted key, as TOML text; texts without their quotes.
+  std::string element_text(const std::string& leaf, std::size_t i) const;
+  /// This table, where the value at each of the dotted keys is element `choice[k]` of the list that `lists`
+  /// has there. Throws InputError where such a key lies below one that is no table.
+  TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
+                        const std::vector<std::size_t>& choice) const;
+
   /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
   void finish() const;
 

@@ -40,6 +40,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 thread_local double surplus = 0;
+std::atomic<bool> threads_started = false;
 
 }  // namespace
 
@@ -51,6 +52,12 @@ void set_thread_count(int count) {
   static std::optional<tbb::global_control> limit;
   limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
   threads() = count;
+}
+
+void finish_threads() {
+  if (!threads_started.exchange(false)) return;
+  tbb::task_scheduler_handle handle{tbb::attach{}};
+  tbb::finalize(handle);
 }
 
 int thread_count() { return threads(); }
@@ -79,6 +86,7 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
   if (workers <= 1) {
     run(0);
   } else {
+    threads_started = true;
     tbb::task_arena arena(workers);
     arena.execute([&] { tbb::parallel_for(0, workers, run, tbb::simple_partitioner()); });
   }

@@ -10,6 +10,10 @@ namespace delquad {
 void set_thread_count(int threads);
 int thread_count();
 
+/// Ends the threads that wait for work, as is necessary before a process forks; the next parallel_for()
+/// starts new ones. Not while a parallel_for() runs.
+void finish_threads();
+
 /// Calls work(i) once for each i in [0, n), on thread_count() threads, and returns when all are done. `cost`
 /// (any unit) tells which are to begin first, so that the large ones do not end up alone; equal costs begin
 /// in order. Each call must write only to what belongs to its own i: then the result is the same for every

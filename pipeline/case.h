@@ -43,7 +43,11 @@ inline constexpr const char* kDataFolder = "../shared/data";
 /// A model with its fields and options: what a pipeline works on.
 struct Case {
   std::string name;
-  std::string where;                   ///< file and line it was read from
+  std::string where;  ///< file and line it was read from
+  /// What an experiment varies, by title, and the folder of the results.
+  std::vector<std::pair<std::string, std::string>> variant;
+  std::string folder;
+  long long seed = 0;  ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   std::optional<PlanarModel> model;    ///< analytic curves, or else
   std::vector<DeclaredHole> holes;     ///< loops of the model that must not bound a region from outside
   std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else

@@ -244,6 +244,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
   if (table.has("size")) target.size = read_size(table);
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
+  target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   if (const auto insertion = table.optional_table("insertion")) read_insertion(*insertion, target.options);
   if (const auto smoothing = table.optional_table("smoothing")) read_smoothing(*smoothing, target.options);
   if (const auto merging = table.optional_table("recombination"))

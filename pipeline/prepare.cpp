@@ -10,6 +10,7 @@
 #include "pipeline/boundary_report.h"
 #include "pipeline/located_fields.h"
 #include "pipeline/named_domain.h"
+#include "pipeline/perturb.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/size_aware.h"
 #include "pipeline/stopwatch.h"
@@ -114,10 +115,22 @@ void check_count_early(const Case& c, const std::shared_ptr<const SizeField>& si
   check_count(expected_quads(BackgroundMesh(coarse->patches), *size), c);
 }
 
+double diagonal_of(const PlanarModel& model) {
+  constexpr int kPoints = 64;  // a curve
+  Mesh points;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= kPoints; ++k) {
+      const Vec2 p = curve.shape->point(double(k) / kPoints);
+      points.points.push_back({p.x, p.y, 0});
+    }
+  return diagonal(points);
+}
+
 PlanarDomain mesh_model(const Case& c, const std::shared_ptr<const SizeField>& size) {
   CurveMeshOptions options;
   options.max_edges = static_cast<double>(c.options.max_elements);
-  return make_domain(*c.model, as_function(size), options);
+  const auto on_curves = c.seed == 0 ? size : jittered(size, c.seed, diagonal_of(*c.model));
+  return make_domain(*c.model, as_function(on_curves), options);
 }
 
 PlanarDomain prepare_model(const Case& c, PreparedCase& p) {
@@ -175,9 +188,11 @@ std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
   if (text == kFromGradient) return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
   if (text != kFromBoundary && text != kSizeAware)
     return located(c.cross.where, [&] {
-      return std::make_shared<LocatedCross>(formula_or_word(text, {kFromBoundary, kFromGradient, kSizeAware},
-                                                            [&] { return make_expression_cross(text); }),
-                                            c.cross.where);
+      std::shared_ptr<const CrossField> cross =
+          std::make_shared<LocatedCross>(formula_or_word(text, {kFromBoundary, kFromGradient, kSizeAware},
+                                                         [&] { return make_expression_cross(text); }),
+                                         c.cross.where);
+      return c.seed == 0 ? cross : rotated(std::move(cross), Rotation::by_seed(c.seed));
     });
   auto field = std::make_shared<HarmonicCrossField>(p.background);
   p.singularities = field->singularities();
@@ -185,9 +200,13 @@ std::shared_ptr<const CrossField> make_cross(const Case& c, PreparedCase& p) {
   return field;
 }
 
-}  // namespace
-
-namespace {
+/// Turns domain and size by the case's seed.
+void turn(const Case& c, PlanarDomain& domain, PreparedCase& p) {
+  const Rotation rotation = Rotation::by_seed(c.seed);
+  rotate(rotation, domain);
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size = rotated(std::move(p.size), rotation);
+}
 
 PreparedCase prepare_surface_case(const Case& c, SurfaceModel model, const Stopwatch& reading) {
   const double read_seconds = reading.seconds();
@@ -229,6 +248,7 @@ PreparedCase prepare_case(const Case& c) {
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
   check_holes(c.holes, domain);
+  if (c.seed != 0) turn(c, domain, p);
   p.boundary = std::move(domain.boundary);
   p.seconds.emplace_back("curves", watch.seconds());
 

@@ -12,6 +12,7 @@
 #include "io/mesh_io.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
+#include "pipeline/perturb.h"
 #include "pipeline/size_aware.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_domain.h"
@@ -149,7 +150,8 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.size = surface->size;
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);
-  surface->domain = mesh_curves_of(model, std::move(flattening), *surface->size, failures);
+  const auto on_curves = c.seed == 0 ? p.size : jittered(p.size, c.seed, diagonal(model.fine));
+  surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves, failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;

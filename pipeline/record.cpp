@@ -320,14 +320,17 @@ Json optimisation_json(const OptimisationSummary& s) {
           {"seconds", s.seconds}};
 }
 
+Json versions_json() {
+  return {{"delquad", kVersion},          {"commit", kCommit},     {"build", kBuildType},
+          {"compiler", kCompiler},        {"cgal", kCgalVersion},  {"eigen", kEigenVersion},
+          {"lemon", kLemonVersion},       {"fmt", kFmtVersion},    {"nlohmann_json", kJsonVersion},
+          {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}};
+}
+
 void add_origin(Json& json) {
   utsname machine = {};
   uname(&machine);
-  json["versions"] = {
-      {"delquad", kVersion},          {"commit", kCommit},     {"build", kBuildType},
-      {"compiler", kCompiler},        {"cgal", kCgalVersion},  {"eigen", kEigenVersion},
-      {"lemon", kLemonVersion},       {"fmt", kFmtVersion},    {"nlohmann_json", kJsonVersion},
-      {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}};
+  json["versions"] = versions_json();
   json["machine"] = {{"system", std::string(machine.sysname) + " " + machine.release},
                      {"architecture", machine.machine},
                      {"processors", std::thread::hardware_concurrency()}};
@@ -340,20 +343,35 @@ std::string source_of(const Case& c) {
   return model_path(c).string();
 }
 
-Json start_record(const Case& c, const Word& word, const std::string& status) {
-  return {{"case", c.name}, {"pipeline", word.text}, {"status", status}, {"model", source_of(c)}};
+Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell) {
+  Json json = Json::object();
+  if (cell != nullptr) json["key"] = cell->key;  // first: it is looked for without reading the rest
+  json["case"] = c.name;
+  json["pipeline"] = word.text;
+  json["status"] = status;
+  json["model"] = source_of(c);
+  json["seed"] = c.seed;
+  json["variant"] = Json::object();
+  for (const auto& [title, value] : c.variant) json["variant"][title] = value;
+  if (cell == nullptr) return json;
+  json["experiment"] = cell->experiment;
+  json["data"] = cell->data;
+  json["place"] = cell->place;
+  json["digests"] = {{"model", cell->model_digest}, {"program", cell->program_digest}};
+  if (!cell->mesh_digest.empty()) json["digests"]["mesh"] = cell->mesh_digest;
+  return json;
 }
 
-std::string print(const Json& json) {
-  // A file name need not be UTF-8; JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+/// A file name need not be UTF-8; JSON must be.
+constexpr auto kReplace = Json::error_handler_t::replace;
+
+std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) + "\n"; }
 
 }  // namespace
 
-std::string run_record(const Case& c, const PreparedCase& prepared, const Word& word,
-                       const RunResult& result) {
-  Json json = start_record(c, word, "ok");
+std::string run_record(const Case& c, const PreparedCase& prepared, const Word& word, const RunResult& result,
+                       const CellIdentity* cell) {
+  Json json = start_record(c, word, "ok", cell);
   json["options"] = options_json(c);
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);
@@ -381,13 +399,17 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
 }
 
 std::string failure_record(const Case& c, const Word& word, const std::string& status,
-                           const std::string& reason) {
-  Json json = start_record(c, word, status);
+                           const std::string& kind, const std::string& reason, const CellIdentity* cell) {
+  Json json = start_record(c, word, status, cell);
+  json["kind"] = kind;
   json["reason"] = reason;
   json["options"] = options_json(c);
   add_origin(json);
   return print(json);
 }
+
+std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
+std::string versions_record() { return versions_json().dump(); }
 
 std::string metrics_record(const std::string& mesh_file, const std::string& size,
                            const MeshMetrics& metrics) {

@@ -255,54 +255,60 @@ double rough_quads(const PatchBoundary& boundary) {
   return double_area / 2 / (edge * edge);
 }
 
-/// Takes every patch through one stage, but those that there are `reasons` to leave out. `nodes`: those on
-/// curves.
-void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared,
-               std::vector<PatchMesh>& patches, std::vector<std::string>& reasons, SurfaceNodes& nodes,
-               StageLog& log) {
+/// Insertion is told how many points it may make.
+void check_insertion(const Case& c, const StageLog& log) {
+  if (log.insertion && log.insertion->termination == FrontalTermination::kMaxPoints)
+    throw InputError(fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows",
+                                 c.where, log.insertion->inserted, c.options.max_elements));
+}
+
+}  // namespace
+
+MeshingState begin_meshing(const PreparedCase& prepared) {
+  MeshingState state;
+  state.patches.resize(prepared.patches.size());
+  state.reasons.resize(prepared.patches.size());
+  if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
+  state.nodes.points = prepared.boundary.points;
+  return state;
+}
+
+void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, MeshingState& state) {
+  const Stopwatch watch;
+  std::vector<PatchMesh>& patches = state.patches;
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
+        std::string& reason = state.reasons[i];
         patches[i].inside.clear();
-        if (reasons[i].empty()) reasons[i] = run_on_patch(stage, c, prepared, i, patches[i], logs[i]);
+        if (reason.empty()) reason = run_on_patch(stage, c, prepared, i, patches[i], logs[i]);
       },
       [&](std::size_t i) {
         return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
                                                        : static_cast<double>(points_of(patches[i]).size());
       });
-  for (const StageLog& one : logs) log.add(one);
-  if (!stage.finish || !prepared.surface) return;
-  std::vector<char> left_out;
-  for (const std::string& reason : reasons) left_out.push_back(!reason.empty());
-  stage.finish({prepared, c.options, patches, left_out, nodes}, log);
+  for (const StageLog& one : logs) state.log.add(one);
+  check_insertion(c, state.log);
+  if (stage.finish && prepared.surface) {
+    std::vector<char> left_out;
+    for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
+    stage.finish({prepared, c.options, patches, left_out, state.nodes}, state.log);
+  }
+  state.seconds += watch.seconds();
 }
 
-}  // namespace
-
-RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
+RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std::string& label,
+                         MeshingState state) {
   const Stopwatch watch;
-  std::vector<PatchMesh> patches(prepared.patches.size());
-  std::vector<std::string> reasons(patches.size());  // to leave a face out
-  SurfaceNodes nodes;
-  if (prepared.surface) nodes = prepared.surface->domain.nodes;
-  nodes.points = prepared.boundary.points;
   RunResult result;
-  for (const Stage* stage : word.stages) {
-    progress.step(fmt::format("{} {}: {}", c.name, word.text, stage->name));
-    run_stage(*stage, c, prepared, patches, reasons, nodes, result.log);
-    if (result.log.insertion && result.log.insertion->termination == FrontalTermination::kMaxPoints)
-      throw InputError(
-          fmt::format("{}: insertion stopped at {} points, the most that --max-elements {} allows", c.where,
-                      result.log.insertion->inserted, c.options.max_elements));
-  }
-  const std::vector<char> left_out = collect_failures(prepared, reasons, result);
+  result.log = std::move(state.log);
+  const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
   if (c.options.treatment == Treatment::kPaper)
-    lift_bad_quads(prepared, nodes.points, patches, left_out, result.log);
-  result.mesh = assemble(prepared, nodes.points, patches, left_out, &result.log);
-  patches.clear();
-  result.seconds = watch.seconds();
-  progress.step(fmt::format("{} {}: metrics", c.name, word.text));
+    lift_bad_quads(prepared, state.nodes.points, state.patches, left_out, result.log);
+  result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
+  state.patches.clear();
+  result.seconds = state.seconds + watch.seconds();
   check_sound(result.mesh, prepared);
   const Stopwatch measuring;
   result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
@@ -314,9 +320,20 @@ RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word
     result.log.add_seconds("surface report", reporting.work_seconds());
   }
   result.peak_memory = peak_memory();
-  warn_of_bad_quads(c.name + " " + word.text, result);
-  count_bad_quads(c.name + " " + word.text, prepared, result);
+  warn_of_bad_quads(label, result);
+  count_bad_quads(label, prepared, result);
   return result;
+}
+
+RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress) {
+  MeshingState state = begin_meshing(prepared);
+  const std::string label = c.name + " " + word.text;
+  for (const Stage* stage : word.stages) {
+    progress.step(label + ": " + stage->name);
+    run_stage(*stage, c, prepared, state);
+  }
+  progress.step(label + ": metrics");
+  return finish_meshing(c, prepared, label, std::move(state));
 }
 
 }  // namespace delquad

@@ -28,6 +28,22 @@ struct RunResult {
 /// How many times run_word() calls Progress::step().
 int run_steps(const Word& word);
 
+/// A pipeline on its way: what the stages so far have made of each patch.
+struct MeshingState {
+  std::vector<PatchMesh> patches;
+  std::vector<std::string> reasons;  ///< of each patch, to leave its face out; empty: none
+  SurfaceNodes nodes;                ///< those on curves
+  StageLog log;
+  double seconds = 0;  ///< on the clock, so far
+};
+MeshingState begin_meshing(const PreparedCase& prepared);
+/// Takes every patch through one stage. Throws InputError when the mesher had to stop.
+void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, MeshingState& state);
+/// Puts the patches together and measures the mesh. `label` names the case and pipeline in warnings. Throws
+/// std::logic_error when the mesh is not sound.
+RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std::string& label,
+                         MeshingState state);
+
 /// Meshes every patch stage by stage, puts the patches together and measures the mesh.
 /// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);

@@ -30,10 +30,11 @@ TEST(RunCommand, WritesCellsTablesAndPictures) {
   const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(all_files(folder / "results"),
-            (std::vector<std::string>{
-                "square/D/mesh.msh", "square/D/mesh.vtu", "square/D/picture.svg", "square/D/record.json",
-                "square/DB/mesh.msh", "square/DB/mesh.vtu", "square/DB/picture.svg", "square/DB/record.json",
-                "square/cross.svg", "square/size.svg", "table.csv", "table.json", "table.md", "table.tex"}));
+            (std::vector<std::string>{".lock", "square/D/mesh.msh", "square/D/mesh.vtu",
+                                      "square/D/picture.svg", "square/D/record.json", "square/DB/mesh.msh",
+                                      "square/DB/mesh.vtu", "square/DB/picture.svg", "square/DB/record.json",
+                                      "square/cross.svg", "square/size.svg", "study.json", "table.csv",
+                                      "table.json", "table.md", "table.tex"}));
   const std::string table = read_text(folder / "results" / "table.md");
   EXPECT_TRUE(contains(result.out, table));
   EXPECT_TRUE(contains(table, "1.000 (0.75, +0.250)")) << table;
@@ -75,7 +76,7 @@ TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {
   write_text(stale / "mesh.msh", "from an earlier run");
   const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_TRUE(contains(result.err, "error: bad: ")) << result.err;
+  EXPECT_TRUE(contains(result.err, "error: bad DB: ")) << result.err;
   const std::string table = read_text(folder / "results/table.md");
   EXPECT_TRUE(contains(table, "failed")) << table;
   EXPECT_TRUE(contains(table, "x - 0.5")) << table;
@@ -156,7 +157,8 @@ TEST(RunCommand, InterruptKeepsFinishedCellsWhole) {
   std::size_t cells = 0;
   for (const std::string& name : all_files(folder / "results")) {
     const fs::path path = folder / "results" / name;
-    EXPECT_TRUE(std::count(whole.begin(), whole.end(), path.filename()) || path.extension() == ".svg")
+    EXPECT_TRUE(std::count(whole.begin(), whole.end(), path.filename()) || path.extension() == ".svg" ||
+                name == ".lock" || name == "study.json")
         << name;
     if (path.filename() != "record.json") continue;
     ++cells;

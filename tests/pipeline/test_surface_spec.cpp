@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/case_file.h"
-#include "pipeline/experiment.h"
+#include "sweep/experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -73,13 +73,13 @@ TEST(SurfaceSpecs, DataIsForExperimentsAndExcludesOtherModels) {
   expect_input_error([&] { read_model_case(write_text(folder / "m.toml", "data = \"part.step\"\n")); },
                      {"m.toml:1", "experiments"});
   const auto experiment = [&](const std::string& keys) {
-    return read_experiment(write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys),
-                           "there");
+    return Experiment::read(write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys),
+                            "there");
   };
   const Experiment e = experiment("data = \"cad/part.step\"\n");
-  EXPECT_EQ(e.cases[0].surface_file, std::filesystem::path("there") / "cad/part.step");
-  EXPECT_TRUE(e.cases[0].may_be_absent);
-  EXPECT_FALSE(experiment("model = \"part.step\"\n").cases[0].may_be_absent);
+  EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
+  EXPECT_TRUE(e.read_variant(0).may_be_absent);
+  EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
   expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
                      {"e.toml:", "exclude each other"});
   expect_input_error([&] { experiment("data = \"part.stp\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"); },

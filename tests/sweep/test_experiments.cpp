@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "metrics/metrics.h"
-#include "pipeline/experiment.h"
-#include "pipeline/experiment_runner.h"
+#include "sweep/experiment.h"
+#include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -18,30 +18,29 @@ TEST(Experiments, EveryFileOfTheProjectReads) {
   for (const auto& entry : fs::directory_iterator(DELQUAD_EXPERIMENTS)) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
-    EXPECT_NO_THROW(read_experiment(entry.path())) << entry.path();
+    EXPECT_NO_THROW(Experiment::read(entry.path())) << entry.path();
   }
   EXPECT_GE(files, 8);
 }
 
 TEST(Experiments, LewisHasThePublishedRows) {
-  const Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  const Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
   ASSERT_EQ(e.published.size(), 3u);
   const auto& delquad = e.published[2].values;
   EXPECT_EQ(e.published[2].name, "Delquad");
   EXPECT_EQ(delquad.at("eta_worst"), 0.25);
   EXPECT_EQ(delquad.at("tau"), 88);
   EXPECT_FALSE(e.published[1].values.contains("d4"));
-  ASSERT_EQ(e.cases.size(), 2u);
-  EXPECT_EQ(e.cases[0].compare.at("DB"), "Delquad");
+  ASSERT_EQ(e.n_cases(), 2u);
+  EXPECT_EQ(e.read_variant(0).compare.at("DB"), "Delquad");
 }
 
 /// The targets of the rotated square, end to end.
 TEST(Experiments, RotatedSquareIsExact) {
-  Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "rotated_square.toml");
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "rotated_square.toml");
   e.words = {parse_word("DB")};
   const testing_support::TemporaryFolder folder;
-  Progress progress;
-  const ExperimentOutcome outcome = run_experiment(e, folder / "out", progress);
+  const Outcome outcome = run_experiment(e, folder / "out");
   ASSERT_EQ(outcome.table.rows.size(), 3u);
   for (const TableRow& row : outcome.table.rows) {
     EXPECT_EQ(row.values.at("n_quads"), 400) << row.group;
@@ -52,11 +51,10 @@ TEST(Experiments, RotatedSquareIsExact) {
 }
 
 TEST(Experiments, LewisReachesThePublishedRow) {
-  Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
   e.words = {parse_word("DB")};
   const testing_support::TemporaryFolder folder;
-  Progress progress;
-  const ExperimentOutcome outcome = run_experiment(e, folder / "out", progress);
+  const Outcome outcome = run_experiment(e, folder / "out");
   for (const TableRow& row : outcome.table.rows) {
     if (row.published.empty()) continue;
     for (const char* metric : {"eta_worst", "eta_mean", "d4", "d_min", "tau", "percent_quads"})
@@ -69,11 +67,10 @@ TEST(Experiments, LinfStudyIsDeterministicAndNotesThePaper) {
   const testing_support::TemporaryFolder folder;
   const auto file =
       testing_support::write_text(folder / "e.toml", "[linf_delaunay]\npoints = [50]\nseeds = [4]\n");
-  Progress progress;
   std::string tables[2];
   for (int k = 0; k < 2; ++k) {
     const fs::path results = folder / ("out" + std::to_string(k));
-    run_experiment(read_experiment(file), results, progress);
+    run_experiment(Experiment::read(file), results);
     tables[k] = testing_support::read_text(results / "table.csv");
     EXPECT_TRUE(fs::exists(results / "50-even-4.svg"));
   }
@@ -88,14 +85,13 @@ TEST(Experiments, RatiosAreNoted) {
       "pipelines = [\"F\", \"D\"]\nratio = { metric = \"n_vertices\", numerator = \"F\", denominator = "
       "\"D\", expected = "
       "1.1547 }\n[[case]]\nname = \"a\"\nsize = 0.05\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
-  Progress progress;
-  const ExperimentOutcome outcome = run_experiment(read_experiment(file), folder / "out", progress);
+  const Outcome outcome = run_experiment(Experiment::read(file), folder / "out");
   ASSERT_EQ(outcome.table.notes.size(), 2u);
   EXPECT_EQ(outcome.table.notes[0], "a: uniform delta = 0.05");
   EXPECT_NE(outcome.table.notes[1].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[1];
   expect_input_error(
       [&] {
-        read_experiment(testing_support::write_text(
+        Experiment::read(testing_support::write_text(
             folder / "e.toml",
             "[ratio]\nmetric = \"n_vertex\"\nnumerator = \"F\"\ndenominator = \"D\"\nexpected = 1\n"));
       },

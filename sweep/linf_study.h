@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "pipeline/experiment.h"
 #include "pipeline/progress.h"
-#include "pipeline/table.h"
+#include "sweep/experiment.h"
+#include "sweep/table.h"
 
 namespace delquad {
 

@@ -1,4 +1,4 @@
-#include "pipeline/linf_study.h"
+#include "sweep/linf_study.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/table.h"
+#include "sweep/table.h"
 
 #include <fmt/format.h>
 
@@ -17,44 +17,24 @@ double value_or_nan(const std::map<std::string, double>& values, const std::stri
   return at == values.end() ? kUnknown : at->second;
 }
 
-std::string cell(const TableRow& row, const TableColumn& column) {
+/// How a format shows what is the best, and what is perhaps as good.
+struct Style {
+  const char *best_begin, *best_end, *as_good, *plus_minus;
+};
+constexpr Style kMarkdown = {"**", "**", "~", " \u00b1 "};
+constexpr Style kTex = {"\\textbf{", "}", "$\\sim$", " $\\pm$ "};
+
+std::string cell(const TableRow& row, const TableColumn& column, const Style& style) {
   const double ours = value_or_nan(row.values, column.key),
-               published = value_or_nan(row.published, column.key);
-  const std::string text = std::isnan(ours) ? "-" : fmt::format("{:.{}f}", ours, column.digits);
+               published = value_or_nan(row.published, column.key),
+               half_width = value_or_nan(row.half_widths, column.key);
+  std::string text = std::isnan(ours) ? "-" : fmt::format("{:.{}f}", ours, column.digits);
+  if (const auto mark = row.marks.find(column.key); mark != row.marks.end())
+    text = mark->second == Mark::kBest ? style.best_begin + text + style.best_end : style.as_good + text;
+  if (!std::isnan(half_width)) text += fmt::format("{}{:.{}f}", style.plus_minus, half_width, column.digits);
   if (std::isnan(published)) return text;
   if (std::isnan(ours)) return fmt::format("{} ({})", text, published);
   return fmt::format("{} ({}, {:+.{}f})", text, published, ours - published, column.digits);
-}
-
-/// Header and body as text; a failed row's reason goes to the notes.
-struct Rendered {
-  std::vector<std::vector<std::string>> lines;  // the first is the header
-  std::vector<std::string> notes;
-};
-
-Rendered render(const Table& table) {
-  Rendered result;
-  result.lines.push_back({table.group_title, table.name_title});
-  for (const TableColumn& column : table.columns) result.lines.back().push_back(column.title);
-  bool compared = false;
-  for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = {row.group, row.name};
-    for (const TableColumn& column : table.columns) {
-      const bool first = line.size() == 2;
-      const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
-      line.push_back(missing.empty() ? cell(row, column) : first ? missing : "");
-    }
-    result.lines.push_back(std::move(line));
-    compared = compared || !row.published.empty();
-    if (!row.failure.empty())
-      result.notes.push_back(fmt::format("{} {} failed: {}", row.group, row.name, row.failure));
-  }
-  if (compared) result.notes.push_back("In brackets: the published number, and ours minus it.");
-  for (const TableRow& row : table.rows)
-    if (!row.source.empty())
-      result.notes.push_back(fmt::format("{} {}: {}", row.group, row.name, row.source));
-  result.notes.insert(result.notes.end(), table.notes.begin(), table.notes.end());
-  return result;
 }
 
 std::string replace_all(std::string text, const std::string& from, const std::string& to) {
@@ -78,6 +58,49 @@ std::string tex_escaped(const std::string& text) {
   return result;
 }
 
+/// Of UTF-8.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
+
+/// Header and body as text; a failed row's reason goes to the notes.
+struct Rendered {
+  std::vector<std::vector<std::string>> lines;  // the first is the header
+  std::vector<std::string> notes;
+};
+
+Rendered render(const Table& table, const Style& style, std::string (*escape)(const std::string&)) {
+  Rendered result;
+  result.lines.push_back({escape(table.group_title), escape(table.name_title)});
+  for (const TableColumn& column : table.columns) result.lines.back().push_back(escape(column.title));
+  bool compared = false, as_good = false, means = false;
+  for (const TableRow& row : table.rows) {
+    std::vector<std::string> line = {escape(row.group), escape(row.name)};
+    for (const TableColumn& column : table.columns) {
+      const bool first = line.size() == 2;
+      const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
+      line.push_back(missing.empty() ? cell(row, column, style) : first ? missing : "");
+    }
+    result.lines.push_back(std::move(line));
+    compared = compared || !row.published.empty();
+    means = means || !row.half_widths.empty();
+    for (const auto& [key, mark] : row.marks) as_good = as_good || mark == Mark::kAsGoodAsBest;
+    if (!row.failure.empty())
+      result.notes.push_back(fmt::format("{} {} failed: {}", row.group, row.name, row.failure));
+  }
+  if (means) result.notes.push_back("Means, and half the width of their 95 % confidence intervals.");
+  if (as_good) result.notes.push_back("~: no difference is proven (Wilcoxon's signed-rank test, 5 %).");
+  if (compared) result.notes.push_back("In brackets: the published number, and ours minus it.");
+  for (const TableRow& row : table.rows)
+    if (!row.source.empty())
+      result.notes.push_back(fmt::format("{} {}: {}", row.group, row.name, row.source));
+  result.notes.insert(result.notes.end(), table.notes.begin(), table.notes.end());
+  return result;
+}
+
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
@@ -92,24 +115,24 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 }  // namespace
 
-const std::vector<std::string>& table_files() {
-  static const std::vector<std::string> files = {"table.md", "table.csv", "table.tex", "table.json"};
-  return files;
+const std::vector<TableFormat>& table_formats() {
+  static const std::vector<TableFormat> formats = {
+      {".md", to_markdown}, {".csv", to_csv}, {".tex", to_tex}, {".json", to_json}};
+  return formats;
 }
 
 std::string to_markdown(const Table& table) {
-  const Rendered rendered = render(table);
-  const auto escaped = [](const std::string& text) { return replace_all(text, "|", "\\|"); };
+  const Rendered rendered = render(table, kMarkdown, markdown_escaped);
   std::vector<std::size_t> width(rendered.lines[0].size(), 3);
   for (const auto& line : rendered.lines)
-    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], escaped(line[k]).size());
+    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], characters(line[k]));
   std::string text = fmt::format("# {}\n\n", table.title);
   for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
     text += "|";
     for (std::size_t k = 0; k < width.size(); ++k) {
-      const std::string content = escaped(rendered.lines[i][k]);
-      text +=
-          k < 2 ? fmt::format(" {:<{}} |", content, width[k]) : fmt::format(" {:>{}} |", content, width[k]);
+      const std::string& content = rendered.lines[i][k];
+      const std::string padding(width[k] - characters(content), ' ');
+      text += " " + (k < 2 ? content + padding : padding + content) + " |";
     }
     text += "\n";
     if (i > 0) continue;
@@ -124,12 +147,12 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_tex(const Table& table) {
-  const Rendered rendered = render(table);
+  const Rendered rendered = render(table, kTex, tex_escaped);
   std::string text = fmt::format("% {}\n\\begin{{tabular}}{{ll{}}}\n\\toprule\n",
                                  replace_all(table.title, "\n", " "), std::string(table.columns.size(), 'r'));
   for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
     for (std::size_t k = 0; k < rendered.lines[i].size(); ++k)
-      text.append(k ? " & " : "").append(tex_escaped(rendered.lines[i][k]));
+      text.append(k ? " & " : "").append(rendered.lines[i][k]);
     text += i == 0 ? " \\\\\n\\midrule\n" : " \\\\\n";
   }
   text += "\\bottomrule\n\\end{tabular}\n";
@@ -140,7 +163,7 @@ std::string to_tex(const Table& table) {
 std::string to_csv(const Table& table) {
   std::string text = csv_quoted(table.group_title) + "," + csv_quoted(table.name_title) + ",status,source";
   for (const TableColumn& column : table.columns)
-    text += fmt::format(",{0},{0}_published,{0}_difference", column.key);
+    text += fmt::format(",{0},{0}_half_width,{0}_published,{0}_difference", column.key);
   text += "\n";
   for (const TableRow& row : table.rows) {
     text += csv_quoted(row.group) + "," + csv_quoted(row.name) + "," + csv_quoted(status(row)) + "," +
@@ -148,7 +171,9 @@ std::string to_csv(const Table& table) {
     for (const TableColumn& column : table.columns) {
       const double ours = value_or_nan(row.values, column.key),
                    published = value_or_nan(row.published, column.key);
-      text += fmt::format(",{},{},{}", csv_number(ours), csv_number(published), csv_number(ours - published));
+      text +=
+          fmt::format(",{},{},{},{}", csv_number(ours), csv_number(value_or_nan(row.half_widths, column.key)),
+                      csv_number(published), csv_number(ours - published));
     }
     text += "\n";
   }
@@ -172,6 +197,7 @@ std::string to_json(const Table& table) {
     } else {
       line["status"] = "ok";
       line["values"] = object(row.values);
+      if (!row.half_widths.empty()) line["half_widths"] = object(row.half_widths);
     }
     if (!row.published.empty()) {
       line["published"] = object(row.published);

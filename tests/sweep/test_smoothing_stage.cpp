@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/case_file.h"
-#include "pipeline/experiment_runner.h"
+#include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -25,9 +25,8 @@ class SmoothingStage : public testing::Test {
         folder_ / "e.toml", "pipelines = " + words + "\nsmoothing = " + smoothing +
                                 "\n[[case]]\nname = \"disk\"\n"
                                 "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\n");
-    Progress progress;
-    const ExperimentOutcome outcome = run_experiment(read_experiment(file), folder_ / "out", progress);
-    EXPECT_EQ(outcome.bad_inputs + outcome.internal_errors, 0);
+    const Outcome outcome = run_experiment(Experiment::read(file), folder_ / "out");
+    EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
     EXPECT_EQ(outcome.leftover_triangles, 0);
   }
   nlohmann::json record(const std::string& word) {

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "pipeline/experiment_runner.h"
+#include "sweep/run_experiment.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -16,11 +16,10 @@ fs::path data_folder() {
 }
 
 Table run(const char* file, const std::vector<std::string>& words) {
-  Experiment e = read_experiment(fs::path(DELQUAD_EXPERIMENTS) / file, data_folder());
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / file, data_folder());
   e.words = parse_words(words);
   const testing_support::TemporaryFolder folder;
-  Progress progress;
-  return run_experiment(e, folder / "out", progress).table;
+  return run_experiment(e, folder / "out").table;
 }
 
 std::map<std::string, double> values(const Table& table, const std::string& word) {

@@ -12,6 +12,11 @@ struct TableColumn {
   int digits = 0;     ///< after the decimal point
 };
 
+enum class Mark {
+  kBest,         ///< of its group
+  kAsGoodAsBest  ///< nothing proves that the best is better
+};
+
 struct TableRow {
   std::string group, name;                  ///< first two columns: case and pipeline
   std::map<std::string, double> values;     ///< by column key; absent or NaN: not known
@@ -19,6 +24,9 @@ struct TableRow {
   std::string source;                       ///< where the published values stand; empty: none
   std::string failure;                      ///< why there are no values; empty: none
   std::string skipped = {};                 ///< why it was left out; empty: it was not
+  /// Of means over several runs: half the width of their 95 % confidence interval, by column key.
+  std::map<std::string, double> half_widths = {};
+  std::map<std::string, Mark> marks = {};  ///< by column key
 };
 
 /// Results beside published ones.
@@ -30,8 +38,12 @@ struct Table {
   std::vector<std::string> notes;
 };
 
-/// What a table is written to, in a folder.
-const std::vector<std::string>& table_files();
+/// The extensions of what a table is written to, and what writes them.
+struct TableFormat {
+  const char* extension;
+  std::string (*print)(const Table&);
+};
+const std::vector<TableFormat>& table_formats();
 
 /// A cell of ours with a published counterpart reads "ours (published, difference)".
 std::string to_markdown(const Table& table);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipeline/table.h"
+#include "sweep/table.h"
 
 namespace delquad {
 namespace {
@@ -33,11 +33,11 @@ TEST(Tables, MarkdownShowsPublishedAndDifference) {
 
 TEST(Tables, CsvQuotesAndKeepsDigits) {
   EXPECT_EQ(to_csv(example()),
-            "case,pipeline,status,source,eta_mean,eta_mean_published,eta_mean_difference,d4,d4_published,d4_"
-            "difference\n"
-            "case_1,DB,ok,Table I,0.875,0.75,0.125,88.25,,\n"
-            "case_1,FB,ok,,0.5,,,,,\n"
-            "case|2,DB,\"failed: size, \"\"x\"\", is < 0\",,,,,,,\n");
+            "case,pipeline,status,source,eta_mean,eta_mean_half_width,eta_mean_published,eta_mean_difference,"
+            "d4,d4_half_width,d4_published,d4_difference\n"
+            "case_1,DB,ok,Table I,0.875,,0.75,0.125,88.25,,,\n"
+            "case_1,FB,ok,,0.5,,,,,,,\n"
+            "case|2,DB,\"failed: size, \"\"x\"\", is < 0\",,,,,,,,,\n");
 }
 
 TEST(Tables, TexIsEscapedBooktabs) {
@@ -56,6 +56,19 @@ TEST(Tables, JsonHoldsValuesAndReasons) {
   EXPECT_TRUE(holds(text, "\"difference\": {")) << text;
   EXPECT_TRUE(holds(text, "\"d4\": null")) << text;
   EXPECT_TRUE(holds(text, "\"reason\": \"size, \\\"x\\\", is < 0\"")) << text;
+}
+
+TEST(Tables, MarksAndSpreadsAreShown) {
+  Table table = example();
+  table.rows[0].half_widths["d4"] = 1.25;
+  table.rows[0].marks["d4"] = Mark::kBest;
+  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  const std::string markdown = to_markdown(table), tex = to_tex(table);
+  EXPECT_TRUE(holds(markdown, "**88.2** ± 1.2 |")) << markdown;
+  EXPECT_TRUE(holds(markdown, "~0.500 |")) << markdown;
+  EXPECT_TRUE(holds(tex, "\\textbf{88.2} $\\pm$ 1.2")) << tex;
+  EXPECT_TRUE(holds(tex, "$\\sim$0.500")) << tex;
+  EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
-#include "pipeline/experiment.h"
+#include "sweep/experiment.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/toml_reader.h"
 #include "metrics/metrics.h"
 #include "pipeline/case_file.h"
 #include "pipeline/located.h"
-#include "pipeline/table.h"
+#include "sweep/tables.h"
 
 namespace delquad {
 namespace {
@@ -83,7 +84,8 @@ std::string lower_case(std::string text) {
 }
 
 /// Case names become folders, on file systems that may not tell capitals from small letters.
-void check_case_name(const TomlTable& table, const std::string& name, const std::vector<Case>& others) {
+void check_case_name(const TomlTable& table, const std::string& name,
+                     const std::vector<std::string>& others) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
@@ -92,11 +94,11 @@ void check_case_name(const TomlTable& table, const std::string& name, const std:
       !std::all_of(name.begin(), name.end(), plain))
     throw InputError(table.where("name") + ": '" + name +
                      "' names a folder: expected letters, digits, '_', '-' and '.', not at the front");
-  for (const Case& other : others)
-    if (lower_case(other.name) == lower_case(name))
+  for (const std::string& other : others)
+    if (lower_case(other) == lower_case(name))
       throw InputError(table.where("name") + ": a second case '" + name + "'" +
-                       (other.name == name ? "" : ": beside '" + other.name + "' it would share its folder"));
-  for (const std::string& file : table_files())
+                       (other == name ? "" : ": beside '" + other + "' it would share its folder"));
+  for (const std::string& file : result_files())
     if (lower_case(name) == file)
       throw InputError(table.where("name") + ": '" + name +
                        "' names a folder, but that of a file of results");
@@ -114,21 +116,78 @@ void check_comparisons(const TomlTable& table, const Case& c, const std::vector<
   }
 }
 
-Case read_case(const TomlTable& table, const Case& defaults, const Experiment& experiment) {
-  Case c = defaults;
+/// Up to this many characters of a value make the name of a folder.
+constexpr std::size_t kLongestValue = 40;
+
+/// As it stands in the name of a folder: what might not stand there is replaced by `_`, and long or doubtful
+/// texts by their place in the list.
+std::string folder_text(const Axis& axis, std::size_t i) {
+  const auto plain = [](const std::string& text) {
+    std::string result = text;
+    for (char& c : result)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
+        c = '_';
+    return result;
+  };
+  const std::string text = plain(axis.values[i]);
+  const auto same =
+      std::ranges::count_if(axis.values, [&](const std::string& v) { return plain(v) == text; });
+  return text.size() > kLongestValue || same > 1 ? "value-" + std::to_string(i + 1) : text;
+}
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+}  // namespace
+
+std::size_t Experiment::n_variants() const {
+  std::size_t n = 1;
+  for (const Axis& axis : axes) n *= axis.values.size();
+  return n;
+}
+
+void Experiment::read_matrix(const TomlTable& matrix) {
+  matrix_ = matrix;
+  leaves_ = matrix.leaves();
+  constexpr double kMostCells = 1e7;
+  double cells = 1;
+  for (const std::string& leaf : leaves_) {
+    Axis axis{leaf, last_part(leaf), {}};
+    const auto same = [&](const std::string& other) { return last_part(other) == axis.title; };
+    if (std::ranges::count_if(leaves_, same) > 1) axis.title = leaf;
+    for (std::size_t i = 0; i < matrix.count(leaf); ++i) {
+      axis.values.push_back(matrix.element_text(leaf, i));
+      if (std::ranges::count(axis.values, axis.values.back()) > 1)
+        throw InputError(matrix.where(leaf) + ": '" + leaf + "' has " + axis.values.back() + " twice");
+    }
+    cells *= static_cast<double>(axis.values.size());
+    axes.push_back(std::move(axis));
+  }
+  if (cells > kMostCells) throw InputError(matrix.where() + ": more than 1e7 combinations");
+}
+
+Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) const {
+  std::vector<std::size_t> choice(axes.size());
+  for (std::size_t k = axes.size(); k-- > 0; variant /= axes[k].values.size())
+    choice[k] = variant % axes[k].values.size();
+  const TomlTable& plain = cases_[index_of_case];
+  const TomlTable table = matrix_ ? plain.with_choice(*matrix_, leaves_, choice) : plain;
+  Case c = defaults_;
   c.name = table.text("name");
   c.where = table.where();
-  check_case_name(table, c.name, experiment.cases);
+  c.folder = c.name;
   read_case_keys(table, c);
-  check_comparisons(table, c, experiment.published);
+  check_comparisons(table, c, published);
   table.finish();
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
+  c.options.max_elements = max_elements;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    c.variant.emplace_back(axes[k].title, axes[k].values[choice[k]]);
+    c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k], choice[k]);
+  }
   return c;
 }
-
-}  // namespace
 
 const std::vector<StepTime>& step_times_of_tables() {
   static const std::vector<StepTime> times = {{"seconds_read", "read s", "read"},
@@ -144,7 +203,7 @@ const std::vector<StepTime>& step_times_of_tables() {
   return times;
 }
 
-Experiment read_experiment(const std::filesystem::path& file, const std::filesystem::path& data) {
+Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
   Experiment experiment;
   experiment.file = file;
@@ -156,19 +215,25 @@ Experiment read_experiment(const std::filesystem::path& file, const std::filesys
   experiment.step_times = table.flag("step_times", false);
   if (const auto ratio = table.optional_table("ratio")) experiment.ratio = read_ratio(*ratio);
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
+  if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
 
-  Case defaults;  // what the file says for every case
-  defaults.where = file.string();
-  defaults.data_folder = data;
-  read_case_keys(table, defaults);
-  for (const TomlTable& c : table.tables("case"))
-    experiment.cases.push_back(read_case(c, defaults, experiment));
+  experiment.defaults_.where = file.string();
+  experiment.defaults_.data_folder = data;
+  read_case_keys(table, experiment.defaults_);
+  experiment.cases_ = table.tables("case");
   table.finish();
-  if (experiment.cases.empty() && !experiment.linf)
+  if (experiment.cases_.empty() && !experiment.linf)
     throw InputError(file.string() +
                      ": no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'");
-  if (!experiment.cases.empty() && experiment.linf)
+  if (!experiment.cases_.empty() && experiment.linf)
     throw InputError(table.where("linf_delaunay") + ": 'linf_delaunay' and cases exclude each other");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
+    const std::string name = experiment.cases_[i].text("name");
+    check_case_name(experiment.cases_[i], name, names);
+    names.push_back(name);
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) experiment.read_variant(i, v);
+  }
   return experiment;
 }
 

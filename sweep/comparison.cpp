@@ -1,4 +1,4 @@
-#include "pipeline/comparison.h"
+#include "sweep/comparison.h"
 
 #include <fmt/format.h>
 
@@ -61,11 +61,11 @@ Comparison compare_records(const std::vector<CellRecord>& before, const std::vec
     }
     const CellRecord& b = *at->second;
     later.erase(at);
-    if (!a.failure.empty() || !b.failure.empty()) {
-      if (b.failure.empty())
+    if (!a.reason.empty() || !b.reason.empty()) {
+      if (b.reason.empty())
         result.recovered.push_back(name(a));
       else
-        (a.failure.empty() ? result.failed : result.failing).push_back(name(a) + ": " + b.failure);
+        (a.reason.empty() ? result.failed : result.failing).push_back(name(a) + ": " + b.reason);
       continue;
     }
     for (size_t m = 0; m < metrics.size(); ++m) {

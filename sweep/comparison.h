@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/result_records.h"
+#include "sweep/result_records.h"
 
 namespace delquad {
 

@@ -1,4 +1,4 @@
-#include "pipeline/comparison.h"
+#include "sweep/comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ TEST(Compare, JudgesByDirectionAndTolerance) {
 TEST(Compare, TellsWhatIsMissingFailedAndNew) {
   CellRecord broken = cell("D", 0);
   broken.values.clear();
-  broken.failure = "no size";
+  broken.reason = "no size";
   const std::vector<CellRecord> before = {cell("D", 0.8), cell("F", 0.8)};
   const Comparison c = compare_records(before, {broken, cell("DB", 1)}, {"eta_mean"}, 0.01);
   EXPECT_EQ(c.missing, std::vector<std::string>{"plate F"});

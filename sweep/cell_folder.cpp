@@ -1,4 +1,4 @@
-#include "pipeline/cell_folder.h"
+#include "sweep/cell_folder.h"
 
 #include <unistd.h>
 
@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *kRecord = "record.json", *kTemporary = ".tmp";
+
 /// Removed at the end unless it has been moved away.
 struct TemporaryFolder {
   fs::path path;
@@ -22,17 +24,30 @@ struct TemporaryFolder {
   }
 };
 
-/// What an earlier run left would pass for what this one made.
+/// What an earlier run left would pass for what this one made. The record first: it says that the rest is
+/// whole.
 void remove_results(const fs::path& folder) {
-  for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg", "convergence.svg", "record.json"}) {
+  for (const char* name : {kRecord, "mesh.msh", "mesh.vtu", "picture.svg", "convergence.svg"}) {
     std::error_code nothing_there;
     fs::remove(folder / name, nothing_there);
   }
 }
 
+/// Temporary folders of this cell whose processes were killed.
+void remove_unfinished(const fs::path& folder) {
+  const std::string prefix = "." + folder.filename().string() + ".";
+  std::error_code nothing_there;
+  for (const auto& entry : fs::directory_iterator(folder.parent_path(), nothing_there)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(kTemporary)) fs::remove_all(entry.path(), nothing_there);
+  }
+}
+
 void move_into_place(const fs::path& from, const fs::path& to) {
   if (!fs::exists(to) || (!fs::is_symlink(to) && fs::is_empty(to))) return fs::rename(from, to);
-  for (const auto& entry : fs::directory_iterator(from)) fs::rename(entry, to / entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().filename() != kRecord) fs::rename(entry, to / entry.path().filename());
+  fs::rename(from / kRecord, to / kRecord);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -44,10 +59,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 void write_cell(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
   const Uninterrupted whole;
-  const std::string name = "." + folder.filename().string() + "." + std::to_string(getpid()) + ".tmp";
+  const std::string name = "." + folder.filename().string() + "." + std::to_string(getpid()) + kTemporary;
   const TemporaryFolder temporary{folder.parent_path() / name};
   try {
     remove_results(folder);
+    remove_unfinished(folder);
     fs::create_directories(temporary.path);
     write(temporary.path);
     move_into_place(temporary.path, folder);

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/toml_reader.h"
+#include "pipeline/case.h"
+#include "pipeline/stages.h"
+
+namespace delquad {
+
+/// A row of a published table.
+struct PublishedRow {
+  std::string name, source;
+  std::map<std::string, double> values;  ///< by metric key
+};
+
+/// The column of a table that shows how long a step took.
+struct StepTime {
+  const char *key, *title;
+  const char* step;  ///< as records call it; empty: all of these together
+};
+const std::vector<StepTime>& step_times_of_tables();
+
+/// How a metric of one pipeline should relate to that of another on the same case.
+struct ExpectedRatio {
+  std::string metric, numerator, denominator;  ///< key and two words
+  double expected = 1;
+  std::string source;
+};
+
+/// Point sets on which the two Delaunay kernels are compared instead of meshing.
+struct LinfStudy {
+  std::vector<int> points;  ///< how many
+  std::vector<int> seeds;
+};
+
+/// An option that an experiment varies.
+struct Axis {
+  std::string key;                  ///< dotted: "insertion.h_max"
+  std::string title;                ///< its last part, or as much as tells it from the others
+  std::vector<std::string> values;  ///< as texts
+};
+
+/// A file of experiments/: cases, the pipelines to run on each, and what was published.
+///
+/// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
+/// read when they are asked for: a sweep may have many.
+class Experiment {
+ public:
+  std::string title;
+  std::filesystem::path file;
+  std::vector<Word> words;
+  std::vector<PublishedRow> published;
+  std::optional<ExpectedRatio> ratio;
+  std::vector<Axis> axes;
+  bool step_times = false;                                 ///< the table has a column for each step's time
+  std::optional<LinfStudy> linf;                           ///< then there are no cases
+  long long max_elements = MeshingOptions{}.max_elements;  ///< of every case
+
+  std::size_t n_cases() const { return cases_.size(); }
+  std::size_t n_variants() const;  ///< of each case
+  std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
+  /// Throws InputError with file and line.
+  Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
+
+  /// `data`: the folder that the models which cases call data are in. Throws InputError with file and line
+  /// for anything that is not as docs/experiments.md says.
+  static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder);
+
+ private:
+  void read_matrix(const TomlTable& matrix);
+
+  Case defaults_;  ///< what the file says for every case
+  std::vector<TomlTable> cases_;
+  std::optional<TomlTable> matrix_;
+  std::vector<std::string> leaves_;  ///< of the matrix, as in axes
+};
+
+}  // namespace delquad

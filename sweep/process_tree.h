@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// What becomes of a process that did not get to its end.
+struct ProcessFailure {
+  std::string kind;    ///< "bad input", "internal error", "timeout", "memory" or "crash"
+  std::string reason;  ///< for people
+};
+
+/// Something that runs in a process of its own, and what follows from it.
+struct Job {
+  std::function<void()> work;
+  /// What starts from the state that work() has left, each in a process of its own, forked from this one: so
+  /// that jobs share what they have in common and die alone.
+  std::function<std::vector<Job>()> next = {};
+  /// Called in the process that started this one, when it did not get to its end.
+  std::function<void(const ProcessFailure&)> failed;
+};
+
+struct ProcessLimits {
+  int jobs = 1;         ///< processes that work at the same time, at least 1
+  double seconds = 0;   ///< from the first work() of a chain of jobs to the end of its last; 0: no limit
+  long long bytes = 0;  ///< of memory that a process may hold; 0: no limit
+};
+
+/// Runs the jobs that `next_job` hands out until it has none left, and all that follow from them. When this
+/// process dies, those that it started die, too. `tick` is called now and then.
+void run_jobs(const std::function<std::optional<Job>()>& next_job, const ProcessLimits& limits,
+              const std::function<void()>& tick = {});
+
+}  // namespace delquad

@@ -1,0 +1,92 @@
+#include "sweep/result_records.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mesh/error.h"
+#include "pipeline/case.h"
+#include "sweep/experiment.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nlohmann::literals;
+using Json = nlohmann::ordered_json;
+
+void add_step_times(const Json& seconds, std::map<std::string, double>& values) {
+  double total = 0;
+  for (const StepTime& time : step_times_of_tables()) {
+    if (*time.step == 0) values[time.key] = total;
+    const auto at = seconds.find(time.step);
+    if (at == seconds.end()) continue;
+    total += values[time.key] = at->get<double>();
+  }
+}
+
+CellRecord parse(const Json& json) {
+  CellRecord record;
+  json.at("case").get_to(record.name);
+  json.at("pipeline").get_to(record.pipeline);
+  record.group = record.name;
+  const Json variant = json.value("variant", Json::object());
+  for (const auto& [title, value] : variant.items()) {
+    record.group += (record.variant.empty() ? "@" : ",") + title + "=" + value.get<std::string>();
+    record.variant.emplace_back(title, value.get<std::string>());
+  }
+  if (json.contains("place")) json.at("place").get_to(record.place);
+  if (const auto status = json.at("status").get<std::string>(); status != "ok") {
+    json.at("reason").get_to(record.reason);
+    record.skipped = status == "skipped";
+    record.kind = json.value("kind", "");
+    return record;
+  }
+  for (const auto& [key, value] : json.at("metrics").items())
+    record.values[key] = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  record.values["seconds"] = json.at("meshing_seconds").get<double>();
+  if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
+  if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
+  const Json size = json.value("/options/size"_json_pointer, Json::object());
+  const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
+  if (as_number(base) && size.value("sources", Json::array()).empty()) record.uniform_size = base;
+  return record;
+}
+
+}  // namespace
+
+std::vector<CellRecord> read_records(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().filename().string().starts_with('.')) at.disable_recursion_pending();  // unfinished
+    if (at->path().filename() == "record.json") files.push_back(at->path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
+  std::sort(files.begin(), files.end());
+
+  std::vector<CellRecord> records;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const fs::path& file : files) {
+    try {
+      std::ifstream in(file);
+      records.push_back(parse(Json::parse(in)));
+    } catch (const Json::exception& e) {
+      throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), e.what()));
+    }
+    const CellRecord& r = records.back();
+    if (!seen.insert({r.group, r.pipeline}).second)
+      throw InputError(
+          fmt::format("{}: there is another record of {} {} in {}: give the folder of one experiment",
+                      file.string(), r.group, r.pipeline, folder.string()));
+  }
+  std::ranges::stable_sort(records, {}, &CellRecord::place);
+  return records;
+}
+
+}  // namespace delquad

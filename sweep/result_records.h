@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace delquad {
+
+/// What a record says of one cell of an experiment.
+struct CellRecord {
+  std::string group, pipeline;           ///< the case with its variant, and the pipeline run on it
+  std::string reason;                    ///< why there are no values; empty: there are
+  std::map<std::string, double> values;  ///< by metric key, "seconds" and those of steps; NaN: not defined
+  std::string name = {};                 ///< of the case alone
+  std::vector<std::pair<std::string, std::string>> variant = {};
+  std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline; zeros where it does not say
+  std::string kind = {};                  ///< of the reason: as in failure_record()
+  bool skipped = false;                   ///< for that reason, and not failed
+  std::vector<std::string> warnings = {};
+  std::string uniform_size = {};  ///< delta, where it is the same everywhere
+};
+
+/// The records of an experiment below a folder, by place and path. Throws InputError naming the file that is
+/// no record, the cell that is there twice, or the folder that has none.
+std::vector<CellRecord> read_records(const std::filesystem::path& folder);
+
+}  // namespace delquad

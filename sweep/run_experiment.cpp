@@ -1,0 +1,342 @@
+#include "sweep/run_experiment.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <ostream>
+#include <system_error>
+#include <utility>
+
+#include "io/digest.h"
+#include "io/mesh_io.h"
+#include "io/picture.h"
+#include "mesh/error.h"
+#include "pipeline/case_pictures.h"
+#include "pipeline/runner.h"
+#include "pipeline/stopwatch.h"
+#include "sweep/cell_folder.h"
+#include "sweep/cells.h"
+#include "sweep/folder_lock.h"
+#include "sweep/linf_study.h"
+#include "sweep/study_file.h"
+#include "sweep/sweep_progress.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+void say(const std::string& text) {
+  // In one piece: several processes may speak at once.
+  fmt::print(stderr, "{}\n", (isatty(STDERR_FILENO) != 0 ? "\r\x1b[2K" : "") + text);
+}
+
+struct Cell {
+  const Word* word;
+  CellIdentity identity;
+  fs::path folder;
+};
+
+bool is_done(const Cell& cell) {
+  const auto head = read_head(cell.folder);
+  return head && head->key == cell.identity.key && head->status == "ok";
+}
+
+/// A variant of a case with the cells that are to be made from it, in the process that works on it: each
+/// process has its own.
+struct Work {
+  Case c;
+  fs::path folder;  ///< of the experiment
+  std::vector<Cell> cells;
+  SweepProgress* progress;
+  std::optional<PreparedCase> prepared;
+  MeshingState state;
+
+  void prepare() {
+    prepared = prepare_case(c);
+    for (const std::string& warning : prepared->warnings) say("warning: " + warning);
+    state = begin_meshing(*prepared);
+    try {
+      prepare_folder(folder / c.folder);
+      draw_case(*prepared, c.folder, folder / c.folder);
+    } catch (const InputError& error) {
+      say(fmt::format("error: {}: no pictures of its fields: {}", c.folder, error.what()));
+    }
+  }
+
+  void finish(const Cell& cell) {
+    const std::string label = c.folder + " " + cell.word->text;
+    RunResult result = finish_meshing(c, *prepared, c.name + " " + cell.word->text, std::move(state));
+    for (const std::string& warning : result.warnings) say("warning: " + warning);
+    write_cell(cell.folder, [&](const fs::path& at) {
+      const Stopwatch writing;
+      write_msh(at / "mesh.msh", result.mesh);
+      write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
+      (prepared->background ? draw_mesh : draw_surface)(at / "picture.svg", result.mesh, label);
+      if (!result.log.smoothing.empty())
+        draw_convergence(at / "convergence.svg", result.log.smoothing, label + ": smoothing");
+      result.log.add_seconds("write", writing.work_seconds());
+      CellIdentity identity = cell.identity;
+      identity.mesh_digest = file_digest(at / "mesh.msh");
+      write_file_atomically(at / "record.json", [&](std::ostream& out) {
+        out << run_record(c, *prepared, *cell.word, result, &identity);
+      });
+    });
+    progress->done();
+  }
+
+  void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
+    try {
+      write_cell(cell.folder, [&](const fs::path& at) {
+        write_file_atomically(at / "record.json", [&](std::ostream& out) {
+          out << failure_record(c, *cell.word, status, why.kind, why.reason, &cell.identity);
+        });
+      });
+    } catch (const InputError& error) {
+      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
+    }
+    if (status == "failed")
+      progress->failed();
+    else
+      progress->done();
+  }
+};
+
+/// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows.
+struct Branch {
+  const Stage* stage = nullptr;  ///< null at the root
+  const Cell* cell = nullptr;    ///< null where no pipeline ends here
+  std::vector<Branch> next;
+};
+
+Branch make_tree(const std::vector<Cell>& cells) {
+  Branch root;
+  for (const Cell& cell : cells) {
+    Branch* at = &root;
+    for (const Stage* stage : cell.word->stages) {
+      auto found = std::ranges::find(at->next, stage, &Branch::stage);
+      if (found == at->next.end()) found = at->next.insert(found, Branch{stage, nullptr, {}});
+      at = &*found;
+    }
+    at->cell = &cell;
+  }
+  return root;
+}
+
+void collect_cells(const Branch& branch, std::vector<const Cell*>& cells) {
+  if (branch.cell != nullptr) cells.push_back(branch.cell);
+  for (const Branch& next : branch.next) collect_cells(next, cells);
+}
+
+/// The end of a stretch of stages without a fork: there, cells end or pipelines part.
+const Branch& end_of_stretch(const Branch& branch) {
+  const Branch* at = &branch;
+  while (at->cell == nullptr && at->next.size() == 1) at = &at->next[0];
+  return *at;
+}
+
+/// What reports a failure for all cells of a branch that were not done.
+std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<Work>& work,
+                                                      const Branch& branch) {
+  return [work, &branch](const ProcessFailure& why) {
+    std::vector<const Cell*> cells;
+    collect_cells(branch, cells);
+    say(fmt::format("error: {} {}: {}", work->c.folder, cells[0]->word->text, why.reason));
+    for (const Cell* cell : cells)
+      if (!is_done(*cell)) work->give_up(*cell, "failed", why);
+  };
+}
+
+/// Runs a branch up to where it forks.
+Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
+  const Branch& end = end_of_stretch(branch);
+  const bool is_leaf = end.next.empty();
+  Job job;
+  job.failed = failure_of(work, branch);
+  job.work = [work, &branch, &end, is_leaf] {
+    for (const Branch* at = &branch;; at = &at->next[0]) {
+      if (at->stage == nullptr)
+        work->prepare();
+      else
+        run_stage(*at->stage, work->c, *work->prepared, work->state);
+      if (at == &end) break;
+    }
+    if (is_leaf) work->finish(*end.cell);
+  };
+  if (is_leaf) return job;
+  job.next = [work, &end] {
+    std::vector<Job> jobs;
+    if (end.cell != nullptr) {
+      Job ending;
+      ending.work = [work, &end] { work->finish(*end.cell); };
+      ending.failed = [work, &end](const ProcessFailure& why) {
+        say(fmt::format("error: {} {}: {}", work->c.folder, end.cell->word->text, why.reason));
+        work->give_up(*end.cell, "failed", why);
+      };
+      jobs.push_back(std::move(ending));
+    }
+    for (const Branch& next : end.next) jobs.push_back(job_of(work, next));
+    return jobs;
+  };
+  return job;
+}
+
+class Sweep {
+ public:
+  Sweep(const Experiment& experiment, const fs::path& folder, const SweepOptions& options)
+      : experiment_(experiment), folder_(folder), options_(options), progress_(shard_size()) {}
+
+  void run() {
+    run_jobs([&] { return next_job(); }, options_.limits, [&] { progress_.draw(); });
+  }
+
+ private:
+  std::size_t n_works() const { return experiment_.n_cases() * experiment_.n_variants(); }
+
+  /// Whole variants go to a shard, so that pipelines share their stages, unless there are too few.
+  bool is_mine(std::size_t work, std::size_t word) const {
+    const std::size_t n = experiment_.words.size();
+    return (n_works() >= options_.shard.count ? work : work * n + word) % options_.shard.count ==
+           options_.shard.index;
+  }
+
+  std::size_t shard_size() const {
+    std::size_t cells = 0;
+    for (std::size_t i = 0; i < n_works(); ++i)
+      for (std::size_t w = 0; w < experiment_.words.size(); ++w) cells += is_mine(i, w);
+    return cells;
+  }
+
+  /// The next variant that has cells to make.
+  std::optional<Job> next_job() {
+    while (next_ < n_works()) {
+      const std::size_t i = next_++;
+      auto work = std::make_shared<Work>();
+      work->c = experiment_.read_variant(i / experiment_.n_variants(), i % experiment_.n_variants());
+      work->folder = folder_;
+      work->progress = &progress_;
+      const bool absent = work->c.may_be_absent && !fs::exists(model_path(work->c));
+      add_cells(i, absent, *work);
+      if (work->cells.empty()) continue;
+      if (absent) {
+        skip(*work);
+        continue;
+      }
+      const auto tree = std::make_shared<const Branch>(make_tree(work->cells));
+      Job job = job_of(work, *tree);
+      job.work = [tree, run = std::move(job.work)] { run(); };  // keeps the tree alive
+      return job;
+    }
+    return std::nullopt;
+  }
+
+  void add_cells(std::size_t i, bool absent, Work& work) {
+    const std::size_t n_variants = experiment_.n_variants();
+    std::string model;
+    try {
+      model = absent ? "" : model_digest(work.c);
+    } catch (const InputError&) {  // the file cannot be read, as the cells will say
+    }
+    for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
+      if (!is_mine(i, w)) continue;
+      const Word& word = experiment_.words[w];
+      Cell cell{&word, identify(experiment_, work.c, model, {i / n_variants, i % n_variants, w}),
+                cell_folder(folder_, work.c, word)};
+      if (!options_.force && is_done(cell))
+        progress_.found(1);
+      else
+        work.cells.push_back(std::move(cell));
+    }
+  }
+
+  void skip(const Work& work) {
+    const ProcessFailure why = {"data not found", "data not found, skipped: " + model_path(work.c).string()};
+    say(work.c.folder + ": " + why.reason);
+    for (const Cell& cell : work.cells) work.give_up(cell, "skipped", why);
+  }
+
+  const Experiment& experiment_;
+  const fs::path& folder_;
+  const SweepOptions& options_;
+  SweepProgress progress_;
+  std::size_t next_ = 0;
+};
+
+/// Refuses a folder with the results of another experiment.
+void check_study(const Experiment& experiment, const fs::path& folder) {
+  const auto study = read_study(folder);
+  if (study && study->experiment != experiment.file.stem().string())
+    throw InputError(fmt::format("{}: holds results of the experiment '{}', not of '{}': give another folder",
+                                 folder.string(), study->experiment, experiment.file.stem().string()));
+}
+
+Outcome run_study(const Experiment& experiment, const fs::path& folder) {
+  Outcome outcome;
+  Progress progress(linf_study_steps(*experiment.linf));
+  outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
+  for (const TableRow& row : outcome.table.rows) outcome.bad_inputs += row.failure.empty() ? 0 : 1;
+  return outcome;
+}
+
+}  // namespace
+
+Outcome run_experiment(const Experiment& experiment, const fs::path& folder, const SweepOptions& options) {
+  prepare_folder(folder);
+  const FolderLock lock(folder, options.shard.index, options.shard.count);
+  Outcome outcome;
+  if (experiment.linf) {
+    outcome = run_study(experiment, folder);
+  } else {
+    check_study(experiment, folder);
+    write_study(folder, describe(experiment));
+    Sweep(experiment, folder, options).run();
+    outcome = make_tables(folder);
+  }
+  for (const std::string& error : write_tables(folder, outcome)) {
+    ++outcome.bad_inputs;
+    say("error: " + error);
+  }
+  return outcome;
+}
+
+std::string list_cells(const Experiment& experiment, const fs::path& folder) {
+  std::string text;
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i)
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
+      const Case c = experiment.read_variant(i, v);
+      const bool absent = c.may_be_absent && !fs::exists(model_path(c));
+      const std::string model = absent ? "" : model_digest(c);
+      for (std::size_t w = 0; w < experiment.words.size(); ++w) {
+        const CellIdentity cell = identify(experiment, c, model, {i, v, w});
+        const auto head = read_head(cell_folder(folder, c, experiment.words[w]));
+        const std::string state = absent                  ? "data not found"
+                                  : !head                 ? "to do"
+                                  : head->key != cell.key ? "outdated"
+                                  : head->status == "ok"  ? "done"
+                                                          : head->status;
+        text += fmt::format("{:<14} {} {}\n", state, c.folder, experiment.words[w].text);
+      }
+    }
+  return text;
+}
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
+  std::string probe = (folder / ".delquad-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0)
+    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
+                                 std::generic_category().message(errno)));
+  close(file);
+  fs::remove(probe, status);
+}
+
+}  // namespace delquad

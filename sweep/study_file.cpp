@@ -1,0 +1,85 @@
+#include "sweep/study_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "io/mesh_io.h"
+#include "mesh/error.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* kFile = "study.json";
+
+Json to_json(const StudyFile& study) {
+  Json json = {
+      {"title", study.title},         {"experiment", study.experiment}, {"cases", study.cases},
+      {"pipelines", study.pipelines}, {"cells", study.cells},           {"step_times", study.step_times},
+      {"compare", study.compare},     {"published", Json::array()},     {"ratio", Json()}};
+  for (const PublishedRow& row : study.published)
+    json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
+  if (const auto& ratio = study.ratio)
+    json["ratio"] = {{"metric", ratio->metric},
+                     {"numerator", ratio->numerator},
+                     {"denominator", ratio->denominator},
+                     {"expected", ratio->expected},
+                     {"source", ratio->source}};
+  return json;
+}
+
+StudyFile from_json(const Json& json) {
+  StudyFile study;
+  json.at("title").get_to(study.title);
+  json.at("experiment").get_to(study.experiment);
+  json.at("cases").get_to(study.cases);
+  json.at("pipelines").get_to(study.pipelines);
+  json.at("cells").get_to(study.cells);
+  json.at("step_times").get_to(study.step_times);
+  json.at("compare").get_to(study.compare);
+  for (const Json& row : json.at("published"))
+    study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
+  if (const Json& ratio = json.at("ratio"); !ratio.is_null())
+    study.ratio = ExpectedRatio{ratio.at("metric"), ratio.at("numerator"), ratio.at("denominator"),
+                                ratio.at("expected"), ratio.at("source")};
+  return study;
+}
+
+}  // namespace
+
+StudyFile describe(const Experiment& experiment) {
+  StudyFile study;
+  study.title = experiment.title;
+  study.experiment = experiment.file.stem().string();
+  for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
+  study.cells = experiment.n_cells();
+  study.published = experiment.published;
+  study.ratio = experiment.ratio;
+  study.step_times = experiment.step_times;
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
+    const Case c = experiment.read_variant(i);
+    study.cases.push_back(c.name);
+    if (!c.compare.empty()) study.compare[c.name] = c.compare;
+  }
+  return study;
+}
+
+void write_study(const std::filesystem::path& folder, const StudyFile& study) {
+  write_file_atomically(folder / kFile, [&](std::ostream& out) { out << to_json(study).dump(2) << '\n'; });
+}
+
+std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kFile);
+  if (!in) return std::nullopt;
+  try {
+    return from_json(Json::parse(in));
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: does not describe an experiment's results: {}",
+                                 (folder / kFile).string(), error.what()));
+  }
+}
+
+}  // namespace delquad

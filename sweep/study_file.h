@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep/experiment.h"
+
+namespace delquad {
+
+/// What a folder of results says of its experiment, besides the records of its cells: study.json.
+struct StudyFile {
+  std::string title, experiment;  ///< the latter: name of the experiment's file, without folder and extension
+  std::vector<std::string> cases, pipelines;
+  std::size_t cells = 0;  ///< that the experiment has
+  std::vector<PublishedRow> published;
+  std::optional<ExpectedRatio> ratio;
+  bool step_times = false;
+  /// case -> pipeline -> name of the published row beside it
+  std::map<std::string, std::map<std::string, std::string>> compare;
+};
+
+StudyFile describe(const Experiment& experiment);
+/// Throws InputError when it cannot be written.
+void write_study(const std::filesystem::path& folder, const StudyFile& study);
+/// Nothing when there is none; throws InputError when it is no such file.
+std::optional<StudyFile> read_study(const std::filesystem::path& folder);
+
+}  // namespace delquad
