@@ -8,6 +8,7 @@
 #include "benchmarks/square_case.h"
 #include "mesh/parallel.h"
 #include "smoothing/cvt/smooth_points.h"
+#include "smoothing/cvt/spatial_order.h"
 
 // Energy and gradient of Lp-CVT smoothing, with the repair of the triangulation, and CGAL's spatially sorted
 // Delaunay triangulation of the same points; whole runs; L-BFGS and Lloyd's iteration to the same energy.
@@ -30,7 +31,7 @@ void evaluate(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
   const int usual = thread_count();
   set_thread_count(static_cast<int>(state.range(1)));
-  CvtProblem problem(MovingDelaunay(seeds.mesh), 4);
+  CvtProblem problem(MovingDelaunay(reordered(seeds.mesh, spatial_order(seeds.mesh))), SmoothingOptions().p);
   problem.hold_frames(seeds.square.cross, seeds.square.size);
   const std::vector<Vec2> here = problem.seeds();
   problem.evaluate(here);

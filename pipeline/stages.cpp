@@ -92,8 +92,8 @@ void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const auto minimiser =
       in.options.smoothing == SmoothingMethod::kLpCvt ? make_lbfgs_minimiser() : make_lloyd_minimiser();
   SmoothingSummary summary;
-  patch.triangles = smooth_points(std::move(patch.triangles), in.cross, in.size, *minimiser,
-                                  in.options.smoothing_options, &summary);
+  patch.triangles =
+      smooth_points(patch.triangles, in.cross, in.size, *minimiser, in.options.smoothing_options, &summary);
   log.smoothing.push_back(std::move(summary));
   log.add_seconds("smoothing", watch.work_seconds());
 }

@@ -4,9 +4,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <utility>
 
 #include "mesh/error.h"
+#include "smoothing/cvt/spatial_order.h"
 
 namespace delquad {
 namespace {
@@ -76,12 +76,13 @@ void check_options(const SmoothingOptions& options) {
   check_at_least("rank", options.inner.rank, 1);
 }
 
-TriPatch smooth_points(TriPatch patch, const CrossField& cross, const ParametricSize& size,
+TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const CellMinimiser& minimiser, const SmoothingOptions& options,
                        SmoothingSummary* summary) {
   const auto start = std::chrono::steady_clock::now();
   check_options(options);
-  CvtProblem problem(MovingDelaunay(std::move(patch)), options.p);
+  const std::vector<int> order = spatial_order(patch);
+  CvtProblem problem(MovingDelaunay(reordered(patch, order)), options.p);
   SmoothingSummary s;
   s.cells = problem.delaunay().n_points();
   smooth(problem, cross, size, minimiser, options, s);
@@ -89,7 +90,10 @@ TriPatch smooth_points(TriPatch patch, const CrossField& cross, const Parametric
   s.rebuilds = problem.delaunay().rebuilds();
   s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (summary != nullptr) *summary = std::move(s);
-  return problem.delaunay().patch();
+  std::vector<int> back(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    back[order[k] - patch.n_boundary] = patch.n_boundary + static_cast<int>(k);
+  return reordered(problem.delaunay().patch(), back);
 }
 
 }  // namespace delquad

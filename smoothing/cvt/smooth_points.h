@@ -43,7 +43,7 @@ struct SmoothingSummary {
 /// Moves the inner points of a patch so that their Voronoi cells become squares of side delta' along the
 /// cross field, as far as the number of points allows [section 7]. Boundary points stay. The result is the
 /// constrained Delaunay triangulation of the moved points: the same points, in their order.
-TriPatch smooth_points(TriPatch patch, const CrossField& cross, const ParametricSize& size,
+TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const CellMinimiser& minimiser, const SmoothingOptions& options = {},
                        SmoothingSummary* summary = nullptr);
 
