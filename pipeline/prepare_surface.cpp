@@ -81,16 +81,21 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   throw InputError(model.source + ": no face can be meshed");
 }
 
+/// The growth of sizes away from curves that are shorter than the size.
+constexpr double kShortCurveGradation = 0.7;
+
 WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model,
                        std::shared_ptr<const SizeField> base) {
   WantedSize wanted;
   wanted.base = std::move(base);
   wanted.gradation = spec.gradation;
+  wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
+  if (!wanted.curve_limit.empty() && !(wanted.gradation > 0)) wanted.gradation = kShortCurveGradation;
   if (!(spec.curvature > 0)) return wanted;
   wanted.curvature = std::make_shared<ModelCurvature>(model);
   wanted.per_turn = spec.curvature;
   wanted.min = spec.min;
-  if (!(wanted.gradation > 0)) wanted.gradation = kCurvatureGradation;
+  if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
   return wanted;
 }
 

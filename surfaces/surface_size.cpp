@@ -17,6 +17,11 @@ namespace {
 
 /// Part of the base that is the least size by curvature, when none was given.
 constexpr double kLeastPart = 1.0 / 20;
+/// Edges beside an edge of a short curve are at most so many times as long, but for this part of the base;
+/// a closed curve has so many edges at least.
+constexpr double kBesideShort = 4, kLeastBeside = 1.0 / 50, kLoopEdges = 4;
+/// Points up to this part of the base away from where sizes are less belong there.
+constexpr double kOffSurface = 0.1;
 /// How far linear values may be from what they stand for.
 constexpr double kMiss = 1.25;
 /// Sides up to this many sizes are short enough.
@@ -178,7 +183,31 @@ double WantedSize::in_face(int face, const Vec3& x) const {
 double WantedSize::on_curve(int curve, const Vec3& x) const {
   int hint = -1;
   const double size = base->at(x, hint);
-  return curvature ? by_curvature(curvature->of_curve(curve, x), size) : size;
+  const bool has_limit = static_cast<std::size_t>(curve) < curve_limit.size();  // cuts have none
+  const double limited = has_limit ? std::min(size, curve_limit[curve]) : size;
+  return curvature ? by_curvature(curvature->of_curve(curve, x), limited) : limited;
+}
+
+std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base) {
+  if (fine.points.empty() || varies(fine, base)) return {};
+  int hint = -1;
+  const double size = base.at(fine.points[0], hint);
+  std::vector<double> length(fine.curves.size(), 0);
+  std::vector<int> first(fine.curves.size(), -1), last(fine.curves.size(), -1);
+  for (std::size_t l = 0; l < fine.lines.size(); ++l) {
+    const auto [a, b] = fine.lines[l];
+    const int c = fine.line_curve[l];
+    length[c] += norm(fine.points[b] - fine.points[a]);
+    if (first[c] < 0) first[c] = a;
+    last[c] = b;
+  }
+  std::vector<double> limit;
+  for (std::size_t c = 0; c < length.size(); ++c) {
+    const double edge = length[c] / (first[c] == last[c] ? kLoopEdges : 1);
+    limit.push_back(std::max(kBesideShort * edge, kLeastBeside * size));
+  }
+  const bool asks = std::ranges::any_of(limit, [&](double x) { return x < size; });
+  return asks ? limit : std::vector<double>{};
 }
 
 void limit_slope(const Mesh& fine, double slope, std::vector<double>& values) {
@@ -226,7 +255,12 @@ SurfaceSize::SurfaceSize(const SurfaceModel& model, const WantedSize& wanted) : 
   if (!wanted.lives_on_surface()) return;
   delta_ = wanted_at_points(model.fine, wanted);
   limit_slope(model.fine, wanted.gradation, delta_);
-  triangles_.emplace(model.fine.points, model.fine.triangles);
+  std::vector<std::array<int, 3>> triangles;
+  int hint = -1;
+  const auto is_less = [&](int v) { return delta_[v] < base_->at(model.fine.points[v], hint); };
+  std::ranges::copy_if(model.fine.triangles, std::back_inserter(triangles),
+                       [&](const auto& t) { return std::ranges::any_of(t, is_less); });
+  if (!triangles.empty()) triangles_.emplace(model.fine.points, std::move(triangles));
 }
 
 double SurfaceSize::on_fine(std::span<const int> nodes, std::span<const double> weights, const Vec3& x,
@@ -239,10 +273,11 @@ double SurfaceSize::on_fine(std::span<const int> nodes, std::span<const double> 
 }
 
 double SurfaceSize::at(const Vec3& x, int& hint) const {
-  if (delta_.empty()) return base_->at(x, hint);
-  const NearestTriangle::Found found = triangles_->find(x);
-  int base_hint = -1;
-  return on_fine(triangles_->triangle(found.triangle), found.weights, x, base_hint);
+  const double base = base_->at(x, hint);
+  if (!triangles_) return base;
+  const NearestTriangle::Found found = triangles_->find(x, kOffSurface * base);
+  if (found.triangle < 0) return base;
+  return on_fine(triangles_->triangle(found.triangle), found.weights, x, hint);
 }
 
 void refine_for_size(SurfaceModel& model, const WantedSize& wanted) {

@@ -25,6 +25,8 @@ struct WantedSize {
   /// The most |grad delta| along the surface; 0: no limit, and then no curvature either, whose sizes jump
   /// between faces.
   double gradation = 0;
+  /// Of each curve (index into Mesh::curves), the largest size on it; empty: as the base.
+  std::vector<double> curve_limit;
 
   /// Without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
@@ -54,8 +56,13 @@ class SurfaceSize final : public SizeField {
  private:
   std::shared_ptr<const SizeField> base_;
   std::vector<double> delta_;                 ///< of each fine point; empty: the base is all
-  std::optional<NearestTriangle> triangles_;  ///< where there are values
+  std::optional<NearestTriangle> triangles_;  ///< where sizes are less than the base
 };
+
+/// What the size on each curve of a model may be at most so that edges beside a curve that is shorter than
+/// the size are no more than a few times as long as its own; not below a part of the base. Empty where that
+/// asks for nothing, and for a base that varies: it says itself what is wanted.
+std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base);
 
 /// Refines the fine triangulation until sizes that are linear on it are within 25 % of what they should be,
 /// or its sides as short as the size. Does nothing for sizes that are a function of space.

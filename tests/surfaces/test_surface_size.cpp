@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {
@@ -140,6 +142,42 @@ TEST(SurfaceSizes, APlaneBetweenSmallSizesGrowsUpToItsOwn) {
     const double exact = std::min(1.0, std::max(fillet, 0.05) + 0.3 * (1 - std::abs(x)));
     EXPECT_NEAR(size_at(size, {x, 1, 0}), exact, 0.25 * exact) << x;
   }
+}
+
+/// A square of side 10 with a corner cut off by an edge of this length; each side is a curve.
+SurfaceModel cut_square(double edge) {
+  const double d = edge / std::numbers::sqrt2;
+  SurfaceModel model = surfaces::polygon_face({{0, 0}, {10, 0}, {10, 10 - d}, {10 - d, 10}, {0, 10}}, 0.5);
+  Mesh& fine = model.fine;
+  fine.curves.clear();
+  for (std::size_t l = 0; l < fine.lines.size(); ++l) {
+    if (std::ranges::find(model.corners, fine.lines[l][0]) != model.corners.end())
+      fine.curves.push_back({static_cast<int>(fine.curves.size()) + 1, {}});
+    fine.line_curve[l] = static_cast<int>(fine.curves.size()) - 1;
+  }
+  return model;
+}
+
+TEST(SizesBesideShortCurves, GrowFromAFewTimesTheirLength) {
+  SurfaceModel model = cut_square(0.1);
+  WantedSize wanted;
+  wanted.base = make_constant_size(1);
+  wanted.gradation = 0.7;
+  wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
+  ASSERT_EQ(wanted.curve_limit.size(), 5u);
+  EXPECT_NEAR(*std::ranges::min_element(wanted.curve_limit), 0.4, 1e-9);
+  refine_for_size(model, wanted);
+  const SurfaceSize size(model, wanted);
+  EXPECT_NEAR(size_at(size, {10, 9.95, 0}), 0.4, 0.05);
+  EXPECT_NEAR(size_at(size, {10, 9.5, 0}), 0.4 + 0.7 * 0.43, 0.1);
+  EXPECT_EQ(size_at(size, {10, 8, 0}), 1);
+  EXPECT_EQ(size_at(size, {5, 5, 0}), 1);
+}
+
+TEST(SizesBesideShortCurves, AskForNothingWhereNoneIsShort) {
+  EXPECT_TRUE(sizes_beside_short_curves(cut_square(0.3).fine, *make_constant_size(1)).empty());
+  const auto limit = sizes_beside_short_curves(cut_square(1e-4).fine, *make_constant_size(1));
+  EXPECT_NEAR(*std::ranges::min_element(limit), 1.0 / 50, 1e-9);
 }
 
 }  // namespace
