@@ -1,3 +1,5 @@
+#include "apps/delquad.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,9 +14,8 @@
 #include "pipeline/case.h"
 #include "pipeline/interrupt.h"
 
+namespace delquad {
 namespace {
-
-using namespace delquad;
 
 constexpr const char* kSizeHelp = "wanted edge length: a number, an expression in x, y, z, or 'boundary'";
 constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads than this";
@@ -177,7 +178,7 @@ void add_example(CLI::App& app, ExampleArguments& arguments) {
       ->excludes(list);
 }
 
-int run_program(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(1);
   RunArguments run;
@@ -221,18 +222,20 @@ int after_printing(int code) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  delquad::exit_on_interrupt();
+int run_program(int argc, char** argv) {
+  exit_on_interrupt();
   try {
-    return after_printing(run_program(argc, argv));
-  } catch (const delquad::InputError& error) {
+    return after_printing(run_command_line(argc, argv));
+  } catch (const InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
-    return delquad::kBadInput;
+    return kBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "internal error: out of memory\n");
   } catch (const std::exception& error) {
-    if (std::ferror(stdout)) return after_printing(delquad::kDone);
+    if (std::ferror(stdout)) return after_printing(kDone);
     fmt::print(stderr, "internal error: {}\n", error.what());
   }
-  return delquad::kInternalError;
+  return kInternalError;
 }
+
+}  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "algorithms/insertion/packing.h"
 #include "mesh/error.h"
@@ -155,6 +156,24 @@ void optimise_surface(const PatchesInSpace& in, StageLog& log) {
   log.add_seconds("optimisation", watch.work_seconds());
 }
 
+/// Pointers to its entries stay good when more are added.
+std::deque<Stage>& stages() {
+  static std::deque<Stage> all = {
+      insertion_stage('F', "L2 insertion", [](const MeshingOptions&) { return make_l2_frontal(); }),
+      insertion_stage('D', "L-infinity insertion",
+                      [](const MeshingOptions& options) { return make_linf_delquad(options.linf); }),
+      {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(mesh_packing, *make_linf_delquad(in.options.linf), in, patch, log);
+       }},
+      {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
+      {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+      {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
+      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads, optimise_surface},
+  };
+  return all;
+}
+
 std::string form_name(PatchForm form) {
   switch (form) {
     case PatchForm::kBoundary:
@@ -206,26 +225,20 @@ void StageLog::add(const StageLog& other) {
   if (other.optimisation) delquad::add(optimisation, *other.optimisation);
 }
 
-std::span<const Stage> stage_registry() {
-  static const std::vector<Stage> stages = {
-      {'F', "L2 insertion", PatchForm::kBoundary, PatchForm::kTriangles,
-       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(mesh_frontal, *make_l2_frontal(), in, patch, log);
-       }},
-      {'D', "L-infinity insertion", PatchForm::kBoundary, PatchForm::kTriangles,
-       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(mesh_frontal, *make_linf_delquad(in.options.linf), in, patch, log);
-       }},
-      {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
-       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(mesh_packing, *make_linf_delquad(in.options.linf), in, patch, log);
-       }},
-      {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
-      {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
-      {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
-      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads, optimise_surface},
-  };
-  return stages;
+Stage insertion_stage(char letter, const std::string& name,
+                      std::function<std::unique_ptr<PointPlacement>(const MeshingOptions&)> make_placement) {
+  return {letter, name, PatchForm::kBoundary, PatchForm::kTriangles,
+          [make = std::move(make_placement)](const StageInput& in, PatchMesh& patch, StageLog& log) {
+            insert_points(mesh_frontal, *make(in.options), in, patch, log);
+          }};
+}
+
+const std::deque<Stage>& stage_registry() { return stages(); }
+
+void add_stage(Stage stage) {
+  if (std::ranges::find(stages(), stage.letter, &Stage::letter) != stages().end())
+    throw std::invalid_argument(std::string("there is a stage '") + stage.letter + "' already");
+  stages().push_back(std::move(stage));
 }
 
 Word parse_word(const std::string& text) {
@@ -233,10 +246,8 @@ Word parse_word(const std::string& text) {
   if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
   Word word{text, {}, PatchForm::kBoundary};
   for (const char letter : text) {
-    const auto stages = stage_registry();
-    const auto stage =
-        std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.letter == letter; });
-    if (stage == stages.end())
+    const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
+    if (stage == stages().end())
       throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters());
     if (stage->from != word.result)
       throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,8 +75,13 @@ struct Stage {
   std::function<void(const PatchesInSpace&, StageLog&)> finish = {};
 };
 
-/// Every stage. A new idea is a new entry here.
-std::span<const Stage> stage_registry();
+/// Every stage. A new idea is a new entry here, or an add_stage().
+const std::deque<Stage>& stage_registry();
+/// Adds one from outside, before any word is parsed. Throws std::invalid_argument when its letter is taken.
+void add_stage(Stage stage);
+/// Frontal insertion of points where `make_placement` says.
+Stage insertion_stage(char letter, const std::string& name,
+                      std::function<std::unique_ptr<PointPlacement>(const MeshingOptions&)> make_placement);
 
 /// A pipeline: stages read from left to right, each starting from what the one before leaves.
 struct Word {

@@ -1,0 +1,3 @@
+#include "apps/delquad.h"
+
+int main(int argc, char** argv) { return delquad::run_program(argc, argv); }

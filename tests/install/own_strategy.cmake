@@ -1,0 +1,23 @@
+# Installs the package under WORK, builds the example in EXAMPLE against it and runs its experiment.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/build ${WORK}/results)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=${TYPE}
+    -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/own_strategy run ${EXAMPLE}/compare.toml -o ${WORK}/results)
+foreach(word F D M FB DB MB)
+  if(NOT output MATCHES "\\| disc \\| ${word} +\\|")
+    message(FATAL_ERROR "no row of ${word}:\n${output}")
+  endif()
+endforeach()
+if(output MATCHES "failed")
+  message(FATAL_ERROR "${output}")
+endif()
