@@ -7,6 +7,7 @@
 
 #include "mesh/parallel.h"
 #include "pipeline/case.h"
+#include "pipeline/quality.h"
 #include "sweep/run_experiment.h"
 
 namespace delquad {
@@ -43,7 +44,8 @@ struct MeshArguments {
   std::string compound;     ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
-  std::string pipeline = "DB";
+  std::string quality = kDefaultQuality;
+  std::optional<std::string> pipeline;  ///< else the word of that quality
   long long max_elements = 50'000'000;
   int threads = thread_count();
   bool allow_triangles = false;

@@ -128,8 +128,15 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
                    "degrees by which triangles must turn for a curve between them, and curves for a corner");
   mesh->add_option("--weld", arguments.weld_tolerance,
                    "join ends of open edges of a triangulation up to this part of its diagonal");
-  mesh->add_option("--pipeline", arguments.pipeline, "letters of stages: F, D or P, then perhaps L, then B")
-      ->capture_default_str();
+  std::string qualities;
+  for (const Quality& q : quality_registry())
+    qualities += (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " + q.cross + ")";
+  CLI::Option* quality =
+      mesh->add_option("--quality", arguments.quality, "time against quality: " + qualities)
+          ->capture_default_str();
+  mesh->add_option("--pipeline", arguments.pipeline,
+                   "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C and O")
+      ->excludes(quality);
   mesh->add_option("--json", arguments.json, "record to write");
   mesh->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()

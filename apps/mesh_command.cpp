@@ -55,8 +55,10 @@ SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
 int mesh_command(const MeshArguments& arguments) {
   set_thread_count(arguments.threads);
   check_mesh_format(arguments.output);
-  const Word word = parse_word(arguments.pipeline);
+  const Quality& quality = quality_named(arguments.quality);
+  const Word word = parse_word(arguments.pipeline.value_or(quality.word));
   Case c = read_model_case(arguments.model);
+  if (!arguments.pipeline && c.cross.where.empty()) c.cross.text = quality.cross;
   c.options.max_elements = arguments.max_elements;
   c.options.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);

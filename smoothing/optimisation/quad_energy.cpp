@@ -51,7 +51,8 @@ QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& w
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const auto& [a, b, quad, k] = sides[i];
     if (i > 0 && sides[i - 1].a == a && sides[i - 1].b == b) continue;
-    edges_.push_back({a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.arm(quad, k)});
+    edges_.push_back(
+        {a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.least_lengths[quad][k], mesh.arm(quad, k)});
   }
 }
 
@@ -89,7 +90,8 @@ template <bool kSlope>
 bool QuadEnergy<Vec>::add_all(double& energy) const {
   for (const Quad& quad : quads_)
     if (!add_quad<kSlope>(quad, energy)) return false;
-  for (const Edge& edge : edges_) add_edge<kSlope>(edge, energy);
+  for (const Edge& edge : edges_)
+    if (!add_edge<kSlope>(edge, energy)) return false;
   return std::isfinite(energy);
 }
 
@@ -139,22 +141,26 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
 
 template <class Vec>
 template <bool kSlope>
-void QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
+bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
   const Vec along = at_[edge.b] - at_[edge.a];
   const double length = norm(along), inverse = 1 / length;
+  if (!(length > edge.least_length)) return false;
   const double misfit = std::log(length * edge.inverse_length);
   const double rounded = std::sqrt(misfit * misfit + kSizeKink * kSizeKink),
                lack = std::exp(kSizeKink - rounded);
   const Vec u = inverse * along;
   // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
-  energy += weights_.size * (1 - lack) + 4 * weights_.alignment * c2 * (1 - c2);
-  if constexpr (!kSlope) return;
-  const double by_length = weights_.size * lack * misfit / rounded * inverse;
+  const double too_short = weights_.barrier * edge.least_length / (length - edge.least_length);
+  energy += weights_.size * (1 - lack) + 4 * weights_.alignment * c2 * (1 - c2) + too_short;
+  if constexpr (!kSlope) return true;
+  const double by_length =
+      weights_.size * lack * misfit / rounded * inverse - too_short / (length - edge.least_length);
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   const Vec by_end = by_length * u + by_cosine * (edge.arm - c * u);
   slope_[edge.b] = slope_[edge.b] + by_end;
   slope_[edge.a] = slope_[edge.a] - by_end;
+  return true;
 }
 
 template class QuadEnergy<Vec2>;

@@ -31,8 +31,10 @@ struct QuadEnergyMesh {
   std::vector<std::array<int, 4>> quads;  ///< counterclockwise, in space: seen from outside
   std::vector<MovingVertex<Vec>> moving;  ///< each vertex once at most
   std::vector<double> delta;              ///< wanted edge length, by vertex
-  std::vector<double> least_sine;         ///< that no corner may fall to, by quad
-  std::vector<double> weight;             ///< of the quads' shapes
+  /// That a quad's sides (by their first corner) must not fall to.
+  std::vector<std::array<double, 4>> least_lengths;
+  std::vector<double> least_sine;  ///< that no corner may fall to, by quad
+  std::vector<double> weight;      ///< of the quads' shapes
   /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
   std::function<Vec(int quad, int side)> arm;
 };
@@ -45,10 +47,12 @@ struct QuadEnergyMesh {
 ///   size * (1 - exp(-|log(l/d)|)) over the edges, l the length, d the mean of delta at both ends: what an
 ///     edge lacks in tau,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
+///   barrier * m / (l - m) over the edges, m the least length,
 ///   barrier * -log(sin alpha - least sine) over the corners,
 /// the first two rounded off where they have a kink. The energy is infinite where a corner's sine does not
-/// exceed its quad's least sine. Corners whose three vertices stay do not count. In space a corner's angle is
-/// that between its sides, reflex where it turns against the normal that its quad had at the start.
+/// exceed its quad's least sine or an edge its least length. Corners whose three vertices stay do not count.
+/// In space a corner's angle is that between its sides, reflex where it turns against the normal that its
+/// quad had at the start.
 ///
 /// Variables: x, y of each moving vertex.
 template <class Vec>
@@ -73,6 +77,7 @@ class QuadEnergy {
   struct Edge {
     int a, b;
     double inverse_length;  ///< wanted
+    double least_length;
     Vec arm;
   };
 
@@ -82,7 +87,7 @@ class QuadEnergy {
   template <bool kSlope>
   bool add_quad(const Quad& quad, double& energy) const;
   template <bool kSlope>
-  void add_edge(const Edge& edge, double& energy) const;
+  bool add_edge(const Edge& edge, double& energy) const;
 
   QuadEnergyWeights weights_;
   std::vector<Vec> start_;

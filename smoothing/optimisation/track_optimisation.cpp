@@ -27,6 +27,8 @@ constexpr int kWorstPower = 3;
 /// Sum over the corners of 1/sin alpha - 1 from which on quads weigh less, so that those beyond help do not
 /// drown the others.
 constexpr double kHopelessShape = 3;
+/// No edge becomes shorter than this part of what it was, or of delta where that is less.
+constexpr double kShortest = 0.2;
 /// Where a move makes a quad bad it is halved, and left out below this part of it.
 constexpr double kLeastPart = 0.2;
 
@@ -51,13 +53,16 @@ class TrackOptimisation {
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
   void descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
+  bool too_short(std::size_t quad) const;
+  std::vector<double> reaches(std::vector<double> delta) const;
   void settle(const std::vector<MovingVertex<Vec>>& moving, const std::vector<double>& x);
 
   std::vector<Vec>& points_;
   const std::vector<std::array<int, 4>>& quads_;
   VertexTracks<Vec>& tracks_;
   OptimisationOptions options_;
-  std::vector<char> free_;    ///< by vertex
+  std::vector<char> free_;                            ///< by vertex
+  std::vector<std::array<double, 4>> least_lengths_;  ///< of each quad's sides
   std::vector<double> kept_;  ///< the least sine that each quad must keep in this pass
   OptimisationSummary summary_;
 };
@@ -118,20 +123,27 @@ std::vector<char> TrackOptimisation<Vec>::around_worst() const {
   return near;
 }
 
-/// Without barriers and weights. A step of 1 is a vertex's shortest edge, or delta where that is less.
+/// Of each vertex the shortest edge, or delta where that is less.
+template <class Vec>
+std::vector<double> TrackOptimisation<Vec>::reaches(std::vector<double> delta) const {
+  for (const auto& quad : quads_)
+    for (int k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      const double length = norm(points_[b] - points_[a]);
+      delta[a] = std::min(delta[a], length), delta[b] = std::min(delta[b], length);
+    }
+  return delta;
+}
+
+/// Without barriers and weights. A step of 1 is a vertex's reach.
 template <class Vec>
 QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>& free) const {
   QuadEnergyMesh<Vec> mesh;
   mesh.points = points_;
   mesh.quads = quads_;
   for (const Vec& place : points_) mesh.delta.push_back(tracks_.delta(place));
-  std::vector<double> reach = mesh.delta;
-  for (const auto& quad : quads_)
-    for (int k = 0; k < 4; ++k) {
-      const int a = quad[k], b = quad[(k + 1) % 4];
-      const double length = norm(points_[b] - points_[a]);
-      reach[a] = std::min(reach[a], length), reach[b] = std::min(reach[b], length);
-    }
+  mesh.least_lengths = least_lengths_;
+  const std::vector<double> reach = reaches(mesh.delta);
   for (std::size_t v = 0; v < points_.size(); ++v) {
     if (!free[v]) continue;
     auto axes = tracks_.axes(static_cast<int>(v));
@@ -173,6 +185,14 @@ void TrackOptimisation<Vec>::descend(const std::vector<char>& free, const QuadEn
   settle(moving, descent.x);
 }
 
+template <class Vec>
+bool TrackOptimisation<Vec>::too_short(std::size_t quad) const {
+  const auto& v = quads_[quad];
+  for (int k = 0; k < 4; ++k)
+    if (norm(points_[v[(k + 1) % 4]] - points_[v[k]]) <= least_lengths_[quad][k]) return true;
+  return false;
+}
+
 /// Puts the vertices on their tracks, as far as no quad falls below what it must keep.
 template <class Vec>
 void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving,
@@ -196,7 +216,7 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
     for (std::size_t q = 0; q < quads_.size(); ++q) {
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
-      if (movable_sine(q) >= kept_[q]) continue;
+      if (movable_sine(q) >= kept_[q] && !too_short(q)) continue;
       worse = true;
       for (const int v : quad) {
         if (moves[v].part == 0) continue;
@@ -210,6 +230,13 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
 template <class Vec>
 OptimisationSummary TrackOptimisation<Vec>::run() {
   find_free();
+  for (const auto& quad : quads_) {
+    auto& least = least_lengths_.emplace_back();
+    for (int k = 0; k < 4; ++k) {
+      const Vec a = points_[quad[k]], b = points_[quad[(k + 1) % 4]];
+      least[k] = kShortest * std::min({norm(b - a), tracks_.delta(a), tracks_.delta(b)});
+    }
+  }
   summary_.worst_before = eta_for(least());
   QuadEnergyWeights weights;
   weights.size = options_.size;

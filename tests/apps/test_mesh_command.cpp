@@ -37,6 +37,28 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
     EXPECT_TRUE(contains(record, key)) << key;
 }
 
+TEST(MeshCommand, QualityChoosesWordAndCross) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  const auto record = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"mesh", model, "-o", folder / "out.msh", "--size", "0.02 + 0.05*x",
+                                     "--json", folder / "record.json"});
+    const ProgramResult result = delquad(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_text(folder / "record.json");
+  };
+  const auto has = [](const std::string& text, const std::string& word, const std::string& cross) {
+    return contains(text, "\"pipeline\": \"" + word + "\"") && contains(text, "\"cross\": \"" + cross + "\"");
+  };
+  EXPECT_TRUE(has(record({}), "DBCO", "size-aware"));
+  EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "boundary"));
+  EXPECT_TRUE(has(record({"--quality", "good"}), "DBCO", "size-aware"));
+  EXPECT_TRUE(has(record({"--quality", "best"}), "DLBCO", "size-aware"));
+  // What is said elsewhere counts.
+  EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBCO", "0.1"));
+  EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "boundary"));
+}
+
 TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare + "size = \"0.05 + 0.1*x\"\n");
@@ -101,7 +123,7 @@ TEST(MeshCommand, FlatQuadIsWarnedAbout) {
   const auto model = write_text(folder / "flat.toml",
                                 "mesh = \"flat.msh\"\nsize = 10\nrecombination = { treatment = \"none\" }\n");
   const ProgramResult result =
-      delquad({"mesh", model, "-o", folder / "out.msh", "--json", folder / "r.json"});
+      delquad({"mesh", model, "-o", folder / "out.msh", "--pipeline", "DB", "--json", folder / "r.json"});
   EXPECT_EQ(result.exit_code, 0);
   const std::string warning = "flat DB: 1 quad is inverted or flat (eta 0), the first at (1, 0.25, 0)";
   EXPECT_EQ(result.err, "warning: " + warning + "\n");

@@ -22,6 +22,7 @@ QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, d
   for (int v = patch.n_boundary; v < static_cast<int>(patch.points.size()); ++v)
     mesh.moving.push_back({v, {Vec2{delta, 0}, Vec2{0, delta}}});
   mesh.delta.assign(patch.points.size(), delta);
+  mesh.least_lengths.assign(patch.quads.size(), {0.05, 0.05, 0.05, 0.05});
   mesh.arm = [theta](int, int) { return Vec2{std::cos(theta), std::sin(theta)}; };
   mesh.least_sine.assign(patch.quads.size(), least);
   mesh.weight.assign(patch.quads.size(), 1);
@@ -72,6 +73,7 @@ TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
                              {Vec3{0.8 + number(), number(), number()},
                               v % 2 == 0 ? Vec3{number(), 0.8 + number(), number()} : Vec3{}}});
     mesh.delta.assign(patch.points.size(), 0.8);
+    mesh.least_lengths.assign(patch.quads.size(), {0.3, 0.3, 0.2, 0.1});
     mesh.arm = [](int, int side) { return side % 2 == 0 ? Vec3{0.6, 0.8, 0} : Vec3{}; };
     mesh.least_sine.assign(patch.quads.size(), 0.02);
     mesh.weight.assign(patch.quads.size(), 0.7);

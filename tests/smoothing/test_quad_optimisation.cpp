@@ -69,7 +69,7 @@ TEST(QuadOptimisation, UntanglesFirst) {
   const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), {}, &summary);
   EXPECT_GT(summary.untangled, 0);
   EXPECT_EQ(summary.held, 0);
-  EXPECT_GT(worst(result), 0.99);
+  EXPECT_GT(worst(result), 0.98);
 }
 
 TEST(QuadOptimisation, WhatCannotBeUntangledIsHeld) {

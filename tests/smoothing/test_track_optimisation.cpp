@@ -18,8 +18,8 @@ using testing_support::jittered;
 /// vertices slide along the sides of the grid, its corners stay.
 class CylinderTracks final : public VertexTracks<Vec3> {
  public:
-  CylinderTracks(QuadPatch grid, double width, double height)
-      : grid_(std::move(grid)), width_(width), height_(height) {}
+  CylinderTracks(QuadPatch grid, double width, double height, double delta = 1)
+      : grid_(std::move(grid)), width_(width), height_(height), delta_(delta) {}
   std::vector<Vec3> points() const {
     std::vector<Vec3> points;
     for (const Vec2 u : grid_.points) points.push_back(place(u));
@@ -34,7 +34,7 @@ class CylinderTracks final : public VertexTracks<Vec3> {
     if (u.y == 0 || u.y == height_) axes[1] = {};
     return axes;
   }
-  double delta(const Vec3& /*place*/) const override { return 1; }
+  double delta(const Vec3& /*place*/) const override { return delta_; }
   Vec3 arm(int /*quad*/, int /*side*/) const override { return {1, 0, 0}; }
 
   const QuadPatch& grid() const { return grid_; }
@@ -45,7 +45,7 @@ class CylinderTracks final : public VertexTracks<Vec3> {
     return {u.x, kRadius * std::cos(u.y / kRadius), kRadius * std::sin(u.y / kRadius)};
   }
   QuadPatch grid_;
-  double width_, height_;
+  double width_, height_, delta_;
 };
 
 double worst(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads) {
@@ -99,6 +99,22 @@ TEST(TrackOptimisation, NoQuadFallsBelowWhatItMustKeep) {
     const double before = worst(points, grid.quads);
     optimise_on_tracks(points, grid.quads, tracks);
     EXPECT_GE(worst(points, grid.quads), std::min(before, std::sin(kOptimisedFloorEta * std::acos(0.0))));
+  }
+}
+
+TEST(TrackOptimisation, EdgesKeepAFifthOfTheirLength) {
+  const QuadPatch grid = grid_patch(6, 6);
+  for (int seed = 0; seed < 20; ++seed) {
+    // Wanted to be far shorter, edges would vanish.
+    CylinderTracks tracks(jittered(grid, seed, 0.4), 6, 6, 0.01);
+    std::vector<Vec3> points = tracks.points();
+    const std::vector<Vec3> before = points;
+    optimise_on_tracks(points, grid.quads, tracks, {.size = 50});
+    for (const auto& quad : grid.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) % 4];
+        EXPECT_GE(norm(points[b] - points[a]), 0.2 * std::min(norm(before[b] - before[a]), 0.01));
+      }
   }
 }
 
