@@ -67,12 +67,12 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                             Failures& failures) {
+                             const SizeField* asked, Failures& failures) {
   const auto solver = make_lemon_solver();
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver);
+                                 *solver, asked);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -156,7 +156,8 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);
   const auto on_curves = c.seed == 0 ? p.size : jittered(p.size, c.seed, diagonal(model.fine));
-  surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves, failures);
+  surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves,
+                                   wanted.curvature ? nullptr : wanted.base.get(), failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;

@@ -37,10 +37,11 @@ constexpr double kShort = 0.5;
 class DomainBuilder {
  public:
   DomainBuilder(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                const MatchingSolver& solver)
+                const MatchingSolver& solver, const SizeField* asked)
       : model_(model),
         fine_(model.fine),
         size_(size),
+        asked_(asked != nullptr ? *asked : size),
         solver_(solver),
         maps_(std::move(flattening.patches)),
         cut_face_(fine_.curves.size(), -1),
@@ -86,11 +87,12 @@ class DomainBuilder {
     const std::vector<std::vector<double>> limits = limits_on_curves();
     int hint = -1;
     const SizeFunction delta = [&](const Vec3& x) { return size_.at(x, hint); };
+    const SizeFunction asked = [&](const Vec3& x) { return asked_.at(x, hint); };
     for (const CurveChain& chain : chains_) {
       const auto& limit = limits[integrals_.size()];
       integrals_.push_back(size_integral(fine_, chain, delta, limit));
-      lengths_.push_back(limit.empty() ? integrals_.back().total()
-                                       : size_integral(fine_, chain, delta).total());
+      const bool same = limit.empty() && &asked_ == &size_;
+      lengths_.push_back(same ? integrals_.back().total() : size_integral(fine_, chain, asked).total());
       demands_.push_back({integrals_.back().total(), chain.closed() ? 3 : 1, {}});
     }
     for (size_t p = 0; p < maps_.size(); ++p)
@@ -284,6 +286,7 @@ class DomainBuilder {
   const SurfaceModel& model_;
   const Mesh& fine_;
   const SizeField& size_;
+  const SizeField& asked_;  ///< that warnings refer to
   const MatchingSolver& solver_;
   std::vector<FlatPatch> maps_;
   std::vector<int> cut_face_;
@@ -294,7 +297,7 @@ class DomainBuilder {
   std::optional<AcrossView> across_;
   std::vector<int> group_;  ///< of each curve, those that face each other along strips
   std::vector<SizeIntegral> integrals_;
-  std::vector<double> lengths_;  ///< of each curve, in sizes that take no account of tubes
+  std::vector<double> lengths_;  ///< of each curve, in sizes as asked
   std::vector<CurveDemand> demands_;
   SurfaceNodes nodes_;
   std::vector<PatchBoundary> boundaries_;
@@ -305,8 +308,8 @@ class DomainBuilder {
 }  // namespace
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                                  const MatchingSolver& solver) {
-  return DomainBuilder(model, std::move(flattening), size, solver).build();
+                                  const MatchingSolver& solver, const SizeField* asked) {
+  return DomainBuilder(model, std::move(flattening), size, solver, asked).build();
 }
 
 SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size)

@@ -49,10 +49,11 @@ struct SurfaceDomain {
 
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
-/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd.
+/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
+/// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Throws FaceError when no refinement gives a valid boundary, naming the face.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                                  const MatchingSolver& solver);
+                                  const MatchingSolver& solver, const SizeField* asked = nullptr);
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
