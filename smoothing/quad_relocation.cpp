@@ -16,6 +16,9 @@ constexpr double kSteepSine = 0.05, kSteep = 40;
 constexpr double kHopeless = 2;
 /// A step is at most this part of the shortest edge.
 constexpr double kLongestStep = 0.4;
+/// No step makes an edge shorter that is, or would be, shorter than this part of delta'. Angles alone do not
+/// prevent it: towards a point where two vertices meet the angles between them may take any value.
+constexpr double kShortest = 0.02;
 /// delta' is evaluated anew after a move of this part of it.
 constexpr double kDeltaReach = 0.15;
 /// Steps of the search that lifts a vertex's worst corner.
@@ -174,6 +177,10 @@ bool QuadRelocation::strays(Vec2 from, Vec2 to) const {
   return distance(to) > (before <= 1 ? 1 : std::max(before, 2.0));
 }
 
+bool QuadRelocation::shrinks(int v, const Value& before, const Value& after) const {
+  return after.shortest < std::min(before.shortest, kShortest * delta_[v]);
+}
+
 double QuadRelocation::step(int v) {
   if (mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return 0;
   gather(v);
@@ -194,6 +201,7 @@ double QuadRelocation::step(int v) {
     if (after.flat > (keep_convex_corners_ ? before.flat : before.flat > 0 ? after.flat : 0)) continue;
     if (after.least_sine < std::min(before.least_sine, kept_sine_)) continue;
     if (before.flat > 0 && strays(at, at + move)) continue;
+    if (shrinks(v, before, after)) continue;
     mesh_.move(v, at + move);
     return norm(move) / before.shortest;
   }
@@ -238,7 +246,7 @@ double QuadRelocation::lift(int v, double enough) {
     const double sine = best.least_sine;
     for (const Vec2 direction : kCompass) {
       const Value trial = evaluate<false>(centre + reach * direction, nullptr);
-      if (trial.flat > best.flat || trial.least_sine <= best.least_sine) continue;
+      if (trial.flat > best.flat || trial.least_sine <= best.least_sine || shrinks(v, best, trial)) continue;
       best = trial;
       place = centre + reach * direction;
     }

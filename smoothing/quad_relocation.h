@@ -75,6 +75,7 @@ class QuadRelocation {
   template <bool kDerivatives>
   Value evaluate(Vec2 at, Derivatives* derivatives) const;
   bool strays(Vec2 from, Vec2 to) const;
+  bool shrinks(int v, const Value& before, const Value& after) const;
   void refresh_delta(int v);
   void activate_ring(int v);
 
