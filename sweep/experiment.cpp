@@ -198,6 +198,8 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_smoothing", "smoothing s", "smoothing"},
                                               {"seconds_matching", "matching s", "matching"},
                                               {"seconds_treatment", "treatment s", "treatment"},
+                                              {"seconds_cleanup", "clean-up s", "clean-up"},
+                                              {"seconds_optimisation", "optimisation s", "optimisation"},
                                               {"seconds_projection", "projection s", "projection"},
                                               {"seconds_total", "total s", ""}};
   return times;

@@ -102,9 +102,9 @@ TEST_F(ProcessTree, WhatHangsIsEnded) {
   const auto hang = [] {
     for (;;) std::this_thread::sleep_for(1s);
   };
-  Job late = job([] { std::this_thread::sleep_for(150ms); });
-  late.next = [this] { return std::vector<Job>{counting_job()}; };  // 170 ms in all
-  run({job(hang), std::move(late), counting_job()}, {1, 0.3, 0});
+  Job late = job([] { std::this_thread::sleep_for(100ms); });
+  late.next = [this] { return std::vector<Job>{counting_job()}; };
+  run({job(hang), std::move(late), counting_job()}, {1, 3, 0});
   ASSERT_EQ(failures_.size(), 1u);
   EXPECT_EQ(failures_[0].kind, "timeout");
   EXPECT_EQ(shared_.done, 2);
@@ -112,13 +112,13 @@ TEST_F(ProcessTree, WhatHangsIsEnded) {
 
 /// Its own time would be short enough.
 TEST_F(ProcessTree, TimeCountsFromTheBeginningOfTheChain) {
-  Job root = job([] { std::this_thread::sleep_for(200ms); });
+  Job root = job([] { std::this_thread::sleep_for(1s); });
   root.next = [this] {
-    Job long_one = job([] { std::this_thread::sleep_for(200ms); });
+    Job long_one = job([] { std::this_thread::sleep_for(2500ms); });
     long_one.failed = [this](const ProcessFailure& f) { shared_.done += f.kind == "timeout"; };
     return std::vector<Job>{std::move(long_one)};
   };
-  run({std::move(root)}, {1, 0.3, 0});
+  run({std::move(root)}, {1, 3, 0});
   EXPECT_EQ(shared_.done, 1);
 }
 
