@@ -303,21 +303,28 @@ TEST(Smoothing, WorksInTheParameterPlaneOfASurface) {
     const HarmonicCrossField cross(patch.background);
     const SurfacePatchSize delta(patch, model.fine, size);
     const TriPatch before = frontal(patch.boundary, cross, delta);
-    CvtProblem problem(MovingDelaunay(before), 4);
-    problem.hold_frames(cross, delta);
     std::vector<Vec2> seeds = inner_points(before);
-    ASSERT_TRUE(problem.evaluate(seeds));
-    const std::vector<Vec2> gradient(problem.gradient().begin(), problem.gradient().end());
-    double largest = 0;
-    for (const Vec2 g : gradient) largest = std::max(largest, norm(g));
-    constexpr double kStep = 1e-6;
-    for (std::size_t i = 0; i < seeds.size(); i += 5) {
-      const Vec2 x = seeds[i];
-      seeds[i] = x + Vec2{kStep, 0};
-      const double ahead = *problem.evaluate(seeds);
-      seeds[i] = x - Vec2{kStep, 0};
-      EXPECT_NEAR((ahead - *problem.evaluate(seeds)) / (2 * kStep), gradient[i].x, 1e-6 * largest);
-      seeds[i] = x;
+    for (const int p : {2, 4, 6, 8}) {
+      CvtProblem problem(MovingDelaunay(before), p);
+      problem.hold_frames(cross, delta);
+      ASSERT_TRUE(problem.evaluate(seeds));
+      const std::vector<Vec2> gradient(problem.gradient().begin(), problem.gradient().end());
+      double largest = 0;
+      for (const Vec2 g : gradient) largest = std::max(largest, norm(g));
+      constexpr double kStep = 1e-6;
+      const auto slope = [&](std::size_t i, Vec2 direction) {
+        const Vec2 x = seeds[i];
+        seeds[i] = x + kStep * direction;
+        const double ahead = *problem.evaluate(seeds);
+        seeds[i] = x - kStep * direction;
+        const double behind = *problem.evaluate(seeds);
+        seeds[i] = x;
+        return (ahead - behind) / (2 * kStep);
+      };
+      for (std::size_t i = 0; i < seeds.size(); i += 5) {
+        EXPECT_NEAR(slope(i, {1, 0}), gradient[i].x, 1e-6 * largest) << p;
+        EXPECT_NEAR(slope(i, {0, 1}), gradient[i].y, 1e-6 * largest) << p;
+      }
     }
     const Smoothed after = smooth(patch.boundary, seeds, cross, delta);
     expect_sound(after.patch, patch.boundary, before.points.size());

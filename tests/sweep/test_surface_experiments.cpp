@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <set>
 #include <string>
-
-#include <cstdlib>
 
 #include "sweep/run_experiment.h"
 #include "tests/support/temporary_folder.h"
