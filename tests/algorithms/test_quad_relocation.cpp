@@ -123,7 +123,8 @@ TEST(QuadRelocation, KeptSinesAreKept) {
   for (int seed = 0; seed < 10; ++seed) {
     const QuadPatch mesh = testing_support::scrambled(testing_support::grid_patch(9, 9), seed, 12);
     QuadTopology topology(mesh);
-    QuadRelocation relocation(topology, FunctionSize(1));
+    const FunctionSize size(1);
+    QuadRelocation relocation(topology, size);
     relocation.keep_sines_above(kept);
     std::vector<double> before;
     for (int e = 0; e < topology.element_slots(); ++e) before.push_back(least_sine(topology, e));
