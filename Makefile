@@ -15,7 +15,9 @@ build: packages
 	cmake --build --preset $(PRESET)
 
 test: build
-	ctest --preset $(PRESET) -j 2
+	ctest --preset $(PRESET) -j 2; status=$$?; \
+	  grep -h -A1 ': Skipped$$' build/$(PRESET)/Testing/Temporary/LastTest.log | grep -v -e '^--$$' -e ': Skipped$$' | sort | uniq -c; \
+	  exit $$status
 
 # Every experiment: tables and pictures under $(RESULTS)/.
 paper: build

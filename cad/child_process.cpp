@@ -1,6 +1,8 @@
 #include "cad/child_process.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +17,9 @@ namespace delquad::cad {
 namespace {
 
 /// The rest of the child's life.
-[[noreturn]] void live(const std::function<std::string()>& work, unsigned seconds, int to) {
+[[noreturn]] void live(const std::function<std::string()>& work, unsigned seconds, int to, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody else would end it when its parent is killed
+  if (getppid() != parent) _exit(1);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
@@ -46,8 +50,8 @@ std::string read_all(int from) {
 std::optional<std::string> run_apart(const std::function<std::string()>& work, unsigned seconds) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to a process that reads the file");
-  const pid_t child = fork();
-  if (child == 0) live(work, seconds, ends[1]);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) live(work, seconds, ends[1], parent);
   close(ends[1]);
   std::string result = child > 0 ? read_all(ends[0]) : "";
   close(ends[0]);

@@ -50,6 +50,12 @@ class Tokens {
   explicit Tokens(int n) {
     for (int i = 0; i < n; ++i) give_back();
   }
+  ~Tokens() {
+    close(pipe_.read_end);
+    close(pipe_.write_end);
+  }
+  Tokens(const Tokens&) = delete;
+  Tokens& operator=(const Tokens&) = delete;
   int fd() const { return pipe_.read_end; }
   bool take() const {
     // Others may have been faster since poll() spoke.

@@ -16,10 +16,11 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFile = "study.json";
 
 Json to_json(const StudyFile& study) {
-  Json json = {
-      {"title", study.title},         {"experiment", study.experiment}, {"cases", study.cases},
-      {"pipelines", study.pipelines}, {"cells", study.cells},           {"step_times", study.step_times},
-      {"compare", study.compare},     {"published", Json::array()},     {"ratio", Json()}};
+  Json json = {{"title", study.title},       {"experiment", study.experiment},
+               {"cases", study.cases},       {"pipelines", study.pipelines},
+               {"cells", study.cells},       {"step_times", study.step_times},
+               {"compare", study.compare},   {"axes", study.axes},
+               {"published", Json::array()}, {"ratio", Json()}};
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
   if (const auto& ratio = study.ratio)
@@ -37,6 +38,7 @@ StudyFile from_json(const Json& json) {
   json.at("experiment").get_to(study.experiment);
   json.at("cases").get_to(study.cases);
   json.at("pipelines").get_to(study.pipelines);
+  json.at("axes").get_to(study.axes);
   json.at("cells").get_to(study.cells);
   json.at("step_times").get_to(study.step_times);
   json.at("compare").get_to(study.compare);
@@ -55,6 +57,7 @@ StudyFile describe(const Experiment& experiment) {
   study.title = experiment.title;
   study.experiment = experiment.file.stem().string();
   for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
+  for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
   study.cells = experiment.n_cells();
   study.published = experiment.published;
   study.ratio = experiment.ratio;

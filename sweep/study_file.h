@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sweep/experiment.h"
@@ -14,6 +15,8 @@ namespace delquad {
 struct StudyFile {
   std::string title, experiment;  ///< the latter: name of the experiment's file, without folder and extension
   std::vector<std::string> cases, pipelines;
+  /// What varies, in its order, with its values.
+  std::vector<std::pair<std::string, std::vector<std::string>>> axes;
   std::size_t cells = 0;  ///< that the experiment has
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;

@@ -290,6 +290,18 @@ class Tabulation {
   Outcome outcome_;
 };
 
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::ranges::find(list, name) != list.end();
+}
+
+/// Whether the experiment still has the cell.
+bool belongs(const StudyFile& study, const CellRecord& record) {
+  return contains(study.cases, record.name) && contains(study.pipelines, record.pipeline) &&
+         std::ranges::equal(record.variant, study.axes, [](const auto& value, const auto& axis) {
+           return value.first == axis.first && contains(axis.second, value.second);
+         });
+}
+
 }  // namespace
 
 Outcome make_tables(const fs::path& folder) {
@@ -298,18 +310,12 @@ Outcome make_tables(const fs::path& folder) {
   if (!study)
     throw InputError((folder / "study.json").string() +
                      ": is missing: expected the folder of 'delquad run -o'");
-  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::ranges::find(list, name) != list.end();
-  };
   const std::size_t all = records.size();
-  std::erase_if(records, [&](const CellRecord& r) {
-    return !has(study->cases, r.name) || !has(study->pipelines, r.pipeline);
-  });
+  std::erase_if(records, [&](const CellRecord& r) { return !belongs(*study, r); });
   Outcome outcome = Tabulation(*study, records).run();
   if (records.size() < all)
-    outcome.table.notes.push_back(
-        fmt::format("{} records of cases and pipelines that the experiment no longer has are left out",
-                    all - records.size()));
+    outcome.table.notes.push_back(fmt::format(
+        "{} records of cells that the experiment no longer has are left out", all - records.size()));
   return outcome;
 }
 

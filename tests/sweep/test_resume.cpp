@@ -102,6 +102,9 @@ TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
     SweepOptions part;
     part.shard = {i, 4};
     run_experiment(experiment, out("shards"), part);
+    // Six variants of four cells: two, two, one and one.
+    constexpr std::size_t kSoFar[] = {8, 16, 20, 24};
+    EXPECT_EQ(record_times(out("shards")).size(), kSoFar[i]);
   }
   const auto whole = values_of(out("whole"));
   ASSERT_EQ(whole.size(), std::size_t{kCells});
@@ -109,6 +112,38 @@ TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
   EXPECT_EQ(values_of(out("shards")), whole);
   for (const char* mesh : {"square@seed=1/F/mesh.msh", "disc@seed=3/DBC/mesh.msh"})
     EXPECT_EQ(read_text(out("parallel") + "/" + mesh), read_text(out("whole") + "/" + mesh)) << mesh;
+}
+
+/// Points are inserted once for pipelines that begin alike: their records show the same time, to the last
+/// bit.
+TEST_F(Resume, PipelinesThatBeginAlikeShareTheirStages) {
+  run_experiment(Experiment::read(write(kSweep)), out());
+  const auto inserting = [&](const std::string& word) {
+    for (const CellRecord& record : read_records(out()))
+      if (record.group == "disc@seed=2" && record.pipeline == word)
+        return record.values.at("seconds_insertion");
+    return -1.0;
+  };
+  EXPECT_GT(inserting("F"), 0);
+  EXPECT_EQ(inserting("F"), inserting("FB"));
+  EXPECT_EQ(inserting("DB"), inserting("DBC"));
+  EXPECT_NE(inserting("F"), inserting("DB"));
+}
+
+/// What is left of an earlier run does not stand for what a new one failed to make.
+TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
+  const std::string file = write(kSweep).string();
+  ASSERT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  EXPECT_EQ(program({"run", file, "-o", out(), "--force", "--timeout", "0.001"}).exit_code, 1);
+  for (const CellRecord& record : read_records(out())) EXPECT_EQ(record.kind, "timeout") << record.group;
+}
+
+TEST_F(Resume, TablesLeaveOutWhatTheExperimentNoLongerHas) {
+  run_experiment(Experiment::read(write(kSweep)), out());
+  std::string fewer = kSweep;
+  fewer.replace(fewer.find("[1, 2, 3]"), 9, "[1, 2]");
+  const Outcome outcome = run_experiment(Experiment::read(write(fewer)), out());
+  EXPECT_EQ(outcome.table.notes.back(), "8 records of cells that the experiment no longer has are left out");
 }
 
 /// At any moment: no result is lost, none is half there, and the end is the same.
