@@ -285,19 +285,32 @@ std::vector<std::string> TomlTable::leaves() const {
   std::vector<std::string> leaves;
   collect_leaves(*data_->table, "", leaves);
   std::ranges::sort(leaves);
+  const auto twice = std::ranges::adjacent_find(leaves);
+  if (twice != leaves.end()) throw InputError(where() + ": '" + *twice + "' is given twice");
   return leaves;
 }
 
 namespace {
 
+/// Where a key is quoted its dots may be its own: "a.b" = and a.b = say the same.
+const toml::node* find_leaf(const toml::table& table, std::string_view leaf) {
+  for (const auto& [key, node] : table) {
+    if (key.str() == leaf) return &node;
+    const toml::table* inner = node.as_table();
+    if (inner == nullptr || !leaf.starts_with(key.str()) || leaf[key.str().size()] != '.') continue;
+    if (const toml::node* found = find_leaf(*inner, leaf.substr(key.str().size() + 1))) return found;
+  }
+  return nullptr;
+}
+
 const toml::node& element(const toml::table& table, const std::string& leaf, std::size_t i) {
-  return *table.at_path(leaf).as_array()->get(i);
+  return *find_leaf(table, leaf)->as_array()->get(i);
 }
 
 }  // namespace
 
 std::size_t TomlTable::count(const std::string& leaf) const {
-  const toml::node& node = *data_->table->at_path(leaf).node();
+  const toml::node& node = *find_leaf(*data_->table, leaf);
   const toml::array* list = node.as_array();
   if (list == nullptr || list->empty()) data_->expected(node, leaf, "a list of at least one value");
   return list->size();

@@ -33,6 +33,14 @@ TEST_F(Matrix, EveryCombinationIsAVariant) {
   EXPECT_EQ(e.read_variant(0, 1).folder, "a@h_max=1.3,size=0.1_+_x");
 }
 
+TEST_F(Matrix, KeysMayBeQuoted) {
+  const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"cleanup\".seed = [2]\n");
+  ASSERT_EQ(e.n_variants(), 2u);
+  EXPECT_EQ(e.read_variant(0, 1).options.frontal.h_max, 1.4);
+  EXPECT_EQ(e.read_variant(0, 1).folder, "a@h_max=1.4,seed=2");
+  expect_input_error([&] { read("[matrix]\n\"a.b\" = [1]\na.b = [2]\n"); }, {"e.toml:", "'a.b'", "twice"});
+}
+
 TEST_F(Matrix, OtherKeysOfATableStay) {
   const Experiment e = read("[matrix]\ninsertion.h_max = [1.3]\n",
                             kSquare + "size = 0.1\ninsertion = { rejection = 0.5, h_max = 1.2 }\n");
