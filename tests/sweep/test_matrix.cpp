@@ -37,7 +37,7 @@ TEST_F(Matrix, KeysMayBeQuoted) {
   const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"cleanup\".seed = [2]\n");
   ASSERT_EQ(e.n_variants(), 2u);
   EXPECT_EQ(e.read_variant(0, 1).options.frontal.h_max, 1.4);
-  EXPECT_EQ(e.read_variant(0, 1).folder, "a@h_max=1.4,seed=2");
+  EXPECT_EQ(e.read_variant(0, 1).folder, "a@seed=2,h_max=1.4");
   expect_input_error([&] { read("[matrix]\n\"a.b\" = [1]\na.b = [2]\n"); }, {"e.toml:", "'a.b'", "twice"});
 }
 
