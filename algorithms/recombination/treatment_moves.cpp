@@ -8,10 +8,14 @@ namespace delquad {
 
 namespace {
 
-/// A corner of this angle or more is as good as flat: its element has an eta below .06.
-constexpr double kFlatAngle = 175 * std::numbers::pi / 180;
-/// Weight of a valence that forces a bad element, against single steps of valence.
-constexpr int kForcedBad = 12;
+/// Cost of a valence that forces an element of eta 0, against single steps of valence.
+constexpr double kForcedBad = 12;
+
+/// Of a valence that leaves each of its elements this many right angles in the mean.
+int forced_cost(double right_angles) {
+  const double eta = std::max(0.0, 1 - std::abs(right_angles - 1));
+  return static_cast<int>(std::ceil(kForcedBad * std::max(0.0, 1 - 2 * eta) - 1e-9));
+}
 
 /// Middle of the vertices that edges lead to from `from`'s origin, between `from` and `to` counterclockwise.
 Vec2 middle_between(const QuadTopology& mesh, int from, int to) {
@@ -46,20 +50,20 @@ ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
       angle = std::atan2(cross(to, from), dot(to, from));
       if (angle <= 0) angle += 2 * std::numbers::pi;
     }
-    ideal_.push_back(static_cast<signed char>(std::max(1L, std::lround(angle / (std::numbers::pi / 2)))));
-    least_.push_back(static_cast<signed char>(std::floor(angle / kFlatAngle) + 1));
+    angle /= std::numbers::pi / 2;
+    ideal_.push_back({angle, std::max(1, static_cast<int>(std::lround(angle)))});
   }
 }
 
 int ValenceEnergy::of(int v, int valence) const {
-  return mesh_.on_boundary(v) ? misfit(valence, ideal_[v], least_[v]) : interior(valence);
+  return misfit(valence, mesh_.on_boundary(v) ? ideal_[v] : Ideal{4, 4});
 }
 
-int ValenceEnergy::interior(int valence) { return misfit(valence, 4, 3); }
-
-int ValenceEnergy::misfit(int valence, int ideal, int least) {
-  const int off = valence - ideal;
-  return off * off + (valence < least ? kForcedBad * (least - valence) : 0);
+int ValenceEnergy::misfit(int valence, const Ideal& ideal) {
+  const int off = valence - ideal.valence;
+  if (off == 0) return 0;
+  const int forced = forced_cost(ideal.angle / valence) - forced_cost(ideal.angle / ideal.valence);
+  return off * off + std::max(0, forced);
 }
 
 int ValenceEnergy::gain(const TreatmentMove& move) const {
@@ -73,7 +77,7 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
   if (move.kind == TreatmentMove::kSplit) {
     int moving = 0;
     for (int g = h; g != move.to; g = m.around(g)) ++moving;
-    return change(a, 1 - moving) + change(b, 1) + change(m.target(move.to), 1) - interior(moving + 1);
+    return change(a, 1 - moving) + change(b, 1) + change(m.target(move.to), 1) - misfit(moving + 1, {4, 4});
   }
   if (move.kind == TreatmentMove::kCollapse) {
     const int c = m.target(m.next(h)), d = m.origin(m.prev(h));

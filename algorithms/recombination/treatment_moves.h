@@ -25,8 +25,9 @@ struct TouchedVertices {
 };
 
 /// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle /
-/// 90 degrees, rounded and at least 1, on the boundary; more where a valence forces an element of eta 0 (a
-/// doublet, a flat corner).
+/// 90 degrees, rounded and at least 1, on the boundary. To this comes what a valence costs that forces an
+/// element of less than eta 1/2, as a doublet or a single quad in a boundary angle of more than 135 degrees:
+/// 1 to 12, the most at eta 0. A valence of 6 or 3 forces none.
 class ValenceEnergy {
  public:
   explicit ValenceEnergy(const QuadTopology& mesh);
@@ -37,12 +38,15 @@ class ValenceEnergy {
   int gain(const TreatmentMove& move) const;
 
  private:
-  static int interior(int valence);
-  static int misfit(int valence, int ideal, int least);
+  struct Ideal {
+    double angle;  ///< of the elements around the vertex, in right angles
+    int valence;
+  };
+  static int misfit(int valence, const Ideal& ideal);
   int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
 
   const QuadTopology& mesh_;
-  std::vector<signed char> ideal_, least_;  // of boundary vertices
+  std::vector<Ideal> ideal_;  ///< of boundary vertices
 };
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/point_placement.h"
@@ -63,6 +64,28 @@ QuadPatch treated(const PatchBoundary& boundary, const PointPlacement& placement
                   const ParametricSize& size) {
   const QuadPatch raw = recombine(mesh_frontal(boundary, placement, cross, size), *make_lemon_solver());
   return treat_paper(raw, size);
+}
+
+TEST(ValenceEnergy, ForcedElementsCostMore) {
+  // One quad with a boundary angle of 180 - 2a at its first corner.
+  const auto of_corner = [](double degrees, int valence) {
+    const double half = degrees / 2 * std::numbers::pi / 180;
+    QuadPatch quad;
+    quad.points = {{0, 0}, {std::sin(half), std::cos(half)}, {0, 2}, {-std::sin(half), std::cos(half)}};
+    quad.quads = {{0, 1, 2, 3}};
+    quad.n_boundary = 4;
+    const QuadTopology topology(quad);
+    return ValenceEnergy(topology).of(0, valence);
+  };
+  EXPECT_EQ(of_corner(90, 1), 0);
+  EXPECT_EQ(of_corner(90, 2), 1);     // 45 degrees each: eta 1/2 is none too bad
+  EXPECT_EQ(of_corner(134, 1), 0);    // ideal
+  EXPECT_EQ(of_corner(136, 1), 2);    // eta .49
+  EXPECT_EQ(of_corner(157.5, 1), 7);  // eta 1/4: half of 12, and one step of valence
+  EXPECT_EQ(of_corner(157.5, 2), 0);
+  EXPECT_EQ(of_corner(179.99, 1), 13);
+  EXPECT_EQ(of_corner(20, 1), 0);  // the best there is
+  EXPECT_EQ(of_corner(20, 2), 4);  // 10 for an eta of 1/9 in place of 7 for 2/9, and one step
 }
 
 TEST(Cleanup, RegularGridStays) {
