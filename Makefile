@@ -19,12 +19,13 @@ test: build
 	  grep -h -A1 ': Skipped$$' build/$(PRESET)/Testing/Temporary/LastTest.log | grep -v -e '^--$$' -e ': Skipped$$' | sort | uniq -c; \
 	  exit $$status
 
-# Every experiment: tables and pictures under $(RESULTS)/.
+# Every experiment: tables, pictures and a page that shows them, under $(RESULTS)/.
 paper: build
 	@for e in experiments/*.toml; do \
 	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(RESULTS)/$$(basename $$e .toml) || exit $$?; \
 	done
-	@echo "Tables and pictures lie in $(RESULTS)/."
+	build/$(PRESET)/delquad report $(RESULTS) -o $(RESULTS)/report.html
+	@echo "Tables and pictures lie in $(RESULTS)/; $(RESULTS)/report.html shows them."
 
 bench: build
 	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done

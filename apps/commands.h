@@ -33,6 +33,11 @@ struct TablesArguments {
 };
 int tables_command(const TablesArguments& arguments);
 
+struct ReportArguments {
+  std::filesystem::path folder, output;
+};
+int report_command(const ReportArguments& arguments);
+
 struct RerunArguments {
   std::filesystem::path record;
 };

@@ -102,6 +102,13 @@ void add_records(CLI::App& app, TablesArguments& tables, RerunArguments& rerun) 
   again->add_option("record", rerun.record, "record.json of a cell")->required();
 }
 
+void add_report(CLI::App& app, ReportArguments& arguments) {
+  CLI::App* report = app.add_subcommand("report", "Make a page of results to look at in a browser");
+  report->add_option("folder", arguments.folder, "folder of 'delquad run', or one that holds several")
+      ->required();
+  report->add_option("-o,--output", arguments.output, "file to write (.html)")->required();
+}
+
 void add_mesh(CLI::App& app, MeshArguments& arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option("model", arguments.model,
@@ -196,8 +203,10 @@ int run_command_line(int argc, char** argv) {
   ExampleArguments example;
   TablesArguments tables;
   RerunArguments rerun;
+  ReportArguments report;
   add_run(app, run);
   add_records(app, tables, rerun);
+  add_report(app, report);
   add_mesh(app, mesh);
   add_metrics(app, metrics);
   add_compare(app, compare);
@@ -210,6 +219,7 @@ int run_command_line(int argc, char** argv) {
   }
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("tables")) return tables_command(tables);
+  if (app.got_subcommand("report")) return report_command(report);
   if (app.got_subcommand("rerun")) return rerun_command(rerun);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);

@@ -79,6 +79,7 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
     } catch (const Json::exception& e) {
       throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), e.what()));
     }
+    records.back().folder = file.parent_path();
     const CellRecord& r = records.back();
     if (!seen.insert({r.group, r.pipeline}).second)
       throw InputError(

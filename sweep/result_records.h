@@ -20,7 +20,8 @@ struct CellRecord {
   std::string kind = {};                  ///< of the reason: as in failure_record()
   bool skipped = false;                   ///< for that reason, and not failed
   std::vector<std::string> warnings = {};
-  std::string uniform_size = {};  ///< delta, where it is the same everywhere
+  std::string uniform_size = {};      ///< delta, where it is the same everywhere
+  std::filesystem::path folder = {};  ///< of the cell
 };
 
 /// The records of an experiment below a folder, by place and path. Throws InputError naming the file that is

@@ -85,4 +85,19 @@ double wilcoxon_p(std::span<const double> differences) {
   return std::min(1.0, 2 * tail);
 }
 
+std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> u, v;
+  for (const double value : x) u.push_back(std::log(value));
+  for (const double value : y) v.push_back(std::log(value));
+  const double u0 = mean(u), v0 = mean(v);
+  double squares = 0, products = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    squares += (u[i] - u0) * (u[i] - u0);
+    products += (u[i] - u0) * (v[i] - v0);
+  }
+  if (!(squares > 0)) return std::nullopt;
+  const double exponent = products / squares;
+  return PowerLaw{std::exp(v0 - exponent * u0), exponent};
+}
+
 }  // namespace delquad

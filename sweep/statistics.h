@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 namespace delquad {
@@ -12,5 +13,12 @@ double confidence_half_width(std::span<const double> samples);
 /// when neither side is better. Zeros are left out, ties share their mean rank; exact up to 60 differences,
 /// by the normal distribution beyond. 1 of none.
 double wilcoxon_p(std::span<const double> differences);
+
+/// y = factor * x^exponent.
+struct PowerLaw {
+  double factor, exponent;
+};
+/// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
+std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 
 }  // namespace delquad

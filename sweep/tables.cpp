@@ -10,9 +10,7 @@
 #include "io/mesh_io.h"
 #include "mesh/error.h"
 #include "metrics/metrics.h"
-#include "sweep/result_records.h"
 #include "sweep/statistics.h"
-#include "sweep/study_file.h"
 
 namespace delquad {
 namespace {
@@ -304,20 +302,28 @@ bool belongs(const StudyFile& study, const CellRecord& record) {
 
 }  // namespace
 
-Outcome make_tables(const fs::path& folder) {
-  std::vector<CellRecord> records = read_records(folder);
+StudyResults read_results(const fs::path& folder) {
+  StudyResults results;
+  results.records = read_records(folder);
   std::optional<StudyFile> study = read_study(folder);
   if (!study)
     throw InputError((folder / "study.json").string() +
                      ": is missing: expected the folder of 'delquad run -o'");
-  const std::size_t all = records.size();
-  std::erase_if(records, [&](const CellRecord& r) { return !belongs(*study, r); });
-  Outcome outcome = Tabulation(*study, records).run();
-  if (records.size() < all)
-    outcome.table.notes.push_back(fmt::format(
-        "{} records of cells that the experiment no longer has are left out", all - records.size()));
+  results.study = *std::move(study);
+  results.left_out =
+      std::erase_if(results.records, [&](const CellRecord& r) { return !belongs(results.study, r); });
+  return results;
+}
+
+Outcome make_tables(const StudyResults& results) {
+  Outcome outcome = Tabulation(results.study, results.records).run();
+  if (results.left_out > 0)
+    outcome.table.notes.push_back(
+        fmt::format("{} records of cells that the experiment no longer has are left out", results.left_out));
   return outcome;
 }
+
+Outcome make_tables(const fs::path& folder) { return make_tables(read_results(folder)); }
 
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
   std::vector<std::string> errors;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep/result_records.h"
+#include "sweep/study_file.h"
 #include "sweep/table.h"
 
 namespace delquad {
@@ -18,9 +20,19 @@ struct Outcome {
   int bad_inputs = 0, others_failed = 0;
 };
 
+/// The records of an experiment's cells, and what it consists of.
+struct StudyResults {
+  StudyFile study;
+  std::vector<CellRecord> records;  ///< by place
+  std::size_t left_out = 0;         ///< records of cells that the experiment no longer has
+};
+/// Throws InputError as read_records() does, and where the folder has no study.json.
+StudyResults read_results(const std::filesystem::path& folder);
+
 /// The tables of an experiment, from the records of its cells and its study.json alone. Cells that differ in
-/// nothing but the seed make one row: means, and the half-widths of their 95 % confidence intervals. Throws
-/// InputError as read_records() does.
+/// nothing but the seed make one row: means, and the half-widths of their 95 % confidence intervals.
+Outcome make_tables(const StudyResults& results);
+/// Throws InputError as read_results() does.
 Outcome make_tables(const std::filesystem::path& folder);
 /// Writes the tables that have rows in every format; returns what could not be written.
 std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);

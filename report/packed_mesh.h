@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace delquad {
+
+/// A mesh in a few bytes, as page/packed_mesh.js takes it apart.
+///
+/// The text is base64 of zlib-compressed numbers of 7 bits a byte, lowest first, in this order: vertices of
+/// triangles, of quads (each as its distance below the next new one; 0: that one, which is then used up), eta
+/// of quads in 64ths, ends of lines (the same way), irregular vertices (number and valence), steps from
+/// vertex to vertex in each direction, in units of `unit`, signs in the lowest bit.
+struct PackedMesh {
+  std::size_t points = 0, triangles = 0, quads = 0, lines = 0, irregular = 0;
+  int dimension = 2;
+  std::array<double, 3> origin = {};
+  double unit = 0;  ///< a 64th of the shortest edge, but not less than 2^-26 of the bounding box's diagonal
+  std::string text;
+};
+
+/// Elements and vertices change their order.
+PackedMesh pack_mesh(const Mesh& mesh);
+
+/// Every `step`-th element along a curve that fills the space, blown up so that together they cover about as
+/// much, each with vertices of its own; and the lines.
+Mesh thinned(const Mesh& mesh, int step);
+
+/// Bytes that a mesh takes when it is packed, roughly.
+double packed_bytes(double triangles, double quads);
+
+}  // namespace delquad

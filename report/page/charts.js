@@ -1,0 +1,156 @@
+// Charts, drawn from numbers.
+
+function text(x, y, content, attributes = {}) {
+  return svg("text", { x, y, "font-size": 11, ...attributes }, content);
+}
+
+/// Bars of eta from 0 to 1, as parts of all quads; `most`: the top of the axis.
+function etaHistogram(counts, most, colours, label) {
+  const width = 320, height = 96, left = 34, base = 78, top = 8;
+  const total = counts.reduce((a, b) => a + b, 0) || 1;
+  const step = (width - left - 8) / counts.length;
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
+  const y = (part) => base - (base - top) * Math.min(1, part / most);
+  chart.append(svg("path", { d: `M${left} ${base}H${width - 8}`, stroke: "#888" }));
+  counts.forEach((count, i) => {
+    const colour = colours[Math.floor(((i + 0.5) / counts.length) * colours.length)];
+    chart.append(svg("rect", { x: left + i * step + 0.5, y: y(count / total), width: step - 1, height: base - y(count / total),
+      fill: colour }, svg("title", {}, `${(i / counts.length).toFixed(2)} to ${((i + 1) / counts.length).toFixed(2)}: ${grouped(count)} quads`)));
+  });
+  for (const tick of [0, 0.5, 1]) chart.append(text(left + tick * (width - left - 8), 92, tick, { "text-anchor": "middle", class: "soft" }));
+  chart.append(text(left - 4, top + 8, `${Math.round(100 * most)}%`, { "text-anchor": "end", class: "soft" }));
+  chart.append(text(left - 4, base, "0", { "text-anchor": "end", class: "soft" }));
+  return chart;
+}
+
+function valenceBars(valences, regular) {
+  const entries = Object.entries(valences).map(([k, n]) => [Number(k), n]).sort((a, b) => a[0] - b[0]);
+  const total = entries.reduce((sum, e) => sum + e[1], 0) || 1;
+  const row = 15, width = 320, left = 34, right = 66;
+  const label = entries.map(([k, n]) => `${k}: ${fixed((100 * n) / total, 1)} %`).join(", ");
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * entries.length + 2}`, role: "img", "aria-label": `Valences: ${label}` });
+  entries.forEach(([valence, count], i) => {
+    const y = i * row, long = ((width - left - right) * count) / total;
+    const colour = valence === regular ? "#9fb4bd" : markColour(valence, regular);
+    chart.append(text(left - 8, y + 11, valence, { "text-anchor": "end" }),
+      svg("rect", { x: left, y: y + 2, width: Math.max(long, 0.8), height: row - 5, fill: colour }),
+      text(left + long + 5, y + 11, `${fixed((100 * count) / total, count / total < 0.01 ? 2 : 1)} %`, { class: "soft" }));
+  });
+  return chart;
+}
+
+const kStepColours = ["#c9b79c", "#a3c4bc", "#e2a06a", "#7fa9d6", "#d5586b", "#8c6bb1", "#41ab7d", "#f0cb5b", "#5b7c8d", "#b5c267", "#9b8b7a"];
+
+/// A bar for each word, made of its steps.
+function timeBars(cells, steps) {
+  const used = steps.filter((step) => cells.some((cell) => cell.steps[step] > 0));
+  const sums = cells.map((cell) => used.reduce((sum, step) => sum + (cell.steps[step] || 0), 0));
+  const most = Math.max(...sums), row = 24, width = 560, left = 62, right = 62;
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * cells.length + 4}`, role: "img",
+    "aria-label": "Seconds by step: " + cells.map((c, i) => `${c.word} ${seconds(sums[i])}`).join(", ") });
+  cells.forEach((cell, i) => {
+    let x = left;
+    chart.append(text(left - 8, i * row + 17, cell.word, { "text-anchor": "end", class: "word" }));
+    for (const step of used) {
+      const long = ((width - left - right) * (cell.steps[step] || 0)) / most;
+      chart.append(svg("rect", { x, y: i * row + 4, width: long, height: row - 7, fill: kStepColours[steps.indexOf(step) % kStepColours.length] },
+        svg("title", {}, `${cell.word}, ${step}: ${seconds(cell.steps[step] || 0)}`)));
+      x += long;
+    }
+    chart.append(text(x + 6, i * row + 17, seconds(sums[i]), { class: "soft" }));
+  });
+  const legend = el("div", { class: "legend" }, used.map((step) => el("span", {},
+    el("i", { style: `background:${kStepColours[steps.indexOf(step) % kStepColours.length]}` }), step)));
+  return el("div", {}, chart, legend);
+}
+
+const powersBetween = (low, high) => {
+  const powers = [];
+  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e) powers.push(e);
+  return powers;
+};
+
+/// Axes in powers of ten around points [x, y]; returns the chart and the maps to it.
+function logAxes(points, titles, label) {
+  const width = 560, height = 330, left = 64, right = 30, top = 12, bottom = 44;
+  const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
+  const range = (values) => {
+    const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values)), room = 0.08 * Math.max(high - low, 0.5);
+    return [low - room, high + room];
+  };
+  const [x0, x1] = range(xs), [y0, y1] = range(ys);
+  const x = (v) => left + ((width - left - right) * (Math.log10(v) - x0)) / (x1 - x0);
+  const y = (v) => height - bottom - ((height - top - bottom) * (Math.log10(v) - y0)) / (y1 - y0);
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
+  const ticks = (low, high, add) => {
+    const factors = high - low < 0.6 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : high - low < 2.5 ? [1, 2, 5] : [1];
+    for (const e of powersBetween(10 ** low, 10 ** high))
+      for (const m of factors) {
+        const v = m * 10 ** e;
+        if (Math.log10(v) >= low && Math.log10(v) <= high) add(v);
+      }
+  };
+  const short = (v) => (v >= 1000 ? grouped(v) : String(Number(v.toPrecision(2))));
+  ticks(x0, x1, (v) => chart.append(svg("path", { d: `M${x(v)} ${top}V${height - bottom}`, stroke: "#e3e7ec" }),
+    text(x(v), height - bottom + 15, short(v), { "text-anchor": "middle", class: "soft" })));
+  ticks(y0, y1, (v) => chart.append(svg("path", { d: `M${left} ${y(v)}H${width - right}`, stroke: "#e3e7ec" }),
+    text(left - 6, y(v) + 4, short(v), { "text-anchor": "end", class: "soft" })));
+  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", stroke: "#666" }),
+    text((left + width - right) / 2, height - 6, titles[0], { "text-anchor": "middle" }),
+    text(14, (top + height - bottom) / 2, titles[1], { "text-anchor": "middle", transform: `rotate(-90 14 ${(top + height - bottom) / 2})` }));
+  return { chart, x, y };
+}
+
+/// Seconds by number of elements, both in powers, with the laws that were fitted.
+function growthChart(growth, words) {
+  const all = growth.flatMap((g) => g.points);
+  const { chart, x, y } = logAxes(all, ["elements", "seconds"], "Seconds by number of elements, both axes logarithmic");
+  for (const { word, points, law } of growth) {
+    const colour = wordColour(words, word), sizes = points.map((p) => p[0]);
+    if (law) {
+      const ends = [Math.min(...sizes), Math.max(...sizes)].map((n) => `${x(n)} ${y(law.factor * n ** law.exponent)}`);
+      chart.append(svg("path", { d: `M${ends.join("L")}`, stroke: colour, "stroke-width": 1.3, "stroke-dasharray": "5 3", fill: "none" }));
+    }
+    for (const [n, s, group] of points)
+      chart.append(svg("circle", { cx: x(n), cy: y(s), r: 3.6, fill: colour, "fill-opacity": 0.75 },
+        svg("title", {}, `${word}, ${group}: ${grouped(n)} elements, ${seconds(s)}`)));
+  }
+  const legend = el("div", { class: "legend" }, [...new Set(growth.map((g) => g.word))].map((word) => el("span", {},
+    el("i", { style: `background:${wordColour(words, word)}` }), el("span", { class: "word" }, word))));
+  const laws = growth.filter((g) => g.law).map((g) => el("tr", {}, el("td", {}, g.case), el("td", { class: "word" }, g.word),
+    el("td", {}, `N^${fixed(g.law.exponent, 2)}`)));
+  return el("div", { class: "growth" }, el("div", {}, chart, legend), laws.length === 0 ? null : el("table", {},
+    el("thead", {}, el("tr", {}, ["case", "pipeline", "time grows as"].map((t) => el("th", { scope: "col" }, t)))), el("tbody", {}, laws)));
+}
+
+/// Energy by evaluation: a line for each patch of each word.
+function convergenceChart(cells, words) {
+  const width = 560, height = 250, left = 64, right = 16, top = 12, bottom = 40;
+  const lines = cells.flatMap((cell) => cell.energy.map((energies) => ({ word: cell.word, energies })));
+  const known = lines.flatMap((line) => line.energies.filter((e) => e !== null));
+  const longest = Math.max(2, ...lines.map((line) => line.energies.length));
+  const low = Math.min(...known), high = Math.max(...known), room = 0.05 * (high - low || 1);
+  const x = (i) => left + ((width - left - right) * i) / (longest - 1);
+  const y = (e) => height - bottom - ((height - top - bottom) * (e - low + room)) / (high - low + 2 * room);
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Energy by evaluation" });
+  for (const part of [0, 0.25, 0.5, 0.75, 1]) {
+    const e = low + part * (high - low);
+    chart.append(svg("path", { d: `M${left} ${y(e)}H${width - right}`, stroke: "#e3e7ec" }),
+      text(left - 6, y(e) + 4, Number(e.toPrecision(3)), { "text-anchor": "end", class: "soft" }));
+  }
+  for (const { word, energies } of lines) {
+    let path = "";
+    energies.forEach((e, i) => {
+      if (e !== null) path += `${path === "" || energies[i - 1] === null ? "M" : "L"}${x(i).toFixed(1)} ${y(e).toFixed(1)}`;
+    });
+    chart.append(svg("path", { d: path, fill: "none", stroke: wordColour(words, word), "stroke-width": 1.3, "stroke-opacity": 0.8 }));
+  }
+  for (const i of [0, Math.round((longest - 1) / 2), longest - 1])
+    chart.append(text(x(i), height - bottom + 15, i + 1, { "text-anchor": "middle", class: "soft" }));
+  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", stroke: "#666" }),
+    text((left + width - right) / 2, height - 6, "evaluation", { "text-anchor": "middle" }),
+    text(14, (top + height - bottom) / 2, "energy of a cell", { "text-anchor": "middle", transform: `rotate(-90 14 ${(top + height - bottom) / 2})` }));
+  const legend = el("div", { class: "legend" }, cells.map((cell) => el("span", {},
+    el("i", { style: `background:${wordColour(words, cell.word)}` }), el("span", { class: "word" }, cell.word))));
+  return el("div", {}, chart, legend);
+}

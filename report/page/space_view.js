@@ -1,0 +1,167 @@
+// Surfaces, turned together. All are drawn by one WebGL renderer, of which browsers allow only a few.
+
+let sharedRenderer = null;
+function renderer() {
+  sharedRenderer = sharedRenderer || new THREE.WebGLRenderer({ antialias: true, alpha: true });
+  return sharedRenderer;
+}
+
+function makeFaces(mesh, colours) {
+  const places = [], paint = [], palette = colours.map((c) => new THREE.Color(c)), grey = new THREE.Color("#d3dae0");
+  eachElement(mesh, (corners, n, at, colour) => {
+    const { r, g, b } = colour < 0 ? grey : palette[colour];
+    for (let k = 1; k + 1 < n; ++k)
+      for (const c of [corners[at], corners[at + k], corners[at + k + 1]]) {
+        places.push(mesh.x[c], mesh.y[c], mesh.z[c]);
+        paint.push(r, g, b);
+      }
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(places), 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(paint), 3));
+  geometry.computeVertexNormals();
+  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: 2, polygonOffset: true,
+    polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+}
+
+function makeSegments(mesh, ends, colour, opacity) {
+  const places = new Float32Array(3 * ends.length);
+  ends.forEach((v, i) => places.set([mesh.x[v], mesh.y[v], mesh.z[v]], 3 * i));
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: opacity < 1, opacity }));
+}
+
+function edgesOf(mesh) {
+  const ends = [], n = mesh.x.length, known = new Set();
+  eachElement(mesh, (corners, count, at) => {
+    for (let k = 0; k < count; ++k) {
+      const a = corners[at + k], b = corners[at + ((k + 1) % count)], key = Math.min(a, b) * n + Math.max(a, b);
+      if (known.has(key)) continue;
+      known.add(key);
+      ends.push(a, b);
+    }
+  });
+  return ends;
+}
+
+function meanLength(mesh, ends) {
+  let sum = 0;
+  for (let i = 0; i < ends.length; i += 2) {
+    const [a, b] = [ends[i], ends[i + 1]];
+    sum += Math.hypot(mesh.x[a] - mesh.x[b], mesh.y[a] - mesh.y[b], mesh.z[a] - mesh.z[b]);
+  }
+  return sum / Math.max(1, ends.length / 2);
+}
+
+function makeDots(mesh, vertices, colour) {
+  const geometry = new THREE.BufferGeometry();
+  const places = new Float32Array(vertices.flatMap((v) => [mesh.x[v], mesh.y[v], mesh.z[v]]));
+  geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+  return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, sizeAttenuation: false }));
+}
+
+function makeScene(mesh, colours) {
+  const scene = new THREE.Scene(), ends = edgesOf(mesh), edges = makeSegments(mesh, ends, "#1c2430", 0.5), dots = [];
+  scene.add(makeFaces(mesh, colours), edges, makeSegments(mesh, Array.from(mesh.lines), "#000000", 1), new THREE.AmbientLight("#ffffff", 1.5));
+  const byColour = new Map();
+  for (const { vertex, valence } of mesh.irregular) {
+    const colour = markColour(valence, mesh.regular);
+    byColour.set(colour, [...(byColour.get(colour) || []), vertex]);
+  }
+  for (const [colour, vertices] of byColour) dots.push(makeDots(mesh, vertices, colour));
+  if (dots.length > 0) scene.add(...dots);
+  return { scene, edges, dots, edge: meanLength(mesh, ends) };
+}
+
+class SpaceView {
+  constructor(colours) {
+    this.colours = colours;
+    this.pictures = [];  // {canvas, marks, scene, ...}
+    this.light = new THREE.DirectionalLight("#ffffff", 2);
+  }
+  place(mesh) {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    [mesh.x, mesh.y, mesh.z].forEach((axis, k) => axis.forEach((v) => {
+      low[k] = Math.min(low[k], v);
+      high[k] = Math.max(high[k], v);
+    }));
+    this.middle = new THREE.Vector3(...low.map((v, k) => (v + high[k]) / 2));
+    this.radius = Math.hypot(...low.map((v, k) => high[k] - v)) / 2 || 1;
+    const r = this.radius;
+    this.camera = new THREE.OrthographicCamera(-r, r, r, -r, -10 * r, 30 * r);
+    this.camera.up.set(0, 0, 1);
+    this.target = this.middle.clone();
+    this.start();
+  }
+  start() {
+    this.target.copy(this.middle);
+    this.camera.position.copy(this.middle).add(new THREE.Vector3(1, -1.4, 0.9).setLength(10 * this.radius));
+    this.camera.zoom = 1.15;
+  }
+  reset() {
+    this.start();
+    this.redraw();
+  }
+  zoomBy(factor) {
+    this.camera.zoom = Math.min(1e4, Math.max(0.3, this.camera.zoom * factor));
+    this.redraw();
+  }
+  lookAt(at, size, away) {
+    this.target.set(...at);
+    this.camera.position.copy(this.target).add(new THREE.Vector3(...away).setLength(10 * this.radius));
+    this.camera.zoom = Math.max(1, this.radius / (14 * size));
+    this.redraw();
+  }
+  async add(canvas, info, marks) {
+    const mesh = await unpackMesh(info);
+    if (!this.camera) this.place(mesh);
+    canvas.style.aspectRatio = 1.25;
+    const picture = { canvas, marks, ...makeScene(mesh, this.colours) };
+    this.pictures.push(picture);
+    const controls = new THREE.OrbitControls(this.camera, canvas);
+    controls.enableZoom = controls.enablePan = false;
+    controls.target = this.target;
+    controls.addEventListener("change", () => this.redraw());
+    listenToZoom(canvas, this);
+    this.draw(picture);
+    redrawWhenResized(canvas, this);
+  }
+  redraw() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = null;
+      for (const picture of this.pictures) this.draw(picture);
+    });
+  }
+  draw({ canvas, marks, scene, edges, dots: points, edge }) {
+    const dots = window.devicePixelRatio || 1, width = Math.round(canvas.clientWidth * dots), height = Math.round(canvas.clientHeight * dots);
+    if (!width || !height) return;
+    const { camera, radius } = this, wide = width / height;
+    [camera.left, camera.right, camera.top, camera.bottom] = [-radius * Math.max(1, wide), radius * Math.max(1, wide),
+      radius * Math.max(1, 1 / wide), -radius * Math.max(1, 1 / wide)];
+    camera.lookAt(this.target);
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    this.light.position.copy(camera.position).sub(this.target);
+    scene.add(this.light);
+    const pixels = (edge * camera.zoom * canvas.clientWidth) / (camera.right - camera.left);
+    edges.material.opacity = Math.min(0.6, pixels / 12);
+    for (const p of points) {
+      p.material.size = dots * Math.min(7, 0.4 * pixels);
+      p.visible = pixels > 2.5;
+    }
+    const gl = renderer();
+    gl.setSize(width, height, false);
+    gl.render(scene, camera);
+    canvas.width = width;
+    canvas.height = height;
+    const pen = canvas.getContext("2d");
+    pen.drawImage(gl.domElement, 0, 0);
+    pen.scale(dots, dots);
+    marks.forEach((at, i) => {
+      const p = new THREE.Vector3(...at).project(camera);
+      drawPin(pen, ((p.x + 1) / 2) * canvas.clientWidth, ((1 - p.y) / 2) * canvas.clientHeight, i + 1, canvas.clientWidth);
+    });
+  }
+}

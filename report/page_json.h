@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "sweep/result_records.h"
+#include "sweep/table.h"
+
+namespace delquad {
+
+using Json = nlohmann::ordered_json;
+
+/// As the page shows it; empty ones are null.
+Json table_json(const Table& table);
+
+/// For each pipeline and case: elements and seconds of the case's variants, and the power law that they
+/// follow where there are three sizes or more, the largest at least four times the smallest.
+Json growth_json(const std::vector<CellRecord>& records);
+
+/// What letters and measures mean, and colours by eta.
+Json glossary_json();
+
+}  // namespace delquad

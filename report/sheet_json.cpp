@@ -1,0 +1,103 @@
+#include "report/sheet_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/closeup.h"
+
+namespace delquad {
+namespace {
+
+using namespace nlohmann::literals;
+
+constexpr std::size_t kCloseups = 3;
+/// Curves of convergence a cell has at most: of its largest patches nothing is known here, so the first ones.
+constexpr std::size_t kMostCurves = 12;
+
+/// Three digits after the point are a thousandth of an edge.
+double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+Json closeups_json(const Mesh& mesh) {
+  Json json = Json::array();
+  for (const Closeup& closeup : worst_quads(mesh, kCloseups)) {
+    Json points = Json::array(), etas = Json::array();
+    for (const Vec2& p : closeup.points) points.push_back({rounded(p.x), rounded(p.y)});
+    for (const double eta : closeup.etas) etas.push_back(rounded(eta));
+    json.push_back({{"eta", closeup.eta},
+                    {"size", closeup.size},
+                    {"normal", {closeup.normal.x, closeup.normal.y, closeup.normal.z}},
+                    {"at", {closeup.at.x, closeup.at.y, closeup.at.z}},
+                    {"points", points},
+                    {"elements", closeup.elements},
+                    {"etas", etas}});
+  }
+  return json;
+}
+
+Json surface_facts(const Json& surface) {
+  const auto count = [&](const char* pointer) {
+    return surface.at(Json::json_pointer(pointer)).get<long long>();
+  };
+  const auto distance = [&](const char* which) {
+    return surface.at("distances_in_diagonals").at(which).at("max").get<double>();
+  };
+  return Json::array(
+      {{"watertight", surface.at("/topology/watertight"_json_pointer).get<bool>()
+                          ? "yes"
+                          : fmt::format("no: {} free edges", count("/topology/free_edges"))},
+       {"Euler characteristic, mesh and model", fmt::format("{}, {}", count("/topology/euler_characteristic"),
+                                                            count("/model_topology/euler_characteristic"))},
+       {"nonconforming edges", fmt::format("{}", count("/nonconforming_edges"))},
+       {"cuts", fmt::format("{}", surface.at("cuts").size())},
+       {"farthest from mesh to surface, surface to mesh, in diagonals of the model",
+        fmt::format("{:.1e}, {:.1e}", distance("mesh_to_surface"), distance("surface_to_mesh"))}});
+}
+
+std::string size_text(const Json& size) {
+  std::string text = size.at("base").is_null() ? "" : size.at("base").get<std::string>();
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  if (const auto n = size.at("sources").size(); n > 0) add(fmt::format("{} sources", n));
+  for (const char* key : {"gradation", "curvature", "min", "max"})
+    if (const Json value = size.value(key, Json()); !value.is_null())
+      add(fmt::format("{} {}", key, value.get<double>()));
+  return text.empty() ? "as the model says" : text;
+}
+
+}  // namespace
+
+Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
+  Json json = {{"word", record.at("pipeline")}, {"status", record.at("status")}};
+  if (json["status"] != "ok") {
+    json["reason"] = record.at("reason");
+    return json;
+  }
+  json["values"] = record.at("metrics");
+  json["values"]["seconds"] = record.at("meshing_seconds");
+  json["steps"] = record.value("seconds", Json::object());
+  json["eta"] = record.at("eta_histogram").at("counts");
+  json["valences"] = record.at("valences");
+  json["warnings"] = record.value("warnings", Json::array());
+  if (record.contains("surface")) json["surface"] = surface_facts(record["surface"]);
+  if (record.contains("smoothing")) {
+    const Json& curves = record["smoothing"].at("energy_by_evaluation");
+    json["patches"] = curves.size();
+    json["energy"] = Json::array();
+    for (std::size_t i = 0; i < std::min(curves.size(), kMostCurves); ++i)
+      json["energy"].push_back(curves[i]);
+  }
+  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh);
+  return json;
+}
+
+Json facts_json(const Json& record) {
+  Json facts = Json::array();
+  facts.push_back({"model", record.at("model")});
+  const Json options = record.value("options", Json::object());
+  if (options.contains("size")) facts.push_back({"size", size_text(options["size"])});
+  if (options.contains("cross")) facts.push_back({"directions", options["cross"]});
+  if (record.contains("domain")) facts.push_back({"patches", record["domain"].at("patches").dump()});
+  return facts;
+}
+
+}  // namespace delquad

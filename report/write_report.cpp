@@ -1,0 +1,222 @@
+#include "report/write_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <ostream>
+
+#include "io/mesh_io.h"
+#include "mesh/error.h"
+#include "pipeline/record.h"
+#include "report/packed_mesh.h"
+#include "report/page_json.h"
+#include "report/page_text.h"
+#include "report/sheet_json.h"
+#include "sweep/tables.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPictureBytes = 18e6;
+/// A picture with less shows nothing; rather some cells have none.
+constexpr double kLeastPicture = 20e3;
+
+struct Study {
+  std::string name;  ///< of its folder
+  StudyResults results;
+};
+
+struct Contents {
+  std::vector<Study> studies;
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< folder and reason
+};
+
+bool has_study(const fs::path& folder) { return fs::exists(folder / "study.json"); }
+
+Contents read_contents(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> inside;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_directory() && has_study(at->path())) inside.push_back(at->path());
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::ranges::sort(inside);
+  Contents contents;
+  if (has_study(folder) || inside.empty()) {
+    contents.studies.push_back(
+        {fs::absolute(folder).lexically_normal().filename().string(), read_results(folder)});
+    return contents;
+  }
+  for (const fs::path& study : inside) {
+    const std::string name = study.filename().string();
+    try {
+      contents.studies.push_back({name, read_results(study)});
+    } catch (const InputError& reason) {
+      contents.left_out.emplace_back(name, reason.what());
+    }
+  }
+  if (contents.studies.empty()) throw InputError(contents.left_out[0].second);
+  return contents;
+}
+
+double value_of(const CellRecord& record, const char* key) {
+  const auto at = record.values.find(key);
+  return at == record.values.end() ? 0 : at->second;
+}
+
+double whole_bytes(const CellRecord& record) {
+  return packed_bytes(value_of(record, "n_triangles"), value_of(record, "n_quads"));
+}
+
+/// Text that may stand inside a script element.
+std::string for_script(const Json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace), result;
+  for (const char c : text)
+    if (c == '<')
+      result += "\\u003c";
+    else
+      result += c;
+  return result;
+}
+
+class Page {
+ public:
+  Page(const Contents& contents, std::ostream& out) : contents_(contents), out_(out) {
+    std::vector<double> bytes;
+    for (const Study& study : contents.studies)
+      for (const CellRecord& record : study.results.records) bytes.push_back(whole_bytes(record));
+    share_ = std::max(kLeastPicture, fair_share(std::move(bytes), kPictureBytes));
+  }
+
+  void write() {
+    out_ << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
+            "'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n"
+            "<title>Delquad: results</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>"
+         << kPageStyle << "</style>\n</head>\n<body>" << kPageBody;
+    Json json = glossary_json();
+    json["program"] = Json::parse(versions_record());
+    json["studies"] = Json::array();
+    for (const Study& study : contents_.studies) json["studies"].push_back(study_json(study));
+    json["left_out"] = contents_.left_out;
+    out_ << "<script type=\"application/json\" id=\"data\">" << for_script(json) << "</script>\n";
+    if (in_space_) out_ << "<script>" << kThreeScript << "</script>\n";
+    out_ << "<script type=\"module\">" << kPageScript << "</script>\n</body>\n</html>\n";
+  }
+
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  Json study_json(const Study& study) {
+    const Outcome outcome = make_tables(study.results);
+    Json json = {{"name", study.name},
+                 {"title", study.results.study.title},
+                 {"tables", {table_json(outcome.table), table_json(outcome.pairs)}},
+                 {"growth", growth_json(study.results.records)},
+                 {"sheets", Json::array()}};
+    const std::vector<CellRecord>& records = study.results.records;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (i == 0 || records[i].group != records[i - 1].group)
+        json["sheets"].push_back(sheet_json(study, records[i]));
+      add_cell(records[i], json["sheets"].back());
+    }
+    return json;
+  }
+
+  static Json sheet_json(const Study& study, const CellRecord& record) {
+    Json json = {{"id", study.name + "/" + record.group}, {"name", record.name}, {"variant", Json::array()}};
+    for (const auto& [title, value] : record.variant) json["variant"].push_back(title + " " + value);
+    json["facts"] = Json::array();
+    json["cells"] = Json::array();
+    return json;
+  }
+
+  void add_cell(const CellRecord& cell, Json& sheet) {
+    const fs::path file = cell.folder / "record.json";
+    try {
+      std::ifstream in(file);
+      const Json record = Json::parse(in);
+      std::optional<Mesh> mesh;
+      std::string reason;
+      if (cell.reason.empty()) try {
+          mesh = read_msh(cell.folder / "mesh.msh");
+        } catch (const InputError& error) {
+          problems_.push_back(reason = error.what());
+        }
+      Json json = cell_json(record, mesh);
+      if (mesh) add_picture(cell, *mesh, json);
+      if (!reason.empty()) json["no_picture"] = reason;
+      if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
+        sheet["facts"] = std::move(facts);
+      sheet["cells"].push_back(std::move(json));
+    } catch (const Json::exception& error) {
+      throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), error.what()));
+    }
+  }
+
+  void add_picture(const CellRecord& cell, const Mesh& mesh, Json& json) {
+    constexpr double kOwnVertices =
+        2;  // bytes of an element with vertices of its own, to one that shares them
+    const double bytes =
+        packed_bytes(static_cast<double>(mesh.triangles.size()), static_cast<double>(mesh.quads.size()));
+    const int step = bytes <= share_ ? 1 : static_cast<int>(std::ceil(kOwnVertices * bytes / share_));
+    if (written_ + std::min(bytes, share_) > kPictureBytes) {
+      json["no_picture"] =
+          fmt::format("no room left in this file; see {}", (cell.folder / "picture.svg").string());
+      return;
+    }
+    const PackedMesh packed = pack_mesh(step > 1 ? thinned(mesh, step) : mesh);
+    const std::string id = fmt::format("mesh-{}", pictures_++);
+    written_ += static_cast<double>(packed.text.size());
+    in_space_ |= packed.dimension == 3;
+    out_ << "<script type=\"text/plain\" id=\"" << id << "\">" << packed.text << "</script>\n";
+    json["mesh"] = {{"id", id},
+                    {"step", step},
+                    {"dimension", packed.dimension},
+                    {"points", packed.points},
+                    {"triangles", packed.triangles},
+                    {"quads", packed.quads},
+                    {"lines", packed.lines},
+                    {"irregular", packed.irregular},
+                    {"origin", packed.origin},
+                    {"unit", packed.unit}};
+  }
+
+  const Contents& contents_;
+  std::ostream& out_;
+  double share_ = 0, written_ = 0;
+  int pictures_ = 0;
+  bool in_space_ = false;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace
+
+double fair_share(std::vector<double> bytes, double budget) {
+  std::ranges::sort(bytes);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const double share = budget / static_cast<double>(bytes.size() - i);
+    if (bytes[i] > share) return share;
+    budget -= bytes[i];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::string> write_report(const fs::path& folder, const fs::path& file) {
+  const Contents contents = read_contents(folder);
+  std::vector<std::string> problems;
+  for (const auto& [name, reason] : contents.left_out) problems.push_back(reason);
+  write_file_atomically(file, [&](std::ostream& out) {
+    Page page(contents, out);
+    page.write();
+    problems.insert(problems.end(), page.problems().begin(), page.problems().end());
+  });
+  return problems;
+}
+
+}  // namespace delquad

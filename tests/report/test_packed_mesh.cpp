@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "metrics/metrics.h"
+#include "report/packed_mesh.h"
+#include "report/write_report.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::quad_grid;
+using testing_support::triangle_grid;
+
+/// What page/packed_mesh.js does.
+class Unpacker {
+ public:
+  explicit Unpacker(const PackedMesh& packed) : packed_(packed) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<unsigned char> bytes;
+    std::uint32_t held = 0;
+    int bits = 0;
+    for (const char c : packed.text) {
+      if (c == '=') break;
+      held = held << 6 | static_cast<std::uint32_t>(digits.find(c));
+      if ((bits += 6) >= 8) bytes.push_back(static_cast<unsigned char>(held >> (bits -= 8) & 255));
+    }
+    bytes_.resize(10'000'000);
+    uLongf size = bytes_.size();
+    EXPECT_EQ(uncompress(bytes_.data(), &size, bytes.data(), bytes.size()), Z_OK);
+    bytes_.resize(size);
+  }
+
+  Mesh run() {
+    Mesh mesh;
+    mesh.triangles.resize(packed_.triangles);
+    mesh.quads.resize(packed_.quads);
+    mesh.lines.resize(packed_.lines);
+    for (auto& v : mesh.triangles) read_vertices(v);
+    for (auto& v : mesh.quads) read_vertices(v);
+    for (std::size_t q = 0; q < packed_.quads; ++q) eta.push_back(static_cast<int>(next()));
+    for (auto& v : mesh.lines) read_vertices(v);
+    for (std::size_t i = 0; i < packed_.irregular; ++i) {
+      const auto vertex = static_cast<int>(next());
+      irregular.emplace_back(vertex, static_cast<int>(next()));
+    }
+    mesh.points.resize(packed_.points);
+    double Vec3::*const axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
+    for (int k = 0; k < 3; ++k) {
+      std::int64_t at = 0;
+      for (Vec3& p : mesh.points) {
+        if (k < packed_.dimension) {
+          const std::uint64_t n = next();
+          at += n & 1 ? -static_cast<std::int64_t>((n + 1) / 2) : static_cast<std::int64_t>(n / 2);
+        }
+        p.*axes[k] = packed_.origin[k] + static_cast<double>(at) * packed_.unit;
+      }
+    }
+    EXPECT_EQ(at_, bytes_.size());
+    return mesh;
+  }
+
+  std::vector<int> eta;
+  std::vector<std::pair<int, int>> irregular;
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t value = 0;
+    for (int shift = 0;; shift += 7) {
+      const unsigned char byte = bytes_.at(at_++);
+      value |= static_cast<std::uint64_t>(byte & 127) << shift;
+      if (byte < 128) return value;
+    }
+  }
+  template <class Vertices>
+  void read_vertices(Vertices& v) {
+    for (int& vertex : v) {
+      const int back = static_cast<int>(next());
+      vertex = back == 0 ? used_++ : used_ - back;
+    }
+  }
+
+  const PackedMesh& packed_;
+  std::vector<unsigned char> bytes_;
+  std::size_t at_ = 0;
+  int used_ = 0;
+};
+
+/// Corners of each element, from its least one on, rounded to `unit`; sorted.
+template <size_t N>
+std::vector<std::vector<std::array<long long, 3>>> shapes(const Mesh& mesh,
+                                                          const std::vector<std::array<int, N>>& elements,
+                                                          double unit) {
+  std::vector<std::vector<std::array<long long, 3>>> result;
+  for (const auto& v : elements) {
+    auto& shape = result.emplace_back();
+    for (const int i : v) {
+      const Vec3& p = mesh.points[i];
+      shape.push_back({std::llround(p.x / unit), std::llround(p.y / unit), std::llround(p.z / unit)});
+    }
+    std::rotate(shape.begin(), std::min_element(shape.begin(), shape.end()), shape.end());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void expect_same(const Mesh& a, const Mesh& b, double unit) {
+  EXPECT_EQ(a.points.size(), b.points.size());
+  EXPECT_EQ(shapes(a, a.triangles, unit), shapes(b, b.triangles, unit));
+  EXPECT_EQ(shapes(a, a.quads, unit), shapes(b, b.quads, unit));
+  EXPECT_EQ(shapes(a, a.lines, unit), shapes(b, b.lines, unit));
+}
+
+TEST(PackedMesh, ReadsBackPlanarQuads) {
+  const Mesh mesh = quad_grid(7, 5, 7, 5);
+  const PackedMesh packed = pack_mesh(mesh);
+  EXPECT_EQ(packed.dimension, 2);
+  EXPECT_EQ(packed.unit, 1.0 / 64);
+  Unpacker unpacker(packed);
+  expect_same(unpacker.run(), mesh, 0.5);
+  EXPECT_EQ(unpacker.eta, std::vector<int>(35, 63));
+  EXPECT_TRUE(unpacker.irregular.empty());
+}
+
+TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
+  Mesh mesh = triangle_grid(4, 4, 4, 4);
+  for (Vec3& p : mesh.points) p = {p.x - 3, p.y + 1e6, p.x * p.y};
+  std::swap(mesh.triangles[0], mesh.triangles[20]);
+  const PackedMesh packed = pack_mesh(mesh);
+  EXPECT_EQ(packed.dimension, 3);
+  Unpacker unpacker(packed);
+  expect_same(unpacker.run(), mesh, 0.25);
+}
+
+TEST(PackedMesh, NamesIrregularVerticesAndEta) {
+  // Three quads around a vertex.
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}};
+  mesh.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 1}};
+  mesh.quad_region = {0, 0, 0};
+  mesh.regions = {{1, {}}};
+  const PackedMesh packed = pack_mesh(mesh);
+  Unpacker unpacker(packed);
+  const Mesh read = unpacker.run();
+  ASSERT_EQ(unpacker.irregular.size(), 1u);
+  EXPECT_EQ(unpacker.irregular[0].second, 3);
+  EXPECT_LT(norm(read.points[unpacker.irregular[0].first]), packed.unit);
+  std::vector<int> expected;
+  for (const double eta : quad_etas(mesh)) expected.push_back(static_cast<int>(64 * eta));
+  std::sort(expected.begin(), expected.end());
+  std::sort(unpacker.eta.begin(), unpacker.eta.end());
+  EXPECT_EQ(unpacker.eta, expected);
+}
+
+TEST(PackedMesh, OfNothingAndOfOnePlace) {
+  EXPECT_EQ(pack_mesh({}).points, 0u);
+  Mesh mesh = quad_grid(1, 1);
+  for (Vec3& p : mesh.points) p = {5, 5, 0};
+  const PackedMesh packed = pack_mesh(mesh);
+  Unpacker unpacker(packed);
+  for (const Vec3& p : unpacker.run().points) EXPECT_EQ(p, (Vec3{5, 5, 0}));
+}
+
+/// Tiny elements beside large ones stay apart.
+TEST(PackedMesh, KeepsTheSmallestEdge) {
+  Mesh mesh = quad_grid(2, 1, 2, 1);
+  for (Vec3& p : mesh.points)
+    if (p.x == 1) p.x = 1e-5;
+  const PackedMesh packed = pack_mesh(mesh);
+  Unpacker unpacker(packed);
+  const Mesh read = unpacker.run();
+  std::vector<double> xs;
+  for (const Vec3& p : read.points) xs.push_back(p.x);
+  std::sort(xs.begin(), xs.end());
+  EXPECT_NEAR(xs[2], 1e-5, 1e-6);
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& v : mesh.quads)
+    sum += norm(cross(mesh.points[v[2]] - mesh.points[v[0]], mesh.points[v[3]] - mesh.points[v[1]])) / 2;
+  return sum;
+}
+
+TEST(Thinned, CoversAsMuchWithFewer) {
+  const Mesh mesh = quad_grid(60, 60);
+  const Mesh thin = thinned(mesh, 9);
+  EXPECT_EQ(thin.quads.size(), 400u);
+  EXPECT_EQ(thin.lines.size(), mesh.lines.size());
+  EXPECT_NEAR(area(thin), area(mesh), 1e-9);
+  // Spread evenly: no quarter has less than a fifth of them.
+  int counts[2][2] = {};
+  for (const auto& v : thin.quads) {
+    const Vec3 c = 0.5 * (thin.points[v[0]] + thin.points[v[2]]);
+    ++counts[c.x > 0.5][c.y > 0.5];
+  }
+  for (const auto& row : counts)
+    for (const int count : row) EXPECT_GE(count, 80);
+}
+
+TEST(FairShare, GivesWhatFitsAndSharesTheRest) {
+  EXPECT_EQ(fair_share({1, 2, 3}, 10), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(fair_share({}, 10), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(fair_share({100, 1, 100, 2}, 23), 10);
+  EXPECT_EQ(fair_share({8, 8, 8, 8}, 16), 4);
+}
+
+}  // namespace
+}  // namespace delquad

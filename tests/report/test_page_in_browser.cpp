@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/report/report_results.h"
+
+namespace delquad::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string find_browser() {
+  for (const char* path : {"/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"})
+    if (fs::exists(path)) return path;
+  return "";
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+/// What a page consists of after everything in it was drawn; what its console says goes to stderr.
+ProgramResult open_page(const std::string& browser, const TemporaryFolder& folder, const std::string& page) {
+  return run_program(browser,
+                     {{"--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                       "--user-data-dir=" + (folder / "browser").string(), "--enable-logging=stderr",
+                       "--disable-background-networking", "--virtual-time-budget=60000", "--dump-dom",
+                       "file://" + (folder / page).string() + "#everything"},
+                      0,
+                      {}});
+}
+
+/// No error, every picture drawn, and a policy that forbids every request: one would be an error.
+void expect_sound(const ProgramResult& shown, std::size_t pictures) {
+  EXPECT_EQ(count(shown.err, "CONSOLE"), 0u) << shown.err;
+  EXPECT_EQ(count(shown.out, "default-src 'none'"), 1u);
+  EXPECT_EQ(count(shown.out, "<html lang=\"en\" data-drawn=\"all\">"), 1u) << shown.out.substr(0, 300);
+  EXPECT_EQ(count(shown.out, "<canvas"), pictures);
+  EXPECT_EQ(count(shown.out, "data-drawn=\"yes\""), pictures);
+}
+
+#define NEEDS_BROWSER(browser)                \
+  const std::string browser = find_browser(); \
+  if (browser.empty()) GTEST_SKIP() << "Chromium is not installed"
+
+TEST(PageInBrowser, DrawsPlanarCases) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  run_into(folder, "square", kSquareExperiment);
+  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  const ProgramResult shown = open_page(browser, folder, "r.html");
+  expect_sound(shown, 6);
+  EXPECT_EQ(count(shown.out, "class=\"missing failed\""), 6u);
+  EXPECT_EQ(count(shown.out, "aria-label=\"Energy by evaluation\""), 2u);
+  EXPECT_EQ(count(shown.out, "aria-label=\"Histogram of eta, DB\""), 2u);
+  EXPECT_EQ(count(shown.out, "A square &lt;/script&gt; &amp; &lt;b&gt;more&lt;/b&gt;</h2>"), 1u);
+}
+
+TEST(PageInBrowser, DrawsSurfaces) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  // A tetrahedron, whose faces are flat.
+  write_text(folder / "t.off",
+             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const ProgramResult made = run_into(folder, "surface",
+                                      "title = \"A surface\"\npipelines = [\"D\", \"DB\"]\nsize = 0.2\n"
+                                      "[[case]]\nname = \"tetrahedron\"\nmodel = \"t.off\"\n");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  const ProgramResult shown = open_page(browser, folder, "r.html");
+  expect_sound(shown, 2);
+  EXPECT_EQ(count(shown.out, "watertight: yes"), 2u);
+}
+
+/// The test would notice: a script that fails, and one that asks the network.
+TEST(PageInBrowser, ErrorsAndRequestsAreSeen) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  run_into(folder, "square", kSquareExperiment);
+  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  const std::string page = read_text(folder / "r.html");
+  for (const char* script :
+       {"null.x", "fetch('http://127.0.0.1:9/').catch(() => {})", "new Image().src = 'http://127.0.0.1:9/'"}) {
+    write_text(folder / "bad.html", page + "<script>" + script + "</script>");
+    EXPECT_GE(count(open_page(browser, folder, "bad.html").err, "CONSOLE"), 1u) << script;
+  }
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/report/report_results.h"
+
+namespace delquad::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Json data_of(const fs::path& page) {
+  const std::string text = read_text(page), begin = "id=\"data\">", end = "</script>";
+  const auto from = text.find(begin) + begin.size();
+  return Json::parse(text.substr(from, text.find(end, from) - from));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_into(folder, "square", kSquareExperiment).exit_code, 2);  // the broken case
+  const ProgramResult result = delquad({"report", folder / "results/square", "-o", folder / "r.html"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::string page = read_text(folder / "r.html");
+  EXPECT_EQ(count(page, "id=\"mesh-"), 6u);
+  EXPECT_EQ(count(page, "<b>more</b>"), 0u);                       // titles are text
+  EXPECT_EQ(page.find("WebGLRenderer=class"), std::string::npos);  // no surfaces, no three.js
+  const Json data = data_of(folder / "r.html");
+  ASSERT_EQ(data["studies"].size(), 1u);
+  const Json& study = data["studies"][0];
+  EXPECT_EQ(study["title"], "A square </script> & <b>more</b>");
+  ASSERT_EQ(study["sheets"].size(), 4u);  // two cases, two seeds
+  const Json& done = study["sheets"][0]["cells"];
+  ASSERT_EQ(done.size(), 3u);
+  EXPECT_EQ(done[0]["mesh"]["quads"], 0);
+  EXPECT_EQ(done[1]["mesh"]["step"], 1);
+  EXPECT_FALSE(done[0].contains("closeups"));
+  EXPECT_EQ(done[1]["closeups"].size(), 3u);
+  EXPECT_FALSE(done[1].contains("energy"));
+  EXPECT_FALSE(done[2]["energy"][0].empty());
+  EXPECT_EQ(done[1]["closeups"][0]["eta"], done[1]["values"]["eta_worst"]);
+  const Json& failed = study["sheets"][2]["cells"][0];
+  EXPECT_EQ(failed["status"], "failed");
+  EXPECT_FALSE(failed["reason"].get<std::string>().empty());
+  EXPECT_EQ(study["tables"][0]["rows"].size(), 6u);
+}
+
+TEST(Report, SameBytesTwice) {
+  const TemporaryFolder folder;
+  run_into(folder, "square", kSquareExperiment);
+  for (const char* name : {"a.html", "b.html"})
+    ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / name}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "a.html"), read_text(folder / "b.html"));
+}
+
+TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
+  const TemporaryFolder folder;
+  run_into(folder, "one", kSquareExperiment);
+  run_into(folder, "two", kSquareExperiment);
+  run_into(folder, "three", kSquareExperiment);
+  fs::create_directories(folder / "results/not_an_experiment");
+  write_text(folder / "results/two/square@seed=1/DB/record.json", "{ \"key\": ");
+  write_text(folder / "results/three/square@seed=1/DB/mesh.msh", "rubbish");
+  fs::remove(folder / "results/three/square@seed=2/DB/mesh.msh");
+  const ProgramResult result = delquad({"report", folder / "results", "-o", folder / "r.html"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("results/two/square@seed=1/DB/record.json"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("results/three/square@seed=1/DB/mesh.msh"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("results/three/square@seed=2/DB/mesh.msh"), std::string::npos) << result.err;
+  const Json data = data_of(folder / "r.html");
+  ASSERT_EQ(data["studies"].size(), 2u);
+  ASSERT_EQ(data["left_out"].size(), 1u);
+  EXPECT_EQ(data["left_out"][0][0], "two");
+  const Json& cell = data["studies"][1]["sheets"][0]["cells"][1];
+  EXPECT_EQ(cell["status"], "ok");
+  EXPECT_FALSE(cell.contains("mesh"));
+  EXPECT_NE(cell["no_picture"].get<std::string>().find("mesh.msh"), std::string::npos);
+}
+
+TEST(Report, NothingToShow) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "empty");
+  for (const char* name : {"empty", "absent"}) {
+    const ProgramResult result = delquad({"report", folder / name, "-o", folder / "r.html"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "r.html"));
+  }
+}
+
+TEST(Report, StaysWhatItWasWhereItCannotBeWritten) {
+  const TemporaryFolder folder;
+  run_into(folder, "square", kSquareExperiment);
+  write_text(folder / "r.html", "before");
+  const std::vector<std::string> arguments = {"report", folder / "results", "-o", folder / "r.html"};
+  constexpr long long kTooLittle = 20'000;
+  const ProgramResult full = run_program(DELQUAD_PROGRAM, {arguments, kTooLittle, {}});
+  EXPECT_EQ(full.exit_code, 2) << full.err;
+  EXPECT_EQ(read_text(folder / "r.html"), "before");
+  EXPECT_EQ(delquad({"report", folder / "results", "-o", folder / "no/r.html"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
