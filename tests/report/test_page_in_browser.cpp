@@ -81,8 +81,8 @@ TEST(PageInBrowser, ErrorsAndRequestsAreSeen) {
   run_into(folder, "square", kSquareExperiment);
   ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   const std::string page = read_text(folder / "r.html");
-  for (const char* script :
-       {"null.x", "fetch('http://127.0.0.1:9/').catch(() => {})", "new Image().src = 'http://127.0.0.1:9/'"}) {
+  for (const char* script : {"null.x", "fetch('http://127.0.0.1:9/').catch(() => {})",
+                             "new Image().src = 'http://127.0.0.1:9/'"}) {
     write_text(folder / "bad.html", page + "<script>" + script + "</script>");
     EXPECT_GE(count(open_page(browser, folder, "bad.html").err, "CONSOLE"), 1u) << script;
   }
