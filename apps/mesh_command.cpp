@@ -96,8 +96,7 @@ int mesh_command(const MeshArguments& arguments) {
   for (const FaceFailure& failure : result.failures)
     fmt::print(stderr, "error: left out: {}\n", failure.reason);
   if (!result.failures.empty()) return kFacesLeftOut;
-  if (word.result != PatchForm::kQuads || result.mesh.triangles.empty() || arguments.allow_triangles)
-    return kDone;
+  if (!word.quads_only() || result.mesh.triangles.empty() || arguments.allow_triangles) return kDone;
   fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
              result.mesh.triangles.size());
   return kTrianglesLeft;

@@ -10,7 +10,7 @@ namespace delquad {
 
 namespace {
 
-/// Empty words are kept, for parse_words() to refuse.
+/// Empty words are kept, to be refused.
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> words(1);
   for (const char c : list) {
@@ -44,7 +44,8 @@ int run_command(const RunArguments& arguments) {
   Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
   experiment.max_elements = arguments.max_elements;
   if (arguments.pipelines)
-    experiment.words = located("--pipelines", [&] { return parse_words(split(*arguments.pipelines)); });
+    experiment.words =
+        located("--pipelines", [&] { return experiment.find_pipelines(split(*arguments.pipelines)); });
   if (arguments.dry_run) {
     fmt::print("{}", list_cells(experiment, arguments.folder));
     return kDone;

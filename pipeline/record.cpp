@@ -343,17 +343,24 @@ std::string source_of(const Case& c) {
   return model_path(c).string();
 }
 
+Json peer_json(const Peer& peer, const std::string& version) {
+  return {{"version", version},    {"command", peer.command},       {"input", peer.input},
+          {"output", peer.output}, {"exit_codes", peer.exit_codes}, {"keeps_boundary", peer.keeps_boundary}};
+}
+
 Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell) {
   Json json = Json::object();
   if (cell != nullptr) json["key"] = cell->key;  // first: it is looked for without reading the rest
   json["case"] = c.name;
   json["pipeline"] = word.text;
   json["status"] = status;
+  json["quads_only"] = word.quads_only();
   json["model"] = source_of(c);
   json["seed"] = c.seed;
   json["variant"] = Json::object();
   for (const auto& [title, value] : c.variant) json["variant"][title] = value;
   if (cell == nullptr) return json;
+  if (cell->peer != nullptr) json["peer"] = peer_json(*cell->peer, cell->peer_version);
   json["experiment"] = cell->experiment;
   json["data"] = cell->data;
   json["place"] = cell->place;
@@ -362,7 +369,7 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   return json;
 }
 
-/// A file name need not be UTF-8; JSON must be.
+/// A file name or what a peer prints need not be UTF-8; JSON must be.
 constexpr auto kReplace = Json::error_handler_t::replace;
 
 std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) + "\n"; }
@@ -387,11 +394,14 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   json["bad_quads"] = bad_quads_json(prepared, result);
   if (log.cleanup) json["cleanup"] = cleanup_json(*log.cleanup);
   if (log.optimisation) json["optimisation"] = optimisation_json(*log.optimisation);
-  auto seconds = prepared.seconds;
+  const bool is_peer = cell != nullptr && cell->peer != nullptr;
+  auto seconds = is_peer ? StageLog{}.seconds : prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
   json["threads"] = thread_count();
   json["seconds"] = seconds_json(seconds);
-  json["meshing_seconds"] = result.seconds;
+  // A peer's time has reading and writing in it: not to be set beside this.
+  json["meshing_seconds"] = is_peer ? Json() : Json(result.seconds);
+  if (is_peer) json["peer_seconds"] = result.seconds;
   json["peak_memory_bytes"] = result.peak_memory;
   add_metrics(json, result.metrics);
   add_origin(json);
@@ -408,6 +418,9 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
   return print(json);
 }
 
+std::string peer_record(const Peer& peer, const std::string& version) {
+  return peer_json(peer, version).dump(-1, ' ', false, kReplace);
+}
 std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
 std::string versions_record() { return versions_json().dump(); }
 

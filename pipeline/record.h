@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "pipeline/runner.h"
+#include "pipeline/peer.h"
 
 namespace delquad {
 
@@ -14,6 +14,8 @@ struct CellIdentity {
   std::string experiment, data;           ///< file and folder, absolute
   std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline, as the experiment counts them
   std::string mesh_digest;                ///< of mesh.msh; empty: there is none
+  const Peer* peer = nullptr;             ///< in place of a pipeline
+  std::string peer_version = {};          ///< empty: it does not tell
 };
 
 /// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
@@ -27,6 +29,8 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
                            const CellIdentity* cell = nullptr);
 /// The metrics of a mesh from a file.
 std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
+/// What determines a peer's mesh besides the case, in one line of JSON.
+std::string peer_record(const Peer& peer, const std::string& version);
 /// Every option of a case in one line of JSON.
 std::string options_record(const Case& c);
 /// Version, commit, compiler and libraries in one line of JSON.

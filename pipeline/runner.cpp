@@ -136,22 +136,6 @@ void check_sound(const Mesh& mesh, const PreparedCase& prepared) {
       fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
 }
 
-/// One line when quads are inverted or flat.
-void warn_of_bad_quads(const std::string& label, RunResult& result) {
-  const Mesh& mesh = result.mesh;
-  const std::vector<double> etas = quad_etas(mesh);
-  const auto is_bad = [](double eta) { return !(eta > 0); };
-  const auto first = std::find_if(etas.begin(), etas.end(), is_bad);
-  if (first == etas.end()) return;
-  Vec3 centre{0, 0, 0};
-  for (const int v : mesh.quads[static_cast<std::size_t>(first - etas.begin())])
-    centre = centre + 0.25 * mesh.points[v];
-  const auto n = std::count_if(first, etas.end(), is_bad);
-  result.warnings.push_back(
-      fmt::format("{}: {} inverted or flat (eta 0), the first at ({:.6g}, {:.6g}, {:.6g})", label,
-                  n == 1 ? "1 quad is" : fmt::format("{} quads are", n), centre.x, centre.y, centre.z));
-}
-
 /// Tells bad quads in sharp corners from others, and names the worst corner.
 void count_bad_quads(const std::string& label, const PreparedCase& prepared, RunResult& result) {
   const Mesh& mesh = result.mesh;
@@ -206,6 +190,21 @@ void lift_bad_quads(const PreparedCase& prepared, const std::vector<Vec3>& nodes
 }
 
 }  // namespace
+
+void warn_of_bad_quads(const std::string& label, RunResult& result) {
+  const Mesh& mesh = result.mesh;
+  const std::vector<double> etas = quad_etas(mesh);
+  const auto is_bad = [](double eta) { return !(eta > 0); };
+  const auto first = std::find_if(etas.begin(), etas.end(), is_bad);
+  if (first == etas.end()) return;
+  Vec3 centre{0, 0, 0};
+  for (const int v : mesh.quads[static_cast<std::size_t>(first - etas.begin())])
+    centre = centre + 0.25 * mesh.points[v];
+  const auto n = std::count_if(first, etas.end(), is_bad);
+  result.warnings.push_back(
+      fmt::format("{}: {} inverted or flat (eta 0), the first at ({:.6g}, {:.6g}, {:.6g})", label,
+                  n == 1 ? "1 quad is" : fmt::format("{} quads are", n), centre.x, centre.y, centre.z));
+}
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
 

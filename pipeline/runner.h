@@ -44,6 +44,9 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, 
 RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std::string& label,
                          MeshingState state);
 
+/// Adds a line to the warnings when quads are inverted or flat.
+void warn_of_bad_quads(const std::string& label, RunResult& result);
+
 /// Meshes every patch stage by stage, puts the patches together and measures the mesh.
 /// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);

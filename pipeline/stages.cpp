@@ -241,6 +241,11 @@ void add_stage(Stage stage) {
   stages().push_back(std::move(stage));
 }
 
+bool Word::quads_only() const {
+  return result == PatchForm::kQuads && !stages.empty() &&
+         std::ranges::none_of(stages, [](const Stage* stage) { return stage->leaves_triangles; });
+}
+
 Word parse_word(const std::string& text) {
   const std::string label = "pipeline '" + text + "': ";
   if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
@@ -257,17 +262,6 @@ Word parse_word(const std::string& text) {
     word.result = stage->to;
   }
   return word;
-}
-
-std::vector<Word> parse_words(const std::vector<std::string>& texts) {
-  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
-  std::vector<Word> words;
-  for (const std::string& text : texts) {
-    for (const Word& word : words)
-      if (word.text == text) throw InputError("pipeline '" + text + "' is given twice");
-    words.push_back(parse_word(text));
-  }
-  return words;
 }
 
 }  // namespace delquad

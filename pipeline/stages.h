@@ -73,6 +73,7 @@ struct Stage {
   std::function<void(const StageInput&, PatchMesh&, StageLog&)> run;
   /// On surfaces: what it then does to all patches together. May be empty.
   std::function<void(const PatchesInSpace&, StageLog&)> finish = {};
+  bool leaves_triangles = false;  ///< among its quads, however even the boundary is
 };
 
 /// Every stage. A new idea is a new entry here, or an add_stage().
@@ -88,12 +89,12 @@ struct Word {
   std::string text;  ///< "DB"
   std::vector<const Stage*> stages;
   PatchForm result = PatchForm::kBoundary;
+  /// Triangles that are left in its mesh are an error.
+  bool quads_only() const;
 };
 
 /// Throws InputError for an empty word, an unknown letter (naming it and those known) and for letters that do
 /// not follow each other.
 Word parse_word(const std::string& text);
-/// Throws InputError for a word given twice, too.
-std::vector<Word> parse_words(const std::vector<std::string>& texts);
 
 }  // namespace delquad

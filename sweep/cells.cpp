@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <map>
 #include <string_view>
 
 #include "io/digest.h"
@@ -48,6 +49,17 @@ std::string value_of(std::string_view head, const std::string& key) {
   return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
 }
 
+/// Asked once; empty where the peer does not tell, as its cells will say.
+const std::string& version_of(const Peer& peer) {
+  static std::map<std::vector<std::string>, std::string> known;
+  const auto [at, is_new] = known.try_emplace(peer.version);
+  if (is_new) try {
+      at->second = peer_version(peer);
+    } catch (const PeerError&) {
+    }
+  return at->second;
+}
+
 }  // namespace
 
 std::string model_digest(const Case& c) {
@@ -68,8 +80,13 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
   cell.experiment = fs::absolute(experiment.file).lexically_normal().string();
   cell.data = fs::absolute(c.data_folder).lexically_normal().string();
   cell.place = place;
-  cell.key = digest(fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed,
-                                experiment.words[place[2]].text, cell.program_digest));
+  std::string pipeline = experiment.words[place[2]].text;
+  if ((cell.peer = experiment.peer_of(experiment.words[place[2]])) != nullptr) {
+    cell.peer_version = version_of(*cell.peer);
+    pipeline += peer_record(*cell.peer, cell.peer_version);
+  }
+  cell.key = digest(
+      fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed, pipeline, cell.program_digest));
   return cell;
 }
 

@@ -1,6 +1,10 @@
 #include "sweep/experiment.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -104,18 +108,6 @@ void check_case_name(const TomlTable& table, const std::string& name,
                        "' names a folder, but that of a file of results");
 }
 
-void check_comparisons(const TomlTable& table, const Case& c, const std::vector<PublishedRow>& published) {
-  std::vector<std::string> names;
-  for (const PublishedRow& row : published) names.push_back(row.name);
-  for (const auto& [word, name] : c.compare) {
-    located(table.where("compare"), [&] { return parse_word(word); });
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    const auto near = nearest_name(name, names);
-    throw InputError(table.where("compare") + ": no published row '" + name + "'" +
-                     (near ? "; did you mean '" + *near + "'?" : ""));
-  }
-}
-
 /// Up to this many characters of a value make the name of a folder.
 constexpr std::size_t kLongestValue = 40;
 
@@ -176,7 +168,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.where = table.where();
   c.folder = c.name;
   read_case_keys(table, c);
-  check_comparisons(table, c, published);
+  check_comparisons(table, c);
   table.finish();
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
@@ -187,6 +179,85 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
     c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k], choice[k]);
   }
   return c;
+}
+
+void Experiment::check_comparisons(const TomlTable& table, const Case& c) const {
+  std::vector<std::string> names;
+  for (const PublishedRow& row : published) names.push_back(row.name);
+  for (const auto& [word, name] : c.compare) {
+    located(table.where("compare"), [&] { find_pipeline(word); });
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const auto near = nearest_name(name, names);
+    throw InputError(table.where("compare") + ": no published row '" + name + "'" +
+                     (near ? "; did you mean '" + *near + "'?" : ""));
+  }
+}
+
+void Experiment::read_peer(const TomlTable& table) {
+  Peer peer;
+  peer.name = table.text("name");
+  peer.folder = file.parent_path();
+  check_case_name(table, peer.name, {});
+  if (!std::islower(static_cast<unsigned char>(peer.name[0])))
+    throw InputError(table.where("name") + ": '" + peer.name +
+                     "': the name of a peer begins with a small letter, unlike words of stages");
+  if (std::ranges::find(peers, peer.name, &Peer::name) != peers.end())
+    throw InputError(table.where("name") + ": a second peer '" + peer.name + "'");
+  const auto read_command = [&](const char* key) {
+    std::vector<std::string> command = table.texts(key);
+    if (!command.empty() && !command[0].empty()) return command;
+    throw InputError(
+        fmt::format("{}: '{}' is empty: expected a program and its arguments", table.where(key), key));
+  };
+  const auto read_format = [&](const char* key, const std::vector<std::string>& known,
+                               std::string& extension) {
+    const std::string format = table.text(key, extension.substr(1));
+    if (std::ranges::find(known, format) == known.end())
+      throw InputError(fmt::format("{}: '{}' is '{}': expected one of {}", table.where(key), key, format,
+                                   fmt::join(known, ", ")));
+    extension = "." + format;
+  };
+  peer.command = read_command("command");
+  for (const char* placeholder : {"{input}", "{output}"})
+    if (std::ranges::none_of(peer.command,
+                             [&](const std::string& w) { return w.find(placeholder) != w.npos; }))
+      throw InputError(fmt::format("{}: 'command' lacks {}", table.where("command"), placeholder));
+  peer.version = read_command("version");
+  read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
+  read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
+  if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);
+  peer.keeps_boundary = table.flag("keeps_boundary", peer.keeps_boundary);
+  table.finish();
+  peers.push_back(std::move(peer));
+}
+
+const Peer* Experiment::peer_of(const Word& word) const {
+  if (!word.stages.empty()) return nullptr;
+  return &*std::ranges::find(peers, word.text, &Peer::name);
+}
+
+Word Experiment::find_pipeline(const std::string& text) const {
+  const bool is_peer = std::ranges::find(peers, text, &Peer::name) != peers.end();
+  if (is_peer) return {text, {}, PatchForm::kQuads};
+  std::vector<std::string> names;
+  for (const Peer& peer : peers) names.push_back(peer.name);
+  const auto near = nearest_name(text, names);
+  try {
+    return parse_word(text);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + (near ? "; did you mean '" + *near + "'?" : ""));
+  }
+}
+
+std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
+  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
+  std::vector<Word> found;
+  for (const std::string& text : texts) {
+    if (std::ranges::find(found, text, &Word::text) != found.end())
+      throw InputError("pipeline '" + text + "' is given twice");
+    found.push_back(find_pipeline(text));
+  }
+  return found;
 }
 
 const std::vector<StepTime>& step_times_of_tables() {
@@ -211,11 +282,16 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.file = file;
   experiment.title = table.text("title", file.stem().string());
   const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
-  experiment.words = located(table.where("pipelines"), [&] { return parse_words(words); });
+  for (const TomlTable& peer : table.tables("peer")) experiment.read_peer(peer);
+  experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
   if (table.has("reference"))
     experiment.published = read_published(file.parent_path() / table.text("reference"));
   experiment.step_times = table.flag("step_times", false);
-  if (const auto ratio = table.optional_table("ratio")) experiment.ratio = read_ratio(*ratio);
+  if (const auto ratio = table.optional_table("ratio")) {
+    experiment.ratio = read_ratio(*ratio);
+    for (const std::string& text : {experiment.ratio->numerator, experiment.ratio->denominator})
+      located(ratio->where(), [&] { experiment.find_pipeline(text); });
+  }
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
 

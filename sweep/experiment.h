@@ -8,6 +8,7 @@
 
 #include "io/toml_reader.h"
 #include "pipeline/case.h"
+#include "pipeline/peer.h"
 #include "pipeline/stages.h"
 
 namespace delquad {
@@ -53,13 +54,20 @@ class Experiment {
  public:
   std::string title;
   std::filesystem::path file;
-  std::vector<Word> words;
+  std::vector<Word> words;  ///< and peers, as words without stages
+  std::vector<Peer> peers;
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
   std::vector<Axis> axes;
   bool step_times = false;                                 ///< the table has a column for each step's time
   std::optional<LinfStudy> linf;                           ///< then there are no cases
   long long max_elements = MeshingOptions{}.max_elements;  ///< of every case
+
+  /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
+  /// twice.
+  std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
+  /// Null for a word of stages.
+  const Peer* peer_of(const Word& word) const;
 
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
@@ -73,6 +81,9 @@ class Experiment {
 
  private:
   void read_matrix(const TomlTable& matrix);
+  void read_peer(const TomlTable& table);
+  Word find_pipeline(const std::string& text) const;
+  void check_comparisons(const TomlTable& table, const Case& c) const;
 
   Case defaults_;  ///< what the file says for every case
   std::vector<TomlTable> cases_;

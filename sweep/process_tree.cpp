@@ -21,6 +21,7 @@
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
+#include "pipeline/peer.h"
 
 namespace delquad {
 namespace {
@@ -154,6 +155,8 @@ class Family {
       }
     } catch (const InputError& error) {
       fail("bad input", error.what());
+    } catch (const PeerError& error) {
+      fail("peer", error.what());
     } catch (const std::bad_alloc&) {
       fail("memory", limits_.bytes > 0
                          ? "out of memory: more than " + bytes_text(limits_.bytes) + " (--memory)"

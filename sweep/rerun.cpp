@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -47,6 +48,20 @@ void compare_objects(const std::string& what, const Json& before, const Json& no
   }
 }
 
+/// Removed at the end.
+struct TemporaryFolder {
+  std::filesystem::path path;
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "delquad-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw InputError(pattern + ": cannot be made");
+    path = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
 }  // namespace
 
 Rerun rerun_record(const std::filesystem::path& file) {
@@ -54,7 +69,7 @@ Rerun rerun_record(const std::filesystem::path& file) {
   Experiment experiment =
       Experiment::read(record.at("experiment").get<std::string>(), record.at("data").get<std::string>());
   const auto pipeline = record.at("pipeline").get<std::string>();
-  experiment.words = {parse_word(pipeline)};
+  experiment.words = experiment.find_pipelines({pipeline});
   experiment.max_elements = record.at("options").at("max_elements");
   const auto place = record.at("place").get<std::array<std::size_t, 3>>();
   const auto name = record.at("case").get<std::string>();
@@ -68,13 +83,19 @@ Rerun rerun_record(const std::filesystem::path& file) {
   const CellIdentity now = identify(experiment, c, model_digest(c), {place[0], place[1], 0});
   compare_objects("option", record.at("options"), Json::parse(options_record(c)), rerun.differences);
   compare_objects("version", record.at("versions"), Json::parse(versions_record()), rerun.differences);
+  if (now.peer != nullptr)
+    compare_objects("peer", record.at("peer"), Json::parse(peer_record(*now.peer, now.peer_version)),
+                    rerun.differences);
   const Json& digests = record.at("digests");
   if (digests.at("model") != now.model_digest) rerun.differences.push_back("the model");
   if (digests.at("program") != now.program_digest) rerun.differences.push_back("the program's bytes");
   if (record.at("seed") != c.seed) rerun.differences.push_back("the seed");
 
   Progress silent;
-  const RunResult result = run_word(c, prepare_case(c), experiment.words[0], silent);
+  const TemporaryFolder scratch;
+  const PreparedCase prepared = prepare_case(c);
+  const RunResult result = now.peer != nullptr ? run_peer(*now.peer, c, prepared, pipeline, scratch.path)
+                                               : run_word(c, prepared, experiment.words[0], silent);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);
   rerun.same_mesh = digests.at("mesh") == digest(mesh.view());

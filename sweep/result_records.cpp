@@ -20,7 +20,7 @@ using namespace nlohmann::literals;
 using Json = nlohmann::ordered_json;
 
 void add_step_times(const Json& seconds, std::map<std::string, double>& values) {
-  double total = 0;
+  double total = seconds.value("peer", 0.0);
   for (const StepTime& time : step_times_of_tables()) {
     if (*time.step == 0) values[time.key] = total;
     const auto at = seconds.find(time.step);
@@ -39,6 +39,7 @@ CellRecord parse(const Json& json) {
     record.group += (record.variant.empty() ? "@" : ",") + title + "=" + value.get<std::string>();
     record.variant.emplace_back(title, value.get<std::string>());
   }
+  record.quads_only = json.value("quads_only", true);
   if (json.contains("place")) json.at("place").get_to(record.place);
   if (const auto status = json.at("status").get<std::string>(); status != "ok") {
     json.at("reason").get_to(record.reason);
@@ -46,9 +47,11 @@ CellRecord parse(const Json& json) {
     record.kind = json.value("kind", "");
     return record;
   }
-  for (const auto& [key, value] : json.at("metrics").items())
-    record.values[key] = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-  record.values["seconds"] = json.at("meshing_seconds").get<double>();
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  };
+  for (const auto& [key, value] : json.at("metrics").items()) record.values[key] = number(value);
+  record.values["seconds"] = number(json.at("meshing_seconds"));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   const Json size = json.value("/options/size"_json_pointer, Json::object());

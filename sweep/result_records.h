@@ -19,6 +19,7 @@ struct CellRecord {
   std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline; zeros where it does not say
   std::string kind = {};                  ///< of the reason: as in failure_record()
   bool skipped = false;                   ///< for that reason, and not failed
+  bool quads_only = false;                ///< triangles that are left are an error
   std::vector<std::string> warnings = {};
   std::string uniform_size = {};      ///< delta, where it is the same everywhere
   std::filesystem::path folder = {};  ///< of the cell

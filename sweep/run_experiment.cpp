@@ -42,6 +42,11 @@ struct Cell {
   fs::path folder;
 };
 
+/// Where a peer works.
+fs::path peer_scratch(const fs::path& cell) {
+  return cell.parent_path() / ("." + cell.filename().string() + ".peer");
+}
+
 bool is_done(const Cell& cell) {
   const auto head = read_head(cell.folder);
   return head && head->key == cell.identity.key && head->status == "ok";
@@ -71,9 +76,16 @@ struct Work {
 
   void finish(const Cell& cell) {
     const std::string label = c.folder + " " + cell.word->text;
-    RunResult result = finish_meshing(c, *prepared, c.name + " " + cell.word->text, std::move(state));
+    const fs::path scratch = peer_scratch(cell.folder);
+    const std::string name = c.name + " " + cell.word->text;
+    RunResult result = cell.identity.peer != nullptr
+                           ? run_peer(*cell.identity.peer, c, *prepared, name, scratch)
+                           : finish_meshing(c, *prepared, name, std::move(state));
     for (const std::string& warning : result.warnings) say("warning: " + warning);
     write_cell(cell.folder, [&](const fs::path& at) {
+      if (fs::exists(scratch))
+        for (const auto& entry : fs::directory_iterator(scratch))
+          fs::rename(entry, at / entry.path().filename());
       const Stopwatch writing;
       write_msh(at / "mesh.msh", result.mesh);
       write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
@@ -87,10 +99,17 @@ struct Work {
         out << run_record(c, *prepared, *cell.word, result, &identity);
       });
     });
+    remove_scratch(cell);
     progress->done();
   }
 
+  void remove_scratch(const Cell& cell) const {
+    std::error_code ignored;
+    fs::remove_all(peer_scratch(cell.folder), ignored);
+  }
+
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
+    remove_scratch(cell);
     try {
       write_cell(cell.folder, [&](const fs::path& at) {
         write_file_atomically(at / "record.json", [&](std::ostream& out) {
@@ -107,9 +126,10 @@ struct Work {
   }
 };
 
-/// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows.
+/// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows. Peers
+/// come right after the root, without a stage.
 struct Branch {
-  const Stage* stage = nullptr;  ///< null at the root
+  const Stage* stage = nullptr;  ///< null at the root and for a peer
   const Cell* cell = nullptr;    ///< null where no pipeline ends here
   std::vector<Branch> next;
 };
@@ -123,6 +143,7 @@ Branch make_tree(const std::vector<Cell>& cells) {
       if (found == at->next.end()) found = at->next.insert(found, Branch{stage, nullptr, {}});
       at = &*found;
     }
+    if (cell.word->stages.empty()) at = &root.next.emplace_back();
     at->cell = &cell;
   }
   return root;
@@ -160,9 +181,9 @@ Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
   job.failed = failure_of(work, branch);
   job.work = [work, &branch, &end, is_leaf] {
     for (const Branch* at = &branch;; at = &at->next[0]) {
-      if (at->stage == nullptr)
+      if (at->stage == nullptr && at->cell == nullptr)
         work->prepare();
-      else
+      else if (at->stage != nullptr)
         run_stage(*at->stage, work->c, *work->prepared, work->state);
       if (at == &end) break;
     }

@@ -167,7 +167,7 @@ class Tabulation {
         outcome_.table.notes.push_back(fmt::format(
             "{} {}: {} of {} runs failed, the first: {}", samples.group, samples.pipeline,
             samples.failed.size(), samples.failed.size() + samples.done.size(), samples.failed[0]->reason));
-      if (makes_quads(*samples.done[0]))
+      if (samples.done[0]->quads_only)
         for (const double n : samples.of("n_triangles"))
           outcome_.leftover_triangles += static_cast<long long>(n);
     }

@@ -41,8 +41,6 @@ TEST(Words, MistakesNameTheLetter) {
   expect_input_error([] { parse_word("B"); }, {"'B' starts from triangles", "starts from a boundary"});
   expect_input_error([] { parse_word("FD"); }, {"'D' starts from a boundary", "leaves triangles"});
   expect_input_error([] { parse_word("DBB"); }, {"'B' starts from triangles", "leaves quads"});
-  expect_input_error([] { parse_words({"F", "DB", "F"}); }, {"'F'", "twice"});
-  expect_input_error([] { parse_words({}); }, {"no pipeline"});
 }
 
 TEST(Words, LettersDiffer) {

@@ -19,7 +19,7 @@ fs::path data_folder() {
 
 Table run(const char* file, const std::vector<std::string>& words) {
   Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / file, data_folder());
-  e.words = parse_words(words);
+  e.words = e.find_pipelines(words);
   const testing_support::TemporaryFolder folder;
   return run_experiment(e, folder / "out").table;
 }

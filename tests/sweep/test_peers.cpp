@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/mesh_io.h"
+#include "pipeline/run_program.h"
+#include "sweep/rerun.h"
+#include "sweep/result_records.h"
+#include "sweep/run_experiment.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+using testing_support::read_text;
+using testing_support::write_text;
+
+const std::string kSquare =
+    "[[case]]\nname = \"square\"\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+
+/// Experiments with meshers that are shell scripts, which get the files to read and to write.
+class Peers : public testing::Test {
+ protected:
+  /// The entry of a script that works on $1 and $2.
+  std::string peer(const std::string& name, const std::string& script, const std::string& keys = "") {
+    write_text(folder_ / (name + ".sh"), "#!/bin/sh\n" + script + "\n");
+    fs::permissions(folder_ / (name + ".sh"), fs::perms::owner_all);
+    return "[[peer]]\nname = \"" + name + "\"\ncommand = [\"./" + name +
+           ".sh\", \"{input}\", \"{output}\"]\nversion = [\"echo\", \"1.0\"]\ninput = \"msh\"\n" + keys;
+  }
+  Experiment experiment(const std::string& pipelines, const std::string& text) {
+    return Experiment::read(write_text(folder_ / "peers.toml", "pipelines = " + pipelines + "\n" + text));
+  }
+  std::string out() const { return (folder_ / "out").string(); }
+  /// A mesh of the square by our own, for scripts to copy.
+  std::string good_mesh() {
+    const fs::path file = write_text(folder_ / "own.toml", "pipelines = [\"DB\"]\n" + kSquare);
+    run_experiment(Experiment::read(file), folder_ / "own");
+    return (folder_ / "own" / "square" / "DB" / "mesh.msh").string();
+  }
+  std::map<std::string, CellRecord> records() const {
+    std::map<std::string, CellRecord> by_name;
+    for (CellRecord& record : read_records(out())) by_name[record.pipeline] = std::move(record);
+    return by_name;
+  }
+
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Peers, AreMeasuredAsOurs) {
+  const std::string text = peer("copy", "echo hello; cp '" + good_mesh() + "' $2") + kSquare;
+  const Experiment e = experiment("[\"DB\", \"copy\"]", text);
+  const Outcome outcome = run_experiment(e, out());
+  EXPECT_EQ(outcome.others_failed + outcome.bad_inputs, 0);
+  const auto cells = records();
+  for (const char* key : {"n_quads", "eta_mean", "eta_worst", "tau"})
+    EXPECT_EQ(cells.at("copy").values.at(key), cells.at("DB").values.at(key)) << key;
+  EXPECT_TRUE(std::isnan(cells.at("copy").values.at("seconds")));
+  EXPECT_GT(cells.at("copy").values.at("seconds_total"), 0);
+  const fs::path cell = fs::path(out()) / "square" / "copy";
+  EXPECT_EQ(read_text(cell / "peer.log"), "hello\n");
+  EXPECT_EQ(read_msh(cell / "input.msh").lines.size(), 16u);
+  const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
+  EXPECT_EQ(record.at("peer").at("version"), "1.0");
+  EXPECT_EQ(record.at("peer").at("command").size(), 3u);
+  const Rerun again = rerun_record(cell / "record.json");
+  EXPECT_TRUE(again.same_mesh);
+  EXPECT_TRUE(again.differences.empty());
+}
+
+TEST_F(Peers, AnotherVersionIsAnotherCell) {
+  const std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kSquare;
+  run_experiment(experiment("[\"copy\"]", text), out());
+  EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "done           square copy\n");
+  std::string newer = text;
+  newer.replace(newer.find("1.0"), 3, "2.0");
+  EXPECT_EQ(list_cells(experiment("[\"copy\"]", newer), out()), "outdated       square copy\n");
+}
+
+/// Whatever a peer does, it costs its own cell and no other.
+TEST_F(Peers, FailAlone) {
+  const std::string good = good_mesh();
+  Mesh broken = read_msh(good);
+  broken.quads.pop_back();
+  broken.quad_region.pop_back();
+  broken.lines.clear();
+  broken.line_curve.clear();
+  write_msh(folder_ / "hole.msh", broken);
+  Mesh moved = read_msh(good);
+  for (Vec3& p : moved.points) p.x += p.y * (1 - p.y) * 1e-3;  // as much area, another boundary
+  write_msh(folder_ / "moved.msh", moved);
+  Mesh folded = read_msh(good);
+  std::swap(folded.quads[0][1], folded.quads[0][2]);
+  write_msh(folder_ / "folded.msh", folded);
+  const auto copy = [&](const char* name) { return "cp '" + (folder_ / name).string() + "' $2"; };
+  const std::string text = peer("crash", "kill -SEGV $$") + peer("code", "echo 'Error: no luck'; exit 3") +
+                           peer("garbage", "head -c 3000 /dev/urandom > $2") + peer("mute", "true") +
+                           peer("empty", ": > $2") + peer("hole", copy("hole.msh")) +
+                           peer("moved", copy("moved.msh")) + peer("folded", copy("folded.msh")) +
+                           "[[peer]]\nname = \"absent\"\ncommand = [\"no-such-mesher\", \"{input}\", "
+                           "\"{output}\"]\nversion = [\"no-such-mesher\", \"-v\"]\n" +
+                           kSquare;
+  const Outcome outcome = run_experiment(
+      experiment("[\"crash\", \"code\", \"garbage\", \"DB\", \"mute\", \"empty\", \"hole\", \"moved\", "
+                 "\"folded\", \"absent\"]",
+                 text),
+      out());
+  EXPECT_EQ(outcome.others_failed, 9);
+  auto cells = records();
+  EXPECT_EQ(cells.at("DB").reason, "");
+  cells.erase("DB");
+  const std::map<std::string, std::string> reasons = {{"crash", "ended by signal 11"},
+                                                      {"code", "ended with exit code 3: Error: no luck"},
+                                                      {"garbage", "its mesh cannot be read: output.msh"},
+                                                      {"mute", "wrote no mesh"},
+                                                      {"empty", "its mesh cannot be read"},
+                                                      {"hole", "its mesh covers 93.75 %"},
+                                                      {"moved", "boundary edges are not in its mesh"},
+                                                      {"folded", "is not sound"},
+                                                      {"absent", "no-such-mesher: not found"}};
+  for (const auto& [name, record] : cells) {
+    EXPECT_EQ(record.kind, "peer") << name;
+    EXPECT_NE(record.reason.find(reasons.at(name)), std::string::npos) << name << ": " << record.reason;
+  }
+}
+
+/// A mesh whose elements run the other way round is a good mesh.
+TEST_F(Peers, MayRunClockwise) {
+  Mesh turned = read_msh(good_mesh());
+  for (auto& v : turned.quads) std::ranges::reverse(v);
+  write_msh(folder_ / "turned.msh", turned);
+  const std::string text = peer("turned", "cp '" + (folder_ / "turned.msh").string() + "' $2") + kSquare;
+  run_experiment(experiment("[\"turned\"]", text), out());
+  EXPECT_NEAR(records().at("turned").values.at("eta_worst"), 1, 1e-9);
+}
+
+/// Nothing that a peer started outlives the limit of its cell.
+TEST_F(Peers, HangUntilTheTimeout) {
+  const std::string pid = (folder_ / "pid").string();
+  const std::string text = peer("hang", "sleep 600 & echo $! > '" + pid + "'; wait") + kSquare;
+  SweepOptions options;
+  options.limits.seconds = 1;
+  EXPECT_EQ(run_experiment(experiment("[\"hang\", \"DB\"]", text), out(), options).others_failed, 1);
+  EXPECT_EQ(records().at("hang").kind, "timeout");
+  EXPECT_EQ(records().at("DB").reason, "");
+  const int sleeper = std::stoi(read_text(pid));
+  // Killed, and then reaped by whoever inherits it: a dead one may still be in the list.
+  const auto runs = [&] {
+    std::ifstream stat("/proc/" + std::to_string(sleeper) + "/stat");
+    std::string number, name, state;
+    return static_cast<bool>(stat >> number >> name >> state) && state != "Z";
+  };
+  for (int k = 0; k < 500 && runs(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(runs());
+  EXPECT_FALSE(fs::exists(fs::path(out()) / "square" / ".hang.peer"));
+}
+
+TEST_F(Peers, ProgramsEndWithTheirLimit) {
+  const ProgramRun run = run_program({"sleep", "600"}, folder_.path(), folder_ / "log", 1);
+  EXPECT_TRUE(WIFSIGNALED(run.status));
+  EXPECT_EQ(run_program({"no-such-program"}, folder_.path(), folder_ / "log").error, ENOENT);
+}
+
+TEST_F(Peers, BadEntriesAreNamed) {
+  const auto expect = [&](const std::string& entry, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { experiment("[\"DB\"]", "[[peer]]\n" + entry + kSquare); }, parts);
+  };
+  const std::string version = "version = [\"true\"]\n", name = "name = \"x\"\n";
+  expect(name + version + "command = [\"x\", \"{input}\"]\n", {"{output}", "command"});
+  expect(name + version + "command = []\n", {"command", "empty"});
+  expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
+  const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";
+  expect("name = \"Gmsh\"\n" + command, {"Gmsh", "small letter"});
+  expect(name + command + "output = \"vtu\"\n", {"vtu", "msh, obj"});
+  expect(name + command + "[[peer]]\n" + name + command, {"second peer"});
+  expect_input_error([&] { experiment("[\"y\"]", "[[peer]]\n" + name + command + kSquare); }, {"'y'"});
+  expect_input_error([&] { experiment("[\"x\", \"x\"]", "[[peer]]\n" + name + command + kSquare); },
+                     {"'x'", "twice"});
+}
+
+/// Gmsh itself: keeps the boundary, and its size is ours, number or field.
+TEST_F(Peers, GmshMeshesWhatWeMesh) {
+  if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
+  const std::string text =
+      "[[peer]]\nname = \"gmsh\"\nversion = [\"gmsh\", \"--version\"]\n"
+      "command = [\"gmsh\", \"{input}\", \"-2\", \"-o\", \"{output}\", \"-nt\", \"1\", \"-setnumber\", "
+      "\"Mesh.RecombineAll\", \"1\", \"-setnumber\", \"Mesh.Algorithm\", \"6\"]\n"
+      "[[case]]\nname = \"graded\"\nsize = \"0.02 + 0.2*x\"\n"
+      "[[case.loop]]\nrectangle = [[0, 0], [1, 1]]\n[[case.loop]]\ncircle = { centre = [0.5, 0.5], radius = "
+      "0.2 }\n"
+      "region = \"disc\"\n"
+      "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n";
+  run_experiment(experiment("[\"DB\", \"gmsh\"]", text), out());
+  std::map<std::string, double> quads;
+  for (const CellRecord& record : read_records(out())) {
+    EXPECT_EQ(record.reason, "") << record.group << " " << record.pipeline;
+    quads[record.name + record.pipeline] = record.values.at("n_elements");
+  }
+  for (const char* name : {"graded", "turned"})
+    EXPECT_NEAR(quads.at(std::string(name) + "gmsh") / quads.at(std::string(name) + "DB"), 1.1, 0.3) << name;
+}
+
+}  // namespace
+}  // namespace delquad
