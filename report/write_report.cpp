@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <ostream>
 
@@ -31,35 +32,59 @@ struct Study {
   StudyResults results;
 };
 
+/// Results without cells: a table, and drawings.
+struct TableStudy {
+  std::string name;
+  Table table;
+  std::vector<fs::path> drawings;
+};
+
 struct Contents {
   std::vector<Study> studies;
+  std::vector<TableStudy> tables;
   std::vector<std::pair<std::string, std::string>> left_out;  ///< folder and reason
 };
 
 bool has_study(const fs::path& folder) { return fs::exists(folder / "study.json"); }
+bool has_results(const fs::path& folder) { return has_study(folder) || fs::exists(folder / "table.json"); }
+
+/// Of what there is in a folder, in the order of the names.
+std::vector<fs::path> list(const fs::path& folder, const std::function<bool(const fs::path&)>& wanted) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (wanted(at->path())) found.push_back(at->path());
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::ranges::sort(found);
+  return found;
+}
+
+void add_results(const fs::path& folder, Contents& contents) {
+  const std::string name = fs::absolute(folder).lexically_normal().filename().string();
+  if (has_study(folder) || !has_results(folder)) {
+    contents.studies.push_back({name, read_results(folder)});
+    return;
+  }
+  constexpr std::uintmax_t kMostBytes = 200'000;  // of a drawing
+  const auto is_drawing = [](const fs::path& file) {
+    return file.extension() == ".svg" && fs::is_regular_file(file) && fs::file_size(file) <= kMostBytes;
+  };
+  contents.tables.push_back({name, read_table(folder / "table.json"), list(folder, is_drawing)});
+}
 
 Contents read_contents(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> inside;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->is_directory() && has_study(at->path())) inside.push_back(at->path());
-  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
-  std::ranges::sort(inside);
+  const std::vector<fs::path> inside = list(folder, has_results);
   Contents contents;
-  if (has_study(folder) || inside.empty()) {
-    contents.studies.push_back(
-        {fs::absolute(folder).lexically_normal().filename().string(), read_results(folder)});
+  if (has_results(folder) || inside.empty()) {
+    add_results(folder, contents);
     return contents;
   }
-  for (const fs::path& study : inside) {
-    const std::string name = study.filename().string();
-    try {
-      contents.studies.push_back({name, read_results(study)});
+  for (const fs::path& results : inside) try {
+      add_results(results, contents);
     } catch (const InputError& reason) {
-      contents.left_out.emplace_back(name, reason.what());
+      contents.left_out.emplace_back(results.filename().string(), reason.what());
     }
-  }
-  if (contents.studies.empty()) throw InputError(contents.left_out[0].second);
+  if (contents.studies.empty() && contents.tables.empty()) throw InputError(contents.left_out[0].second);
   return contents;
 }
 
@@ -103,6 +128,7 @@ class Page {
     json["program"] = Json::parse(versions_record());
     json["studies"] = Json::array();
     for (const Study& study : contents_.studies) json["studies"].push_back(study_json(study));
+    for (const TableStudy& study : contents_.tables) json["studies"].push_back(study_json(study));
     json["left_out"] = contents_.left_out;
     out_ << "<script type=\"application/json\" id=\"data\">" << for_script(json) << "</script>\n";
     if (in_space_) out_ << "<script>" << kThreeScript << "</script>\n";
@@ -124,6 +150,21 @@ class Page {
       if (i == 0 || records[i].group != records[i - 1].group)
         json["sheets"].push_back(sheet_json(study, records[i]));
       add_cell(records[i], json["sheets"].back());
+    }
+    return json;
+  }
+
+  static Json study_json(const TableStudy& study) {
+    Json json = {{"name", study.name},
+                 {"title", study.table.title},
+                 {"tables", {table_json(study.table), Json()}},
+                 {"growth", Json::array()},
+                 {"sheets", Json::array()},
+                 {"drawings", Json::array()}};
+    for (const fs::path& file : study.drawings) {
+      std::ifstream in(file, std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      json["drawings"].push_back({{"name", file.stem().string()}, {"svg", text}});
     }
     return json;
   }

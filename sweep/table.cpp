@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "mesh/error.h"
 
 namespace delquad {
 namespace {
@@ -188,7 +191,13 @@ std::string to_json(const Table& table) {
       if (values.contains(column.key)) json[column.key] = values.at(column.key);
     return json;
   };
-  Json json = {{"title", table.title}, {"rows", Json::array()}, {"notes", table.notes}};
+  Json json = {{"title", table.title},
+               {"heads", {table.group_title, table.name_title}},
+               {"columns", Json::array()},
+               {"rows", Json::array()},
+               {"notes", table.notes}};
+  for (const TableColumn& column : table.columns)
+    json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
   for (const TableRow& row : table.rows) {
     Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
     if (!row.failure.empty() || !row.skipped.empty()) {
@@ -210,6 +219,33 @@ std::string to_json(const Table& table) {
     json["rows"].push_back(std::move(line));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Table read_table(const std::filesystem::path& file) {
+  using Json = nlohmann::ordered_json;
+  try {
+    std::ifstream in(file);
+    const Json json = Json::parse(in);
+    Table table;
+    json.at("title").get_to(table.title);
+    table.group_title = json.at("heads").at(0);
+    table.name_title = json.at("heads").at(1);
+    json.at("notes").get_to(table.notes);
+    for (const Json& column : json.at("columns"))
+      table.columns.push_back({column.at("key"), column.at("title"), column.at("digits")});
+    for (const Json& line : json.at("rows")) {
+      TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};
+      if (line.at("status") != "ok")
+        (line.at("status") == "failed" ? row.failure : row.skipped) = line.at("reason");
+      if (line.contains("values"))
+        for (const auto& [key, value] : line["values"].items())
+          if (!value.is_null()) row.values[key] = value;
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: is no table of results: {}", file.string(), error.what()));
+  }
 }
 
 }  // namespace delquad

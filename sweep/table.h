@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,5 +53,7 @@ std::string to_tex(const Table& table);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);
 std::string to_json(const Table& table);
+/// What to_json() has written, but for half-widths and marks. Throws InputError naming the file.
+Table read_table(const std::filesystem::path& file);
 
 }  // namespace delquad

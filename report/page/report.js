@@ -46,13 +46,23 @@ function growthNode(growth, words) {
       : "No case comes in sizes enough here to say by which power of N time grows."));
 }
 
+/// With fewer cells of a word there is nothing to see in a chart of time against size.
+const kFewestCells = 3;
+const countCells = (study, word) => study.growth.reduce((n, g) => n + (g.word === word ? g.points.length : 0), 0);
+
+function drawingsNode(drawings) {
+  return el("div", { class: "drawings" }, drawings.map(({ name, svg: text }) => el("figure", {},
+    el("img", { src: `data:image/svg+xml,${encodeURIComponent(text)}`, alt: name, loading: "lazy" }), el("figcaption", {}, name))));
+}
+
 function studyNode(study, glossary, sheets) {
   const words = [...new Set(study.sheets.flatMap((sheet) => sheet.cells.map((cell) => cell.word)))];
   const section = el("section", { class: "study", id: study.name }, el("h2", {}, study.title));
   const [table, pairs] = study.tables;
   if (table) section.append(...tableNode(table, glossary.byKey).filter(Boolean));
   if (pairs) section.append(el("details", { class: "pairs" }, el("summary", {}, "Pairs of words, compared over all cases"), ...tableNode(pairs, {})));
-  if (study.growth.length > 0) section.append(growthNode(study.growth, words));
+  if (study.growth.some((g) => g.law || countCells(study, g.word) >= kFewestCells)) section.append(growthNode(study.growth, words));
+  if (study.drawings) section.append(drawingsNode(study.drawings));
   for (const data of study.sheets) {
     const sheet = new Sheet(data, words, glossary);
     sheets.push(sheet);

@@ -1,5 +1,6 @@
 // Surfaces, turned together. All are drawn by one WebGL renderer, of which browsers allow only a few.
 
+const kAspect = 1.25;
 let sharedRenderer = null;
 function renderer() {
   sharedRenderer = sharedRenderer || new THREE.WebGLRenderer({ antialias: true, alpha: true });
@@ -92,12 +93,22 @@ class SpaceView {
     this.camera = new THREE.OrthographicCamera(-r, r, r, -r, -10 * r, 30 * r);
     this.camera.up.set(0, 0, 1);
     this.target = this.middle.clone();
+    this.first = mesh;
     this.start();
   }
   start() {
     this.target.copy(this.middle);
     this.camera.position.copy(this.middle).add(new THREE.Vector3(1, -1.4, 0.9).setLength(10 * this.radius));
-    this.camera.zoom = 1.15;
+    this.camera.lookAt(this.target);
+    this.camera.updateMatrixWorld();
+    let wide = 0, high = 0;
+    const p = new THREE.Vector3();
+    for (let i = 0; i < this.first.x.length; ++i) {
+      p.set(this.first.x[i], this.first.y[i], this.first.z[i]).applyMatrix4(this.camera.matrixWorldInverse);
+      wide = Math.max(wide, Math.abs(p.x));
+      high = Math.max(high, Math.abs(p.y));
+    }
+    this.camera.zoom = 0.94 * this.radius * Math.min(kAspect / (wide || 1), 1 / (high || 1));
   }
   reset() {
     this.start();
@@ -116,7 +127,7 @@ class SpaceView {
   async add(canvas, info, marks) {
     const mesh = await unpackMesh(info);
     if (!this.camera) this.place(mesh);
-    canvas.style.aspectRatio = 1.25;
+    canvas.style.aspectRatio = kAspect;
     const picture = { canvas, marks, ...makeScene(mesh, this.colours) };
     this.pictures.push(picture);
     const controls = new THREE.OrbitControls(this.camera, canvas);
