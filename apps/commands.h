@@ -38,6 +38,8 @@ struct ReportArguments {
 };
 int report_command(const ReportArguments& arguments);
 
+int schema_command();
+
 struct RerunArguments {
   std::filesystem::path record;
 };

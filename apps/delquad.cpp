@@ -109,6 +109,10 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   report->add_option("-o,--output", arguments.output, "file to write (.html)")->required();
 }
 
+void add_schema(CLI::App& app) {
+  app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
+}
+
 void add_mesh(CLI::App& app, MeshArguments& arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option("model", arguments.model,
@@ -207,6 +211,7 @@ int run_command_line(int argc, char** argv) {
   add_run(app, run);
   add_records(app, tables, rerun);
   add_report(app, report);
+  add_schema(app);
   add_mesh(app, mesh);
   add_metrics(app, metrics);
   add_compare(app, compare);
@@ -220,6 +225,7 @@ int run_command_line(int argc, char** argv) {
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("tables")) return tables_command(tables);
   if (app.got_subcommand("report")) return report_command(report);
+  if (app.got_subcommand("schema")) return schema_command();
   if (app.got_subcommand("rerun")) return rerun_command(rerun);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);

@@ -5,6 +5,7 @@
 #include "apps/commands.h"
 #include "pipeline/located.h"
 #include "sweep/run_experiment.h"
+#include "sweep/schema.h"
 
 namespace delquad {
 
@@ -62,6 +63,11 @@ int tables_command(const TablesArguments& arguments) {
   const std::vector<std::string> errors = write_tables(arguments.folder, outcome);
   for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
   return errors.empty() ? kDone : kBadInput;
+}
+
+int schema_command() {
+  fmt::print("{}", experiment_schema());
+  return kDone;
 }
 
 }  // namespace delquad

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "mesh/error.h"
@@ -361,6 +362,13 @@ void TomlTable::finish() const {
     }
     throw InputError(message);
   }
+}
+
+void TomlTable::finish(const TomlKeys& keys) const {
+  for (const std::string& name : data_->asked)
+    if (std::ranges::find(keys, name, &TomlKey::name) == keys.end())
+      throw std::logic_error("the key '" + data_->name(name) + "' is read but not listed");
+  finish();
 }
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/toml_keys.h"
 #include "mesh/vec.h"
 
 namespace delquad {
@@ -71,6 +72,9 @@ class TomlTable {
 
   /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
   void finish() const;
+  /// The same for a table with these keys; a std::logic_error when another one was asked for, so that the
+  /// list is what is read.
+  void finish(const TomlKeys& keys) const;
 
  private:
   struct Data;

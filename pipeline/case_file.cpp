@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cad/example_models.h"
+#include "pipeline/case_keys.h"
 #include "pipeline/located.h"
 #include "pipeline/model_file.h"
 #include "pipeline/prepare_surface.h"
@@ -45,7 +46,7 @@ void read_cleanup(const TomlTable& table, CleanupOptions& options) {
   options.tolerance = number_between(table, "tolerance", 0, 1, options.tolerance);
   constexpr long long kMostSeed = std::numeric_limits<long long>::max();
   options.seed = integer_between(table, "seed", 0, kMostSeed, options.seed);
-  table.finish();
+  table.finish(cleanup_keys());
 }
 
 void read_optimisation(const TomlTable& table, OptimisationOptions& options) {
@@ -53,7 +54,7 @@ void read_optimisation(const TomlTable& table, OptimisationOptions& options) {
   options.iterations = static_cast<int>(integer_between(table, "iterations", 1, 100'000, options.iterations));
   options.size = number_at_least(table, "size", 0, options.size);
   options.alignment = number_at_least(table, "alignment", 0, options.alignment);
-  table.finish();
+  table.finish(optimisation_keys());
 }
 
 SizeSource read_source(const TomlTable& table) {
@@ -66,7 +67,7 @@ SizeSource read_source(const TomlTable& table) {
                     table.positive_number("radius_far")};
   if (source.radius_far <= source.radius_near)
     throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
-  table.finish();
+  table.finish(source_keys());
   return source;
 }
 
@@ -97,7 +98,7 @@ SizeSpec read_size(const TomlTable& table) {
   size.curvature = number_at_least(fields, "curvature", kLeastPerTurn, 0);
   if (fields.has("min")) size.min = fields.positive_number("min");
   if (fields.has("max")) size.max = fields.positive_number("max");
-  fields.finish();
+  fields.finish(size_keys());
   check_size_limits(size);
   return size;
 }
@@ -109,7 +110,7 @@ void read_insertion(const TomlTable& table, MeshingOptions& options) {
   frontal.rejection = number_between(table, "rejection", 0, 0.95, frontal.rejection);
   frontal.boundary_height = number_between(table, "boundary_height", 0, 0.95, frontal.boundary_height);
   options.linf.lower_clamp = table.flag("lower_clamp", options.linf.lower_clamp);
-  table.finish();
+  table.finish(insertion_keys());
 }
 
 void read_recombination(const TomlTable& table, MeshingOptions& options) {
@@ -126,7 +127,7 @@ void read_recombination(const TomlTable& table, MeshingOptions& options) {
       throw InputError(table.where("max_rounds") + ": 'max_rounds' must lie between 0 and 1000000");
     options.treatment_options.max_rounds = static_cast<int>(rounds);
   }
-  table.finish();
+  table.finish(recombination_keys());
 }
 
 void drop_model(Case& target) {
@@ -185,7 +186,7 @@ void read_smoothing(const TomlTable& table, MeshingOptions& options) {
       number_at_least(table, "function_tolerance", 0, smoothing.inner.function_tolerance);
   smoothing.inner.gradient_tolerance =
       number_at_least(table, "gradient_tolerance", 0, smoothing.inner.gradient_tolerance);
-  table.finish();
+  table.finish(smoothing_keys());
 }
 
 void read_model_keys(const TomlTable& table, Case& target) {

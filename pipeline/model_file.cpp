@@ -7,6 +7,7 @@
 
 #include "geometry/curves.h"
 #include "io/mesh_io.h"
+#include "pipeline/case_keys.h"
 #include "pipeline/located.h"
 
 namespace delquad {
@@ -48,7 +49,7 @@ std::vector<PlacedCurve> read_closed_shape(const TomlTable& table, const std::st
     const TomlTable circle = table.table(key);
     const Vec2 centre = circle.point("centre");
     const double radius = circle.positive_number("radius");
-    circle.finish();
+    circle.finish(circle_keys());
     return {[centre, radius](Vec2 offset) { return make_circle(centre + offset, radius); }};
   }
   const std::vector<Vec2> points = table.points(key);
@@ -109,7 +110,7 @@ class ModelReader {
     if (!named_.emplace(name, file_.model.curves.size()).second)
       throw InputError(table.where("name") + ": a second curve '" + name + "'; names of curves must differ");
     const auto shape = located(table.where(), [&] { return read_shape(table); });
-    table.finish();
+    table.finish(curve_keys());
     file_.model.curves.push_back({shape, boundary, table.where()});
     used_.push_back(false);
   }
@@ -123,7 +124,7 @@ class ModelReader {
       const auto shape = read_closed_shape(table, key);
       place(shape, read_boundary_names(table, shape.size()), inside, {0, 0}, table.where());
     }
-    table.finish();
+    table.finish(loop_keys());
   }
 
   void read_pattern(const TomlTable& table) {
@@ -132,7 +133,7 @@ class ModelReader {
     const Inside inside = read_inside(table);
     const std::vector<double> count = table.numbers("count");
     const Vec2 step = table.point("step");
-    table.finish();
+    table.finish(pattern_keys());
     const auto whole = [](double n) { return n >= 1 && n <= kMostPatternLoops && n == std::floor(n); };
     if (count.size() != 2 || !whole(count[0]) || !whole(count[1]) || count[0] * count[1] > kMostPatternLoops)
       throw InputError(table.where("count") +
@@ -173,7 +174,7 @@ class ModelReader {
       curve = make_expression_curve(shape.expression("x"), shape.expression("y"), shape.number("from"),
                                     shape.number("to"));
     }
-    shape.finish();
+    shape.finish(key == "arc" ? arc_keys() : key == "circle" ? circle_keys() : expression_keys());
     return curve;
   }
 

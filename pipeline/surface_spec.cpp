@@ -7,6 +7,7 @@
 #include "geometry/surface/compound.h"
 #include "geometry/surface/triangulated_model.h"
 #include "mesh/error.h"
+#include "pipeline/case_keys.h"
 
 namespace delquad {
 namespace {
@@ -34,7 +35,7 @@ MirrorPlane read_mirror(const TomlTable& table, double weld_tolerance) {
   if (table.has("tolerance"))
     plane.tolerance = checked_tolerance(table.number("tolerance"), "tolerance", table.where("tolerance"));
   plane.join = table.flag("join", plane.join);
-  table.finish();
+  table.finish(mirror_keys());
   return plane;
 }
 
@@ -104,7 +105,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
         checked_weld_tolerance(table.number("weld_tolerance"), table.where("weld_tolerance"));
   if (const auto mirror = table.optional_table("mirror"))
     spec.mirror = read_mirror(*mirror, spec.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance));
-  table.finish();
+  table.finish(surface_keys());
   return spec;
 }
 

@@ -110,6 +110,7 @@ Json glossary_json() {
   json["steps"] = Json::array();
   for (const StepTime& time : step_times_of_tables())
     if (*time.step != 0) json["steps"].push_back(time.step);
+  json["steps"].push_back("peer");
   for (int k = 0; k < kColours; ++k) json["colours"].push_back(svg::colour((k + 0.5) / kColours));
   json["marks"] = {
       {"one less", svg::mark_colour(1)}, {"one more", svg::mark_colour(-1)}, {"other", svg::mark_colour(0)}};

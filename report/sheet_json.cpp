@@ -68,12 +68,14 @@ std::string size_text(const Json& size) {
 
 Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
   Json json = {{"word", record.at("pipeline")}, {"status", record.at("status")}};
+  if (record.contains("peer"))
+    json["peer"] = {{"version", record["peer"].at("version")}, {"command", record["peer"].at("command")}};
   if (json["status"] != "ok") {
     json["reason"] = record.at("reason");
     return json;
   }
   json["values"] = record.at("metrics");
-  json["values"]["seconds"] = record.at("meshing_seconds");
+  if (const Json& clock = record.at("meshing_seconds"); !clock.is_null()) json["values"]["seconds"] = clock;
   json["steps"] = record.value("seconds", Json::object());
   json["eta"] = record.at("eta_histogram").at("counts");
   json["valences"] = record.at("valences");

@@ -12,6 +12,7 @@
 #include "metrics/metrics.h"
 #include "pipeline/case_file.h"
 #include "pipeline/located.h"
+#include "sweep/schema.h"
 #include "sweep/tables.h"
 
 namespace delquad {
@@ -58,7 +59,7 @@ ExpectedRatio read_ratio(const TomlTable& table) {
   check_known(table, "metric", ratio.metric, metric_keys());
   located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
   located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
-  table.finish();
+  table.finish(ratio_keys());
   return ratio;
 }
 
@@ -77,7 +78,7 @@ std::vector<int> read_counts(const TomlTable& table, const std::string& key, dou
 
 LinfStudy read_linf_study(const TomlTable& table) {
   LinfStudy study{read_counts(table, "points", 3, 1e7), read_counts(table, "seeds", 0, 1e9)};
-  table.finish();
+  table.finish(linf_study_keys());
   return study;
 }
 
@@ -169,7 +170,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.folder = c.name;
   read_case_keys(table, c);
   check_comparisons(table, c);
-  table.finish();
+  table.finish(experiment_case_keys());
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
@@ -227,7 +228,7 @@ void Experiment::read_peer(const TomlTable& table) {
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
   if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);
   peer.keeps_boundary = table.flag("keeps_boundary", peer.keeps_boundary);
-  table.finish();
+  table.finish(peer_keys());
   peers.push_back(std::move(peer));
 }
 
@@ -299,7 +300,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
   experiment.cases_ = table.tables("case");
-  table.finish();
+  table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
     throw InputError(file.string() +
                      ": no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'");

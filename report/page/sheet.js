@@ -27,7 +27,7 @@ function keyNumbers(values, metrics) {
     if (values[key] > 0) items.push(item(metrics[key].title, grouped(values[key]), metrics[key].source));
   for (const [key, places] of Object.entries(digits))
     if (typeof values[key] === "number") items.push(item(metrics[key].title, fixed(values[key], places), metrics[key].source));
-  items.push(item("time", seconds(values.seconds), "from insertion to the finished mesh, by a clock on the wall"));
+  if (values.seconds !== undefined) items.push(item("time", seconds(values.seconds), "from insertion to the finished mesh, by a clock on the wall"));
   return el("dl", { class: "numbers" }, items);
 }
 
@@ -63,13 +63,14 @@ class Sheet {
     section.append(below);
     return section;
   }
-  wordSteps(word) {
+  wordSteps({ word, peer }) {
+    if (peer) return `another mesher, version ${peer.version}`;
     const names = Object.fromEntries(this.glossary.letters.map((l) => [l.letter, l.name]));
     return [...word].map((letter) => names[letter] || letter).join(", ");
   }
   card(cell, most) {
     const card = el("article", { class: "card", style: `--colour:${wordColour(this.words, cell.word)}` },
-      el("div", { class: "name" }, el("span", { class: "word" }, cell.word), el("small", {}, this.wordSteps(cell.word))));
+      el("div", { class: "name" }, el("span", { class: "word" }, cell.word), el("small", {}, this.wordSteps(cell))));
     if (cell.status !== "ok") {
       card.append(el("div", { class: `missing ${cell.status}` }, `${cell.status}: ${cell.reason}`));
       return card;
@@ -84,9 +85,9 @@ class Sheet {
     return card;
   }
   more(cell) {
-    const lines = [...(cell.surface || []).map(([k, v]) => `${k}: ${v}`), ...cell.warnings.map((w) => `warning: ${w}`)];
+    const lines = [...(cell.peer ? [`command: ${cell.peer.command.join(" ")}`] : []), ...(cell.surface || []).map(([k, v]) => `${k}: ${v}`), ...cell.warnings.map((w) => `warning: ${w}`)];
     if (lines.length === 0) return null;
-    return el("details", { class: "more" }, el("summary", {}, cell.surface ? "Surface and warnings" : "Warnings"),
+    return el("details", { class: "more" }, el("summary", {}, cell.peer ? "Command and warnings" : cell.surface ? "Surface and warnings" : "Warnings"),
       el("ul", {}, lines.map((line) => el("li", {}, line))));
   }
   picture(cell) {

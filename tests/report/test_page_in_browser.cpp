@@ -74,6 +74,25 @@ TEST(PageInBrowser, DrawsSurfaces) {
   EXPECT_EQ(count(shown.out, "watertight: yes"), 2u);
 }
 
+TEST(PageInBrowser, ShowsPeers) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  const std::string square =
+      "[[case]]\nname = \"square\"\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+  run_into(folder, "own", "pipelines = [\"DB\"]\n" + square);
+  const std::string mesh = (folder / "results/own/square/DB/mesh.msh").string();
+  const ProgramResult made =
+      run_into(folder, "peers",
+               "pipelines = [\"DB\", \"copy\"]\n[[peer]]\nname = \"copy\"\nversion = [\"echo\", "
+               "\"1.5\"]\ncommand = [\"sh\", \"-c\", \"cp '" +
+                   mesh + "' {output} # {input}\"]\n" + square);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ASSERT_EQ(delquad({"report", folder / "results/peers", "-o", folder / "r.html"}).exit_code, 0);
+  const ProgramResult shown = open_page(browser, folder, "r.html");
+  expect_sound(shown, 2);
+  EXPECT_EQ(count(shown.out, "another mesher, version 1.5"), 1u);
+}
+
 /// The test would notice: a script that fails, and one that asks the network.
 TEST(PageInBrowser, ErrorsAndRequestsAreSeen) {
   NEEDS_BROWSER(browser);
