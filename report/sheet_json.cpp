@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "report/closeup.h"
 
@@ -17,6 +18,15 @@ constexpr std::size_t kMostCurves = 12;
 
 /// Three digits after the point are a thousandth of an edge.
 double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+/// Five digits are more than a curve shows.
+Json energies_json(const Json& energies) {
+  Json json = Json::array();
+  for (const Json& e : energies)
+    json.push_back(e.is_null() ? Json()
+                               : Json(std::strtod(fmt::format("{:.5g}", e.get<double>()).c_str(), nullptr)));
+  return json;
+}
 
 Json closeups_json(const Mesh& mesh) {
   Json json = Json::array();
@@ -86,7 +96,7 @@ Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
     json["patches"] = curves.size();
     json["energy"] = Json::array();
     for (std::size_t i = 0; i < std::min(curves.size(), kMostCurves); ++i)
-      json["energy"].push_back(curves[i]);
+      json["energy"].push_back(energies_json(curves[i]));
   }
   if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh);
   return json;

@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr double kPictureBytes = 18e6;
 /// A picture with less shows nothing; rather some cells have none.
 constexpr double kLeastPicture = 20e3;
+/// That are shown one by one; more would make a page that no browser likes. Tables have all.
+constexpr std::size_t kMostCells = 2000;
 
 struct Study {
   std::string name;  ///< of its folder
@@ -146,11 +148,13 @@ class Page {
                  {"growth", growth_json(study.results.records)},
                  {"sheets", Json::array()}};
     const std::vector<CellRecord>& records = study.results.records;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      if (i == 0 || records[i].group != records[i - 1].group)
-        json["sheets"].push_back(sheet_json(study, records[i]));
-      add_cell(records[i], json["sheets"].back());
+    std::size_t shown = 0;
+    for (; shown < records.size() && cells_ < kMostCells; ++shown, ++cells_) {
+      if (shown == 0 || records[shown].group != records[shown - 1].group)
+        json["sheets"].push_back(sheet_json(study, records[shown]));
+      add_cell(records[shown], json["sheets"].back());
     }
+    json["cells_left_out"] = records.size() - shown;
     return json;
   }
 
@@ -184,13 +188,16 @@ class Page {
       const Json record = Json::parse(in);
       std::optional<Mesh> mesh;
       std::string reason;
-      if (cell.reason.empty()) try {
+      if (written_ + std::min(whole_bytes(cell), share_) > kPictureBytes)
+        reason = "no room left in this file; see " + (cell.folder / "picture.svg").string();
+      else if (cell.reason.empty())
+        try {
           mesh = read_msh(cell.folder / "mesh.msh");
         } catch (const InputError& error) {
           problems_.push_back(reason = error.what());
         }
       Json json = cell_json(record, mesh);
-      if (mesh) add_picture(cell, *mesh, json);
+      if (mesh) add_picture(*mesh, json);
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
         sheet["facts"] = std::move(facts);
@@ -200,17 +207,12 @@ class Page {
     }
   }
 
-  void add_picture(const CellRecord& cell, const Mesh& mesh, Json& json) {
+  void add_picture(const Mesh& mesh, Json& json) {
     constexpr double kOwnVertices =
         2;  // bytes of an element with vertices of its own, to one that shares them
     const double bytes =
         packed_bytes(static_cast<double>(mesh.triangles.size()), static_cast<double>(mesh.quads.size()));
     const int step = bytes <= share_ ? 1 : static_cast<int>(std::ceil(kOwnVertices * bytes / share_));
-    if (written_ + std::min(bytes, share_) > kPictureBytes) {
-      json["no_picture"] =
-          fmt::format("no room left in this file; see {}", (cell.folder / "picture.svg").string());
-      return;
-    }
     const PackedMesh packed = pack_mesh(step > 1 ? thinned(mesh, step) : mesh);
     const std::string id = fmt::format("mesh-{}", pictures_++);
     written_ += static_cast<double>(packed.text.size());
@@ -231,6 +233,7 @@ class Page {
   const Contents& contents_;
   std::ostream& out_;
   double share_ = 0, written_ = 0;
+  std::size_t cells_ = 0;
   int pictures_ = 0;
   bool in_space_ = false;
   std::vector<std::string> problems_;

@@ -49,6 +49,12 @@ class PlaneView {
     this.zoom = Math.max(1, Math.max(this.box[2] - this.box[0], this.box[3] - this.box[1]) / (24 * size));
     this.redraw();
   }
+  /// By a tenth of the picture.
+  move(right, up) {
+    const { canvas } = this.pictures[0], { width, height, scale, centre } = this.frame(canvas);
+    this.centre = [centre[0] + (0.1 * right * width) / scale, centre[1] + (0.1 * up * height) / scale];
+    this.redraw();
+  }
   async add(canvas, info, marks) {
     const prepared = prepareForPlane(await unpackMesh(info));
     this.box = this.box || prepared.box;
@@ -179,6 +185,8 @@ function redrawWhenResized(canvas, view) {
   }).observe(canvas);
 }
 
+const kArrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
 function listenToZoom(canvas, view) {
   canvas.addEventListener("wheel", (e) => {
     if (!e.ctrlKey && !e.metaKey) return;
@@ -190,5 +198,8 @@ function listenToZoom(canvas, view) {
     if (e.key === "+" || e.key === "=") view.zoomBy(1.4);
     else if (e.key === "-") view.zoomBy(1 / 1.4);
     else if (e.key === "0") view.reset();
+    else if (e.key in kArrows) view.move(...kArrows[e.key]);
+    else return;
+    e.preventDefault();
   });
 }

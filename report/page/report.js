@@ -68,6 +68,8 @@ function studyNode(study, glossary, sheets) {
     sheets.push(sheet);
     section.append(sheet.node);
   }
+  if (study.cells_left_out > 0)
+    section.append(el("p", { class: "caption" }, `${grouped(study.cells_left_out)} more cells count in the tables, but this page has no room to show them one by one.`));
   return section;
 }
 

@@ -118,6 +118,15 @@ class SpaceView {
     this.camera.zoom = Math.min(1e4, Math.max(0.3, this.camera.zoom * factor));
     this.redraw();
   }
+  /// Turns by 10 degrees about the vertical or the picture's own horizontal.
+  move(right, up) {
+    const away = this.camera.position.clone().sub(this.target), step = Math.PI / 18;
+    const around = Math.atan2(away.y, away.x) + right * step;
+    const above = Math.min(1.5, Math.max(-1.5, Math.asin(away.z / away.length()) + up * step));
+    const flat = Math.cos(above);
+    this.camera.position.copy(this.target).add(new THREE.Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).setLength(away.length()));
+    this.redraw();
+  }
   lookAt(at, size, away) {
     this.target.set(...at);
     this.camera.position.copy(this.target).add(new THREE.Vector3(...away).setLength(10 * this.radius));

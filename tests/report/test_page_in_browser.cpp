@@ -41,6 +41,43 @@ void expect_sound(const ProgramResult& shown, std::size_t pictures) {
   EXPECT_EQ(count(shown.out, "data-drawn=\"yes\""), pictures);
 }
 
+/// Does what a reader does; the document's title tells after what all pictures looked different.
+constexpr const char* kReader = R"(<script type="module">
+const pictures = () => [...document.querySelectorAll("canvas")].map((c) => c.toDataURL());
+const press = (key) => () => document.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
+const drag = () => {
+  const canvas = document.querySelector("canvas"), { left, top } = canvas.getBoundingClientRect();
+  canvas.setPointerCapture = canvas.releasePointerCapture = () => {};
+  for (const [type, x] of [["pointerdown", 50], ["pointermove", 60], ["pointermove", 90], ["pointerup", 90]])
+    canvas.dispatchEvent(new PointerEvent(type, { pointerId: 1, pointerType: "mouse", button: 0, buttons: 1, bubbles: true, clientX: left + x, clientY: top + 50 }));
+};
+const acts = { plus: press("+"), left: press("ArrowLeft"), up: press("ArrowUp"), drag, worst: () => document.querySelector(".closeups button").click(),
+  whole: press("0"), wheel: () => document.querySelector("canvas").dispatchEvent(new WheelEvent("wheel", { ctrlKey: true, deltaY: -90 })) };
+const seen = [];
+const act = async () => {
+  if (document.documentElement.dataset.drawn !== "all") return setTimeout(act, 50);
+  for (const [name, run] of Object.entries(acts)) {
+    const before = pictures();
+    run();
+    await new Promise((done) => setTimeout(done, 200));
+    if (pictures().every((picture, i) => picture !== before[i])) seen.push(name);
+  }
+  document.title = "moved by " + seen.join(" ");
+};
+act();
+</script>)";
+
+void expect_moved_together(const std::string& browser, const TemporaryFolder& folder) {
+  // Without a screen there are no frames to wait for.
+  const std::string timer = "<script>window.requestAnimationFrame = (act) => setTimeout(act, 10);</script>";
+  write_text(folder / "read.html", timer + read_text(folder / "r.html") + kReader);
+  const ProgramResult shown = open_page(browser, folder, "read.html");
+  EXPECT_EQ(count(shown.err, "CONSOLE"), 0u) << shown.err;
+  const auto title = shown.out.find("<title>");
+  EXPECT_EQ(shown.out.substr(title, shown.out.find("</title>") - title),
+            "<title>moved by plus left up drag worst whole wheel");
+}
+
 #define NEEDS_BROWSER(browser)                \
   const std::string browser = find_browser(); \
   if (browser.empty()) GTEST_SKIP() << "Chromium is not installed"
@@ -72,6 +109,7 @@ TEST(PageInBrowser, DrawsSurfaces) {
   const ProgramResult shown = open_page(browser, folder, "r.html");
   expect_sound(shown, 2);
   EXPECT_EQ(count(shown.out, "watertight: yes"), 2u);
+  expect_moved_together(browser, folder);
 }
 
 TEST(PageInBrowser, ShowsPeers) {
@@ -91,6 +129,7 @@ TEST(PageInBrowser, ShowsPeers) {
   const ProgramResult shown = open_page(browser, folder, "r.html");
   expect_sound(shown, 2);
   EXPECT_EQ(count(shown.out, "another mesher, version 1.5"), 1u);
+  expect_moved_together(browser, folder);
 }
 
 /// The test would notice: a script that fails, and one that asks the network.

@@ -100,6 +100,32 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   EXPECT_NE(cell["no_picture"].get<std::string>().find("mesh.msh"), std::string::npos);
 }
 
+/// Thousands of cells stay in the tables, and out of the sheets.
+TEST(Report, LargeSweeps) {
+  const TemporaryFolder folder;
+  std::string seeds = "1";
+  for (int seed = 2; seed <= 2100; ++seed) seeds += ", " + std::to_string(seed);
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"DB\"]\nsize = 0.5\n[matrix]\nseed = [" + seeds +
+                                   "]\n[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  ASSERT_EQ(delquad({"run", file, "-o", folder / "out", "--shard", "0/2100"}).exit_code, 0);
+  const std::string record = read_text(folder / "out/a@seed=1/DB/record.json"), variant = "\"seed\": \"1\"";
+  ASSERT_NE(record.find(variant), std::string::npos);
+  for (int seed = 2; seed <= 2100; ++seed) {
+    const fs::path cell = folder / ("out/a@seed=" + std::to_string(seed) + "/DB");
+    fs::create_directories(cell);
+    std::string other = record;
+    other.replace(other.find(variant), variant.size(), "\"seed\": \"" + std::to_string(seed) + "\"");
+    write_text(cell / "record.json", other);
+  }
+  ASSERT_EQ(delquad({"report", folder / "out", "-o", folder / "r.html"}).exit_code, 0);
+  EXPECT_LT(fs::file_size(folder / "r.html"), 25'000'000u);
+  const Json study = data_of(folder / "r.html")["studies"][0];
+  EXPECT_EQ(study["sheets"].size(), 2000u);
+  EXPECT_EQ(study["cells_left_out"], 100);
+  EXPECT_EQ(study["tables"][0]["rows"].size(), 1u);
+}
+
 TEST(Report, NothingToShow) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "empty");
