@@ -18,7 +18,7 @@
 #include "mesh/half_edges.h"
 #include "mesh/parallel.h"
 #include "pipeline/stopwatch.h"
-#include "smoothing/space_lift.h"
+#include "surfaces/surface_lift.h"
 
 namespace delquad {
 namespace {
@@ -171,21 +171,30 @@ void count_bad_quads(const std::string& label, const PreparedCase& prepared, Run
 constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
 
-/// On surfaces, quads may be worse in space than in the plane in which they were treated.
-void lift_bad_quads(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
-                    std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog& log) {
-  if (prepared.background) return;  // a planar domain
+/// On surfaces, quads may be worse in space than in the plane in which they were treated, and nodes on curves
+/// may have to give way.
+void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vector<PatchMesh>& patches,
+                    const std::vector<char>& left_out, StageLog& log) {
+  if (!prepared.surface) return;
   const Stopwatch watch;
+  std::vector<SurfaceTracks::Patch> lifted;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (patches[i].form == PatchForm::kQuads && !left_out[prepared.patches[i].region]) which.push_back(i);
+  const PreparedSurface& surface = *prepared.surface;
   parallel_for(
-      patches.size(),
-      [&](std::size_t i) {
-        if (patches[i].form != PatchForm::kQuads || left_out[prepared.patches[i].region]) return;
-        std::vector<Vec3> boundary;
-        for (const int node : prepared.patches[i].boundary.point_node) boundary.push_back(nodes[node]);
-        patches[i].inside = lift_worst_in_space(patches[i].quads, boundary, prepared.patches[i].lift,
-                                                kPoorInSpace, kLiftSweeps);
+      which.size(),
+      [&](std::size_t k) {
+        PatchMesh& patch = patches[which[k]];
+        if (patch.inside.empty()) patch.inside = places_inside(prepared, which[k], patch, nodes.points);
       },
-      [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
+      [&](std::size_t k) { return static_cast<double>(patches[which[k]].quads.points.size()); });
+  for (const std::size_t i : which)
+    lifted.push_back(
+        {&surface.domain.patches[i], prepared.patches[i].cross.get(), &patches[i].quads, &patches[i].inside});
+  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, nodes, std::move(lifted));
+  std::vector<Vec3> places = tracks.points();
+  if (lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps) > 0) tracks.store(places);
   log.add_seconds("projection", watch.work_seconds());
 }
 
@@ -217,7 +226,7 @@ Mesh assemble(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
       [&](std::size_t i) {
         if (left_out[prepared.patches[i].region]) return;
         inside[i] =
-            patches[i].inside.empty() ? places_inside(prepared.patches[i], patches[i]) : patches[i].inside;
+            patches[i].inside.empty() ? places_inside(prepared, i, patches[i], nodes) : patches[i].inside;
       },
       [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
   Mesh mesh = prepared.boundary;
@@ -304,7 +313,7 @@ RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std:
   result.log = std::move(state.log);
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
   if (c.options.treatment == Treatment::kPaper)
-    lift_bad_quads(prepared, state.nodes.points, state.patches, left_out, result.log);
+    lift_bad_quads(prepared, state.nodes, state.patches, left_out, result.log);
   result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();

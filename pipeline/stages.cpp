@@ -8,6 +8,7 @@
 #include "mesh/error.h"
 #include "pipeline/prepare.h"
 #include "pipeline/stopwatch.h"
+#include "surfaces/places_inside.h"
 #include "surfaces/surface_tracks.h"
 
 namespace delquad {
@@ -143,7 +144,7 @@ void optimise_surface(const PatchesInSpace& in, StageLog& log) {
   for (std::size_t i = 0; i < in.patches.size(); ++i) {
     if (in.left_out[i]) continue;
     PatchMesh& patch = in.patches[i];
-    patch.inside = places_inside(in.prepared.patches[i], patch);
+    patch.inside = places_inside(in.prepared, i, patch, in.nodes.points);
     patches.push_back(
         {&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &patch.quads, &patch.inside});
   }
@@ -195,14 +196,26 @@ std::string known_letters() {
 
 }  // namespace
 
-std::vector<Vec3> places_inside(const PreparedPatch& patch, const PatchMesh& mesh) {
-  const std::vector<Vec2>& points =
-      mesh.form == PatchForm::kTriangles ? mesh.triangles.points : mesh.quads.points;
-  std::vector<Vec3> lifted;
-  int hint = -1;
-  for (std::size_t i = patch.boundary.points.size(); i < points.size(); ++i)
-    lifted.push_back(patch.lift(points[i], hint));
-  return lifted;
+std::vector<Vec3> places_inside(const PreparedCase& prepared, std::size_t patch, const PatchMesh& mesh,
+                                const std::vector<Vec3>& nodes) {
+  const bool of_triangles = mesh.form == PatchForm::kTriangles;
+  const std::vector<Vec2>& points = of_triangles ? mesh.triangles.points : mesh.quads.points;
+  if (!prepared.surface) {
+    std::vector<Vec3> lifted;
+    int hint = -1;
+    for (std::size_t i = prepared.patches[patch].boundary.points.size(); i < points.size(); ++i)
+      lifted.push_back(prepared.patches[patch].lift(points[i], hint));
+    return lifted;
+  }
+  std::vector<std::array<int, 2>> sides;
+  const auto add_sides = [&](const auto& elements) {
+    for (const auto& v : elements)
+      for (std::size_t k = 0; k < v.size(); ++k) sides.push_back({v[k], v[(k + 1) % v.size()]});
+  };
+  add_sides(of_triangles ? mesh.triangles.triangles : mesh.quads.triangles);
+  add_sides(mesh.quads.quads);
+  const PreparedSurface& surface = *prepared.surface;
+  return places_inside(surface.domain.patches[patch], surface.model, points, sides, nodes);
 }
 
 void StageLog::add_seconds(const std::string& step, double s) {

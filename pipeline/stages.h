@@ -51,10 +51,10 @@ struct StageLog {
 };
 
 struct PreparedCase;
-struct PreparedPatch;
 
-/// The places in space of the points inside a patch.
-std::vector<Vec3> places_inside(const PreparedPatch& patch, const PatchMesh& mesh);
+/// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.
+std::vector<Vec3> places_inside(const PreparedCase& prepared, std::size_t patch, const PatchMesh& mesh,
+                                const std::vector<Vec3>& nodes);
 
 /// What a word has made of all patches of a surface so far.
 struct PatchesInSpace {

@@ -61,7 +61,7 @@ std::vector<SharpCorner> find_sharp_corners(const std::vector<FaceCorner>& corne
     const int out = corner.after_ends ? (after.end() - 2)->node : after[1].node;
     const int in = corner.before_ends ? (before.end() - 2)->node : before[1].node;
     const Vec3 at = nodes.points[node];
-    double angle = std::max(corner.angle, angle_between(nodes.points[out] - at, nodes.points[in] - at));
+    double angle = angle_between(nodes.points[out] - at, nodes.points[in] - at);
     // The two quads at a tip have their sides on opposite generators of the cone.
     if (corner.is_tip()) angle = 2 * std::asin(corner.angle / (2 * std::numbers::pi));
     const double bound = corner_eta_bound(angle);

@@ -31,7 +31,7 @@ struct SharpCorner {
   int face;          ///< index into Mesh::regions
   int node;          ///< of the boundary mesh
   int curves[2];     ///< indices into Mesh::curves
-  double angle;      ///< radians: of the model, or between the mesh's edges where that is larger
+  double angle;      ///< between the mesh's edges; radians
   double eta_bound;  ///< no quad in the corner has a larger eta
 };
 

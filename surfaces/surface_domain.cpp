@@ -14,11 +14,13 @@
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "mesh/predicates.h"
+#include "surfaces/corner_caps.h"
 #include "surfaces/curve_nodes.h"
 #include "surfaces/face_nodes.h"
 #include "surfaces/narrow_places.h"
 #include "surfaces/narrow_seeds.h"
 #include "surfaces/patch_outline.h"
+#include "surfaces/tip_caps.h"
 #include "surfaces/tube_sizes.h"
 
 namespace delquad {
@@ -249,7 +251,7 @@ class DomainBuilder {
     for (size_t p = 0; p < maps_.size(); ++p) {
       domain.patches.push_back({std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]),
                                 std::move(backgrounds[p]), std::move(tube_sizes_[p])});
-      cap_tips_of(static_cast<int>(p), domain);
+      cap_patch(static_cast<int>(p), domain);
       seed_narrow_places(domain.patches[p].boundary);
     }
     for (size_t c = 0; c < chains_.size(); ++c) {
@@ -266,21 +268,28 @@ class DomainBuilder {
     return domain;
   }
 
-  /// Takes pointed tips out of a patch, and the nodes that this drops from their curves.
-  void cap_tips_of(int p, SurfaceDomain& domain) {
+  /// Takes pointed tips and sharp corners out of a patch, and the nodes that this drops from their curves.
+  void cap_patch(int p, SurfaceDomain& domain) {
     SurfacePatch& patch = domain.patches[p];
-    int hint = -1;
-    const auto add_node = [&](Vec2 u) {
-      nodes_.points.push_back(lift(patch, model_, u, hint));
+    const auto add = [&](const Vec3& x) {
+      nodes_.points.push_back(x);
       return static_cast<int>(nodes_.points.size()) - 1;
     };
-    for (TipCap& cap : cap_tips(patch.boundary, add_node)) {
+    int hint = -1;
+    auto caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model_, u, hint)); });
+    for (const BoundaryCap& cap : caps)
       for (auto& on_curve : nodes_.on_curve)
         std::erase_if(on_curve, [&](const CurveNode& n) {
           return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
         });
-      domain.caps.push_back({p, std::move(cap)});
-    }
+    const CapNodes cap_nodes{[&](int node) { return nodes_.points[node]; },
+                             [&](const Vec3& x, Vec2 u) {
+                               return model_.projector ? model_.projector->to_face(patch.map.face, x)
+                                                       : lift(patch, model_, u, hint);
+                             },
+                             [&](Vec2 u) { return fine_normal(patch, fine_, u, hint); }, add};
+    for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
+    for (BoundaryCap& cap : caps) domain.caps.push_back({p, std::move(cap)});
   }
 
   const SurfaceModel& model_;
@@ -345,11 +354,31 @@ double SurfacePatchSize::at(Vec2 u, int& hint) const {
   return stretch * (patch_.tube_size.empty() ? wanted : std::min(wanted, limit));
 }
 
-Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint) {
+Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint) {
   const auto [t, b] = patch.background->locate(u, hint);
   const auto& v = patch.map.flat.triangles[t];
   Vec3 x;
-  for (int k = 0; k < 3; ++k) x = x + b[k] * model.fine.points[patch.map.fine_node[v[k]]];
+  for (int k = 0; k < 3; ++k) x = x + b[k] * fine.points[patch.map.fine_node[v[k]]];
+  return x;
+}
+
+Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint) {
+  const TriPatch& flat = patch.map.flat;
+  std::vector<int> around{patch.background->locate(u, hint).triangle};
+  for (int ring = 0; ring < 2; ++ring)
+    for (size_t i = around.size(); i-- > 0;)
+      for (const int t : flat.neighbours[around[i]])
+        if (t >= 0 && std::ranges::find(around, t) == around.end()) around.push_back(t);
+  Vec3 sum;
+  for (const int t : around) {
+    const auto x = [&](int k) { return fine.points[patch.map.fine_node[flat.triangles[t][k]]]; };
+    sum = sum + cross(x(1) - x(0), x(2) - x(0));
+  }
+  return sum;
+}
+
+Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint) {
+  const Vec3 x = fine_place(patch, model.fine, u, hint);
   return model.projector ? model.projector->to_face(patch.map.face, x) : x;
 }
 

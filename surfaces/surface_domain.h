@@ -9,10 +9,10 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 #include "mesh/patch.h"
+#include "surfaces/boundary_cap.h"
 #include "surfaces/face_corners.h"
 #include "surfaces/patch_outline.h"
 #include "surfaces/surface_size.h"
-#include "surfaces/tip_caps.h"
 
 namespace delquad {
 
@@ -31,9 +31,7 @@ struct SurfacePatch {
 /// Quads that belong to a patch but are not within its boundary.
 struct PatchCap {
   int patch;
-  TipCap cap;
-  int tip() const { return cap.quads[0][0]; }
-  int foot() const { return cap.quads[0][1]; }  ///< the next node of the cut
+  BoundaryCap cap;
 };
 
 struct SurfaceDomain {
@@ -42,7 +40,7 @@ struct SurfaceDomain {
   std::vector<CurveChain> chains;
   std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
   SurfaceNodes nodes;                      ///< those of `boundary`
-  std::vector<PatchCap> caps;              ///< at tips of cones
+  std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<std::string> warnings;
 };
@@ -69,6 +67,13 @@ class SurfacePatchSize final : public ParametricSize {
   const SurfaceSize& size_;
   std::vector<double> stretch_;  ///< of each vertex of the map
 };
+
+/// The point of the fine triangulation at u.
+Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
+
+/// Outward normal of the fine triangles about u, any length: the large ones count most, since the slivers of
+/// a sharp corner may be turned over.
+Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
 
 /// The point of space at u: on the fine triangulation, then projected to the true surface where there is one.
 Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint);

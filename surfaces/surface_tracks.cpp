@@ -18,6 +18,17 @@ std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int tr
   return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
 }
 
+/// At each vertex of a patch's map the sum of its triangles' normals, as long as their areas.
+std::vector<Vec3> vertex_normals(const SurfacePatch& patch, const Mesh& fine) {
+  std::vector<Vec3> normals(patch.map.flat.points.size());
+  for (const auto& v : patch.map.flat.triangles) {
+    const auto x = [&](int k) { return fine.points[patch.map.fine_node[v[k]]]; };
+    const Vec3 normal = cross(x(1) - x(0), x(2) - x(0));
+    for (const int i : v) normals[i] = normals[i] + normal;
+  }
+  return normals;
+}
+
 }  // namespace
 
 SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, const SurfaceDomain& domain,
@@ -33,7 +44,9 @@ SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, c
       stays_(nodes.points.size(), 0),
       vertex_patch_(nodes.points.size(), -1) {
   add_curves();
-  for (const PatchCap& cap : domain.caps) on_curve_[cap.foot()] = {};
+  for (const PatchCap& c : domain.caps)
+    for (const auto& quad : c.cap.quads)
+      for (const int node : quad) on_curve_[node] = {};
   for (const Patch& patch : patches_) add_patch(patch);
   hint_.assign(points_.size(), -1);
 }
@@ -57,6 +70,8 @@ void SurfaceTracks::add_curves() {
 
 void SurfaceTracks::add_patch(const Patch& patch) {
   const int p = static_cast<int>(&patch - patches_.data());
+  first_quad_.push_back(static_cast<int>(quads_.size()));
+  normals_.push_back(vertex_normals(*patch.patch, model_.fine));
   std::vector<int> vertex = patch.patch->boundary.point_node;
   for (std::size_t i = 0; i < patch.inside->size(); ++i) {
     vertex.push_back(static_cast<int>(points_.size()));
@@ -101,6 +116,44 @@ Vec3 SurfaceTracks::put(int v, Vec2 position) {
   return place_on_curve(model_, domain_.chains[chain], domain_.cut_face, nodes_.on_curve[chain][k].s);
 }
 
+SurfaceTracks::Spot SurfaceTracks::spot_near(int v, const Spot& from, const Vec3& x) const {
+  const Vec3 d = x - from.place;
+  if (is_on_curve(v)) {
+    const int chain = on_curve_[v].chain;
+    const double length =
+        std::clamp(from.position.x + dot(d, direction(chain, from.position.x)), 0.0, lengths_[chain].back());
+    return {{length, 0},
+            place_on_curve(model_, domain_.chains[chain], domain_.cut_face, s_at(chain, length))};
+  }
+  const SurfacePatch& patch = *patches_[vertex_patch_[v]].patch;
+  int hint = hint_[v];
+  const auto [a, b] = tangents(patch, model_.fine, patch.background->locate(from.position, hint).triangle);
+  const Vec2 u = from.position + Vec2{dot(a, d) / dot(a, a), dot(b, d) / dot(b, b)};
+  return {u, model_.projector ? model_.projector->to_face(patch.map.face, x) : lift(patch, model_, u, hint)};
+}
+
+void SurfaceTracks::put(int v, const Spot& spot) {
+  position_[v] = spot.position;
+  if (!is_on_curve(v)) return;
+  const auto [chain, k] = on_curve_[v];
+  nodes_.on_curve[chain][k].s = s_at(chain, spot.position.x);
+}
+
+Vec3 SurfaceTracks::normal(int quad) const {
+  const int p = quad_patch_[quad];
+  const SurfacePatch& patch = *patches_[p].patch;
+  const QuadPatch& mesh = *patches_[p].mesh;
+  Vec3 sum;
+  int hint = -1;
+  for (int k = 0; k < 4; ++k) {
+    const int v = quads_[quad][k];
+    const Vec2 u = is_on_curve(v) ? mesh.points[mesh.quads[quad - first_quad_[p]][k]] : position_[v];
+    const auto [t, weights] = patch.background->locate(u, hint);
+    for (int i = 0; i < 3; ++i) sum = sum + weights[i] * normals_[p][patch.map.flat.triangles[t][i]];
+  }
+  return sum;
+}
+
 std::array<Vec3, 2> SurfaceTracks::axes(int v) const {
   if (stays_[v]) return {};
   if (vertex_patch_[v] >= 0) {
@@ -129,10 +182,13 @@ Vec3 SurfaceTracks::arm(int quad, int side) const {
   return (1 / norm(arm)) * arm;
 }
 
-bool SurfaceTracks::is_capped(const SurfacePatch& patch, int node) const {
-  return std::ranges::any_of(domain_.caps, [&](const PatchCap& cap) {
-    return &domain_.patches[cap.patch] == &patch && cap.tip() == node;
-  });
+int SurfaceTracks::points_at(const SurfacePatch& patch, int node) const {
+  for (const auto& [p, cap] : domain_.caps) {
+    if (&domain_.patches[p] != &patch) continue;
+    if (cap.tip == node) return cap.points;
+    if (std::ranges::find(cap.within, node) != cap.within.end()) return 0;
+  }
+  return -1;
 }
 
 void SurfaceTracks::store(const std::vector<Vec3>& points) {
@@ -141,11 +197,11 @@ void SurfaceTracks::store(const std::vector<Vec3>& points) {
   for (const Patch& patch : patches_) {
     const PatchBoundary boundary =
         place_boundary(patch.patch->map, patch.patch->outline, domain_.chains, nodes_);
-    // Where a tip was cut off, the boundary has three fixed points instead.
     auto to = patch.mesh->points.begin();
     for (size_t i = 0; i < boundary.points.size(); ++i) {
-      if (is_capped(*patch.patch, boundary.point_node[i]))
-        to += 3;
+      const int fixed = points_at(*patch.patch, boundary.point_node[i]);
+      if (fixed >= 0)
+        to += fixed;
       else
         *to++ = boundary.points[i];
     }

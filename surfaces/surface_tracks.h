@@ -38,6 +38,19 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   double delta(const Vec3& place) const override { return size_.at(place, size_hint_); }
   Vec3 arm(int quad, int side) const override;
 
+  /// A place on a vertex's track.
+  struct Spot {
+    Vec2 position;
+    Vec3 place;
+  };
+  /// The spot next to x, `from` being one not far away. On a CAD face that is its point nearest to x, even
+  /// outside the fine triangles; its position is then a guess.
+  Spot spot_near(int v, const Spot& from, const Vec3& x) const;
+  void put(int v, const Spot& spot);
+  bool is_on_curve(int v) const { return vertex_patch_[v] < 0; }
+  /// Outward normal of the fine triangles around a quad's corners; any length.
+  Vec3 normal(int quad) const;
+
  private:
   struct OnCurve {
     int chain = -1;  ///< -1: an end of curves
@@ -46,7 +59,8 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
 
   void add_curves();
   void add_patch(const Patch& patch);
-  bool is_capped(const SurfacePatch& patch, int node) const;
+  /// How many fixed points a patch's boundary has instead of a node that a cap cut off; -1: none did.
+  int points_at(const SurfacePatch& patch, int node) const;
   /// Index of the line and the fraction along it, at a length along the chain.
   double s_at(int chain, double length) const;
   Vec3 direction(int chain, double length) const;
@@ -62,6 +76,8 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   std::vector<Vec2> position_;
   std::vector<std::array<int, 4>> quads_;
   std::vector<int> quad_patch_;
+  std::vector<int> first_quad_;             ///< of each patch
+  std::vector<std::vector<Vec3>> normals_;  ///< at the vertices of each patch's map, by area
   std::vector<char> stays_;
   std::vector<int> vertex_patch_;  ///< of the vertices inside patches; -1: a node
   mutable std::vector<int> hint_;  ///< into the maps, by vertex

@@ -15,47 +15,12 @@ constexpr double kTwoQuads = 200 * std::numbers::pi / 180, kAround = 3.7;
 /// The largest angle of a cap's quads opposite to the tip.
 constexpr double kFarAngle = 120 * std::numbers::pi / 180;
 
-struct Vertex {
-  Vec2 point;
-  int node, curve;  ///< of the edge that begins here
-};
-using Loop = std::vector<Vertex>;
-
-std::vector<Loop> take_loops(const PatchBoundary& boundary) {
-  std::vector<Loop> loops;
-  std::vector<int> next(boundary.points.size()), edge(boundary.points.size());
-  for (size_t e = 0; e < boundary.edges.size(); ++e)
-    next[boundary.edges[e][0]] = boundary.edges[e][1], edge[boundary.edges[e][0]] = static_cast<int>(e);
-  std::vector<char> seen(boundary.points.size(), 0);
-  for (size_t first = 0; first < seen.size(); ++first) {
-    if (seen[first]) continue;
-    loops.emplace_back();
-    for (int v = static_cast<int>(first); !std::exchange(seen[v], 1); v = next[v])
-      loops.back().push_back({boundary.points[v], boundary.point_node[v], boundary.edge_curve[edge[v]]});
-  }
-  return loops;
-}
-
-PatchBoundary make_boundary(const std::vector<Loop>& loops) {
-  PatchBoundary boundary;
-  for (const Loop& loop : loops) {
-    const int first = static_cast<int>(boundary.points.size()), n = static_cast<int>(loop.size());
-    for (int i = 0; i < n; ++i) {
-      boundary.points.push_back(loop[i].point);
-      boundary.point_node.push_back(loop[i].node);
-      boundary.edge_curve.push_back(loop[i].curve);
-      boundary.edges.push_back({first + i, first + (i + 1) % n});
-    }
-  }
-  return boundary;
-}
-
 class Cap {
  public:
-  Cap(Loop& loop, size_t tip, const std::function<int(Vec2)>& add_node)
+  Cap(BoundaryLoop& loop, size_t tip, const std::function<int(Vec2)>& add_node)
       : loop_(loop), tip_(tip), add_node_(add_node) {}
 
-  std::optional<TipCap> make() {
+  std::optional<BoundaryCap> make() {
     const size_t n = loop_.size();
     size_t most = 0;  // nodes that both sides have
     while (2 * (most + 1) + 1 < n && after(most + 1).node == before(most + 1).node) ++most;
@@ -64,15 +29,15 @@ class Cap {
     while (k + 1 < most &&
            norm(after(k).point - before(k).point) < kAround * norm(after(k + 1).point - after(k).point))
       ++k;
-    TipCap cap;
+    BoundaryCap cap{loop_[tip_].node, 3, {}, {}, {}};
     for (size_t i = 1; i < k; ++i) cap.dropped.push_back(after(i).node);
     replace(k, cap);
     return cap;
   }
 
  private:
-  const Vertex& after(size_t i) const { return loop_[(tip_ + i) % loop_.size()]; }
-  const Vertex& before(size_t i) const { return loop_[(tip_ + loop_.size() - i) % loop_.size()]; }
+  const LoopPoint& after(size_t i) const { return loop_[(tip_ + i) % loop_.size()]; }
+  const LoopPoint& before(size_t i) const { return loop_[(tip_ + loop_.size() - i) % loop_.size()]; }
 
   /// Inside the patch; radians.
   double angle() const {
@@ -82,7 +47,7 @@ class Cap {
   }
 
   /// Puts three new vertices between the k-th on both sides of the tip.
-  void replace(size_t k, TipCap& cap) {
+  void replace(size_t k, BoundaryCap& cap) {
     const Vec2 at = loop_[tip_].point, side = after(k).point - at;
     const double part = angle() / 4;
     const auto turned = [&](int parts, double scale) {
@@ -91,14 +56,14 @@ class Cap {
     };
     const double far_angle = std::min(kFarAngle, std::numbers::pi - 2 * part);
     const double far = std::cos(part) + std::sin(part) / std::tan(far_angle / 2);
-    Vertex fresh[3];
+    LoopPoint fresh[3];
     for (int i = 0; i < 3; ++i) {
       const Vec2 x = turned(3 - i, i == 1 ? 1 : far);
       fresh[i] = {x, add_node_(x), after(0).curve};
     }
     const int tip = loop_[tip_].node, foot = after(k).node;
-    cap.quads = {{{tip, foot, fresh[2].node, fresh[1].node}, {tip, fresh[1].node, fresh[0].node, foot}}};
-    Loop rest;
+    cap.quads = {{tip, foot, fresh[2].node, fresh[1].node}, {tip, fresh[1].node, fresh[0].node, foot}};
+    BoundaryLoop rest;
     for (size_t i = 0; i < loop_.size(); ++i) {
       const size_t from_tip = (i + loop_.size() - tip_) % loop_.size();
       if (from_tip == 0)
@@ -109,17 +74,17 @@ class Cap {
     loop_ = std::move(rest);
   }
 
-  Loop& loop_;
+  BoundaryLoop& loop_;
   size_t tip_;
   const std::function<int(Vec2)>& add_node_;
 };
 
 }  // namespace
 
-std::vector<TipCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node) {
-  std::vector<TipCap> caps;
-  std::vector<Loop> loops = take_loops(boundary);
-  for (Loop& loop : loops)
+std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node) {
+  std::vector<BoundaryCap> caps;
+  std::vector<BoundaryLoop> loops = take_loops(boundary);
+  for (BoundaryLoop& loop : loops)
     for (size_t i = 0; i < loop.size(); ++i)
       if (auto cap = Cap(loop, i, add_node).make()) {
         caps.push_back(std::move(*cap));

@@ -74,7 +74,8 @@ void LocalRemeshing::add_moves(int element) {
 
 void LocalRemeshing::add_pillow(std::vector<int> quads) {
   std::erase_if(quads, [&](int e) { return !mesh_.is_quad(e); });
-  if (!quads.empty() && mesh_.can_pillow(quads)) edits_.push_back({{}, std::move(quads)});
+  if (!quads.empty() && mesh_.can_pillow(quads) && !ring_divides_sharp_corner(mesh_, quads))
+    edits_.push_back({{}, std::move(quads)});
 }
 
 void LocalRemeshing::list_near_edits(int quad) {

@@ -11,6 +11,9 @@ namespace {
 /// Cost of a valence that forces an element of eta 0, against single steps of valence.
 constexpr double kForcedBad = 12;
 
+/// Two elements in a boundary corner below this angle would both have an eta below .1.
+constexpr double kSharpAngle = 18 * std::numbers::pi / 180;
+
 /// Of a valence that leaves each of its elements this many right angles in the mean.
 int forced_cost(double right_angles) {
   const double eta = std::max(0.0, 1 - std::abs(right_angles - 1));
@@ -90,14 +93,30 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
   return change(a, -1) + change(b, -1) + change(p, 1) + change(q, 1);
 }
 
+bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads) {
+  return std::ranges::any_of(quads, [&](int e) {
+    for (int h = 4 * e; h < 4 * e + 4; ++h) {
+      const int v = mesh.origin(h);
+      if (!mesh.on_boundary(v) || mesh.valence(v) > 1) continue;
+      if (mesh.on_boundary(mesh.target(mesh.next(h)))) continue;
+      const Vec2 out = mesh.point(mesh.target(h)) - mesh.point(v);
+      const Vec2 in = mesh.point(mesh.origin(mesh.prev(h))) - mesh.point(v);
+      if (std::abs(std::atan2(cross(out, in), dot(out, in))) < kSharpAngle) return true;
+    }
+    return false;
+  });
+}
+
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
   switch (move.kind) {
     case TreatmentMove::kCollapse:
       return mesh.can_collapse(move.at);
     case TreatmentMove::kDoublet:
       return mesh.can_remove_doublet(move.at);
-    case TreatmentMove::kInset:
-      return mesh.is_quad(QuadTopology::element(move.at));
+    case TreatmentMove::kInset: {
+      const std::array<int, 1> self{QuadTopology::element(move.at)};
+      return mesh.is_quad(self[0]) && !ring_divides_sharp_corner(mesh, self);
+    }
     case TreatmentMove::kSplit:
       return mesh.can_split(move.at, move.to);
     default:

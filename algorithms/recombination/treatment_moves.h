@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "smoothing/quad_topology.h"
@@ -48,6 +49,10 @@ class ValenceEnergy {
   const QuadTopology& mesh_;
   std::vector<Ideal> ideal_;  ///< of boundary vertices
 };
+
+/// Whether a ring of quads laid around these would divide a sharp corner of the boundary that one of them
+/// fills.
+bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads);
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
 void apply(QuadTopology& mesh, const TreatmentMove& move);

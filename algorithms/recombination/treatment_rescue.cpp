@@ -57,6 +57,7 @@ double TreatmentProcess::relief_of(const TreatmentMove& move) {
 /// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
 bool TreatmentProcess::rescue_by_inset(int element) {
   const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
+  if (!is_legal(mesh_, inset)) return false;
   const TreatmentSummary summary = summary_;
   const auto start = mesh_.mark();
   touched_.clear();

@@ -13,7 +13,8 @@
 #include "geometry/surface/improve_triangulation.h"
 #include "mesh/drop_unused_points.h"
 #include "metrics/metrics.h"
-#include "smoothing/space_lift.h"
+#include "surfaces/places_inside.h"
+#include "surfaces/surface_lift.h"
 #include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"
 
@@ -34,25 +35,38 @@ Meshed mesh_surface(SurfaceModel model, double h) {
   Flattening flattening = flatten(model);
   EXPECT_TRUE(flattening.failed.empty());
   const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), size, *make_lemon_solver());
-  Mesh mesh = domain.boundary;
-  for (const SurfacePatch& patch : domain.patches) {
+  std::vector<QuadPatch> quads(domain.patches.size());
+  std::vector<std::vector<Vec3>> inside(domain.patches.size());
+  std::vector<SurfaceTracks::Patch> patches;
+  for (std::size_t p = 0; p < quads.size(); ++p) {
+    const SurfacePatch& patch = domain.patches[p];
     EXPECT_EQ(patch.boundary.edges.size() % 2, 0u);
     const HarmonicCrossField cross(patch.background);
     const SurfacePatchSize delta(patch, model.fine, size);
     const TriPatch tri = mesh_frontal(patch.boundary, *make_linf_delquad(), cross, delta);
-    QuadPatch quads = treat_paper(recombine(tri, *make_lemon_solver()), delta);
-    std::vector<Vec3> places;
-    for (const int i : patch.boundary.point_node) places.push_back(mesh.points[i]);
-    lift_worst_in_space(
-        quads, places, [&](Vec2 u, int& near) { return lift(patch, model, u, near); }, 0.3, 20);
-    EXPECT_TRUE(quads.triangles.empty());
+    quads[p] = treat_paper(recombine(tri, *make_lemon_solver()), delta);
+    EXPECT_TRUE(quads[p].triangles.empty());
+    std::vector<std::array<int, 2>> sides;
+    for (const auto& q : quads[p].quads)
+      for (int k = 0; k < 4; ++k) sides.push_back({q[k], q[(k + 1) % 4]});
+    inside[p] = places_inside(patch, model, quads[p].points, sides, domain.nodes.points);
+    patches.push_back({&patch, nullptr, &quads[p], &inside[p]});
+  }
+  SurfaceNodes nodes = domain.nodes;
+  SurfaceTracks tracks(model, size, domain, nodes, patches);
+  std::vector<Vec3> places = tracks.points();
+  lift_worst_on_surface(tracks, places, 0.3, 20);
+  tracks.store(places);
+  Mesh mesh = domain.boundary;
+  mesh.points = nodes.points;
+  for (std::size_t p = 0; p < quads.size(); ++p) {
+    const SurfacePatch& patch = domain.patches[p];
     std::vector<int> node = patch.boundary.point_node;
-    int hint = -1;
-    for (size_t i = node.size(); i < quads.points.size(); ++i) {
+    for (const Vec3& x : inside[p]) {
       node.push_back(static_cast<int>(mesh.points.size()));
-      mesh.points.push_back(lift(patch, model, quads.points[i], hint));
+      mesh.points.push_back(x);
     }
-    for (auto q : quads.quads) {
+    for (auto q : quads[p].quads) {
       for (int& v : q) v = node[v];
       mesh.quads.push_back(q);
       mesh.quad_region.push_back(patch.map.face);
@@ -136,6 +150,27 @@ SurfaceModel lens(double half_width) {
   SurfaceModel model = surfaces::polygon_face(outline, 1);
   model.corners = {0, kLines};
   return model;
+}
+
+// The sides are nearer to each other than a quarter of an edge for the first three edges.
+TEST(SurfaceDomain, ACuspIsFilledByRows) {
+  std::vector<Vec2> outline{{0, 0}, {10, 0}};
+  for (int i = 20; i > 0; --i) outline.push_back({0.5 * i, 0.02 * 0.25 * i * i});
+  SurfaceModel model = surfaces::polygon_face(outline, 0.25);
+  model.corners = {0, 40, 48};
+  const Meshed meshed = mesh_surface(model, 1);
+  ASSERT_EQ(meshed.sharp_corners.size(), 1u);
+  const SharpCorner& corner = meshed.sharp_corners[0];
+  EXPECT_LT(corner.angle, 0.025);
+  const auto etas = quad_etas(meshed.mesh);
+  int in_corner = 0;
+  for (size_t q = 0; q < etas.size(); ++q) {
+    const auto& v = meshed.mesh.quads[q];
+    const bool touches = std::find(v.begin(), v.end(), corner.node) != v.end();
+    in_corner += touches;
+    EXPECT_GT(etas[q], touches ? 0.999 * corner.eta_bound : 0.3);
+  }
+  EXPECT_EQ(in_corner, 1);
 }
 
 TEST(SurfaceDomain, ALensSmallerThanTheSizeIsMeshedWell) {

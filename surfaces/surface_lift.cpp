@@ -1,0 +1,196 @@
+#include "surfaces/surface_lift.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesh/parallel.h"
+
+namespace delquad {
+
+namespace {
+
+/// The search begins with this part of the longest edge, and ends after so many steps.
+constexpr double kReach = 0.25;
+constexpr int kSteps = 14;
+/// What quads lack is (1 - quality / this)^power, of those that are worse: one bad one outweighs several poor
+/// ones.
+constexpr double kGood = 0.35, kPower = 8;
+/// A move that gains a smaller part is not made, nor where less is lacking.
+constexpr double kLeastGain = 0.01, kLeastLack = 1e-4;
+/// What a quad that is turned over has less.
+constexpr double kTurnedOver = 2;
+/// No edge at a node on a curve becomes shorter than this part of the shortest around it.
+constexpr double kShortest = 0.5;
+
+class SurfaceLift {
+ public:
+  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta)
+      : tracks_(tracks),
+        quads_(tracks.quads()),
+        places_(places),
+        start_(places),
+        eta_(eta),
+        tried_(places.size(), 0),
+        moved_(places.size(), 0) {
+    first_.assign(places.size() + 1, 0);
+    for (const auto& quad : quads_)
+      for (const int v : quad) ++first_[v + 1];
+    for (std::size_t v = 0; v < places.size(); ++v) first_[v + 1] += first_[v];
+    corners_.resize(first_.back());
+    std::vector<int> fill(first_.begin(), first_.end() - 1);
+    for (std::size_t q = 0; q < quads_.size(); ++q)
+      for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
+  }
+
+  int run(int max_sweeps) {
+    bool again = true;
+    for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
+      again = false;
+      for (const int q : quads_below()) {
+        if (quality(q) >= eta_) continue;
+        for (const int v : quads_[q]) again = improve(v) || again;
+      }
+    }
+    return static_cast<int>(std::ranges::count_if(moved_, [](int when) { return when > 0; }));
+  }
+
+ private:
+  std::vector<int> quads_below() const {
+    std::vector<char> is_below(quads_.size(), 0);
+    parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) is_below[q] = quality(static_cast<int>(q)) < eta_;
+    });
+    std::vector<int> below;
+    for (std::size_t q = 0; q < is_below.size(); ++q)
+      if (is_below[q]) below.push_back(static_cast<int>(q));
+    return below;
+  }
+
+  /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
+  /// the corner `skipped` (none: -1).
+  double quality(int q, int skipped = -1) const {
+    const auto& v = quads_[q];
+    const Vec3 outward = tracks_.normal(q);
+    Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
+    const bool turned_over = !(dot(normal, outward) > 0);
+    if (turned_over) normal = outward;
+    double least = 1;
+    for (int k = 0; k < 4; ++k) {
+      if (k == skipped) continue;
+      const Vec3& at = places_[v[k]];
+      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
+      double angle = std::atan2(norm(c), dot(out, in));
+      if (dot(c, normal) < 0) angle = 2 * std::numbers::pi - angle;
+      least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
+    }
+    return turned_over ? least - kTurnedOver : least;
+  }
+
+  template <class F>
+  void for_each_neighbour(int v, F&& f) const {
+    for (int i = first_[v]; i < first_[v + 1]; ++i) {
+      const auto& quad = quads_[corners_[i] / 4];
+      f(quad[(corners_[i] + 1) % 4]);
+      f(quad[(corners_[i] + 3) % 4]);
+    }
+  }
+
+  double shortest_edge(int v, const std::vector<Vec3>& places) const {
+    double shortest = std::numeric_limits<double>::max();
+    for_each_neighbour(v, [&](int w) { shortest = std::min(shortest, norm(places[w] - places[v])); });
+    return shortest;
+  }
+
+  /// What the quads around v lack, counting in each the corners that the place of v changes: all but the one
+  /// opposite.
+  double lack_around(int v) const {
+    double sum = 0;
+    for (int i = first_[v]; i < first_[v + 1]; ++i)
+      sum += lack(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
+    return sum;
+  }
+  static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
+
+  /// Whether anything around v has moved since it was tried.
+  bool is_stale(int v) const {
+    for (int i = first_[v]; i < first_[v + 1]; ++i)
+      for (const int w : quads_[corners_[i] / 4])
+        if (w != v && moved_[w] > tried_[v]) return false;
+    return tried_[v] > 0;
+  }
+
+  /// Axes of the search, a step long: along the longest edge, and across it as far as the edges reach; on a
+  /// curve along this only.
+  std::array<Vec3, 2> axes(int v, const std::array<Vec3, 2>& free) const {
+    Vec3 along;
+    for_each_neighbour(v, [&](int w) {
+      const Vec3 edge = places_[w] - places_[v];
+      if (norm(edge) > norm(along)) along = edge;
+    });
+    if (tracks_.is_on_curve(v)) return {kReach * norm(along) / norm(free[0]) * free[0], Vec3{}};
+    const Vec3 normal = cross(free[0], free[1]);
+    const Vec3 across = (1 / (norm(normal) * norm(along))) * cross(normal, along);
+    double width = 0;
+    for_each_neighbour(
+        v, [&](int w) { width = std::max(width, std::abs(dot(across, places_[w] - places_[v]))); });
+    return {kReach * along, kReach * width * across};
+  }
+
+  /// The best of the places halfway between two neighbours, then a compass search: eight directions, a step
+  /// that shrinks.
+  bool improve(int v) {
+    const auto free = tracks_.axes(v);
+    if (norm(free[0]) == 0 || is_stale(v)) return false;
+    tried_[v] = ++now_;
+    const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
+    const double before = lack_around(v), shortest = kShortest * shortest_edge(v, start_);
+    SurfaceTracks::Spot at = start;
+    double best = before;
+    const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
+      const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
+      places_[v] = trial.place;
+      if (tracks_.is_on_curve(v) && shortest_edge(v, places_) < shortest) return;
+      const double lacking = lack_around(v);
+      if (lacking < best) best = lacking, at = trial;
+    };
+    std::vector<Vec3> neighbours;
+    for_each_neighbour(v, [&](int w) { neighbours.push_back(places_[w]); });
+    for (std::size_t i = 0; i < neighbours.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
+    places_[v] = at.place;
+    auto [along, across] = axes(v, free);
+    constexpr double kDiagonal = std::numbers::sqrt2 / 2;
+    constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
+                                  {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
+    for (int step = 0; step < kSteps; ++step) {
+      const SurfaceTracks::Spot centre = at;
+      const double last = best;
+      for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
+      if (best == last) along = 0.5 * along, across = 0.5 * across;
+    }
+    const bool gained = best < before - std::max(kLeastGain * before, kLeastLack);
+    places_[v] = gained ? at.place : start.place;
+    if (gained) tracks_.put(v, at), moved_[v] = ++now_;
+    return gained;
+  }
+
+  SurfaceTracks& tracks_;
+  const std::vector<std::array<int, 4>>& quads_;
+  std::vector<Vec3>& places_;
+  std::vector<Vec3> start_;
+  double eta_;                        ///< that will do
+  std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
+  std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
+  int now_ = 0;
+};
+
+}  // namespace
+
+int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps) {
+  return SurfaceLift(tracks, places, eta).run(max_sweeps);
+}
+
+}  // namespace delquad

@@ -1,0 +1,95 @@
+#include "surfaces/surface_lift.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/recombination/recombine.h"
+#include "geometry/surface/improve_triangulation.h"
+#include "metrics/metrics.h"
+#include "surfaces/places_inside.h"
+#include "tests/support/polygon_face.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+namespace surfaces = testing_support;
+
+/// The patches of a model, meshed by D and matched.
+struct Meshed {
+  Meshed(SurfaceModel given, double h) : model(std::move(given)), size(make_constant_size(h)) {
+    improve_triangulation(model);
+    domain = make_surface_domain(model, flatten(model), size, *make_lemon_solver());
+    nodes = domain.nodes;
+    quads.resize(domain.patches.size()), inside.resize(domain.patches.size());
+    std::vector<SurfaceTracks::Patch> patches;
+    for (std::size_t p = 0; p < quads.size(); ++p) {
+      const SurfacePatch& patch = domain.patches[p];
+      const HarmonicCrossField cross(patch.background);
+      const SurfacePatchSize delta(patch, model.fine, size);
+      quads[p] =
+          recombine(mesh_frontal(patch.boundary, *make_linf_delquad(), cross, delta), *make_lemon_solver());
+      std::vector<std::array<int, 2>> sides;
+      for (const auto& q : quads[p].quads)
+        for (int k = 0; k < 4; ++k) sides.push_back({q[k], q[(k + 1) % 4]});
+      inside[p] = places_inside(patch, model, quads[p].points, sides, nodes.points);
+      patches.push_back({&patch, nullptr, &quads[p], &inside[p]});
+    }
+    tracks.emplace(model, size, domain, nodes, std::move(patches));
+    places = tracks->points();
+  }
+
+  double worst() const {
+    Mesh mesh;
+    mesh.points = places, mesh.quads = tracks->quads();
+    const auto etas = quad_etas(mesh);
+    return *std::ranges::min_element(etas);
+  }
+
+  SurfaceModel model;
+  SurfaceSize size;
+  SurfaceDomain domain;
+  SurfaceNodes nodes;
+  std::vector<QuadPatch> quads;
+  std::vector<std::vector<Vec3>> inside;
+  std::optional<SurfaceTracks> tracks;
+  std::vector<Vec3> places;
+};
+
+// Each third vertex goes most of the way to a neighbour of its own kind.
+TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
+  Meshed m(surfaces::bump(40, 0.4), 0.12);
+  const int n = static_cast<int>(m.places.size());
+  for (const auto& quad : m.tracks->quads())
+    for (int k = 0; k < 4; ++k) {
+      const int v = quad[k], w = quad[(k + 1) % 4];
+      if (v % 3 != 0 || m.tracks->is_on_curve(v) != m.tracks->is_on_curve(w)) continue;
+      if (norm(m.tracks->axes(v)[0]) == 0) continue;
+      const auto spot = m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]},
+                                            0.3 * m.places[v] + 0.7 * m.places[w]);
+      m.tracks->put(v, spot);
+      m.places[v] = spot.place;
+      break;
+    }
+  ASSERT_LT(m.worst(), 0.1);
+  EXPECT_GT(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20), n / 50);
+  EXPECT_GT(m.worst(), 0.2);
+  m.tracks->store(m.places);
+  for (std::size_t c = 0; c < m.nodes.on_curve.size(); ++c)
+    for (const CurveNode& node : m.nodes.on_curve[c])
+      EXPECT_LT(norm(m.nodes.points[node.node] -
+                     place_on_curve(m.model, m.domain.chains[c], m.domain.cut_face, node.s)),
+                1e-12);
+}
+
+TEST(SurfaceLift, WhatIsGoodStays) {
+  Meshed m(surfaces::polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
+  const auto before = m.places;
+  EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20), 0);
+  EXPECT_EQ(m.places, before);
+}
+
+}  // namespace
+}  // namespace delquad
