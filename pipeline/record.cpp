@@ -199,6 +199,11 @@ Json smoothing_json(const std::vector<SmoothingSummary>& patches) {
           {"energy_by_evaluation", energies}};
 }
 
+Json adaptation_json(const AdaptationSummary& s) {
+  return {{"sweeps", s.sweeps}, {"splits", s.splits}, {"collapses", s.collapses},
+          {"swaps", s.swaps},   {"moves", s.moves},   {"seconds", s.seconds}};
+}
+
 Json recombination_json(const RecombineSummary& s) {
   return {{"triangles", s.triangles},
           {"extra_edges", s.extra_edges},
@@ -389,6 +394,7 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   const StageLog& log = result.log;
   if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
   if (!log.smoothing.empty()) json["smoothing"] = smoothing_json(log.smoothing);
+  if (log.adaptation) json["adaptation"] = adaptation_json(*log.adaptation);
   if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
   if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   json["bad_quads"] = bad_quads_json(prepared, result);

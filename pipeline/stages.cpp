@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "algorithms/insertion/packing.h"
+#include "algorithms/recombination/greedy.h"
 #include "mesh/error.h"
 #include "pipeline/prepare.h"
 #include "pipeline/stopwatch.h"
@@ -22,6 +23,16 @@ void add(std::optional<FrontalSummary>& sum, const FrontalSummary& s) {
   sum->rejected += s.rejected;
   sum->unresolved += s.unresolved;
   sum->layers = std::max(sum->layers, s.layers);
+  sum->seconds += s.seconds;
+}
+
+void add(std::optional<AdaptationSummary>& sum, const AdaptationSummary& s) {
+  if (!sum) sum.emplace();
+  sum->sweeps = std::max(sum->sweeps, s.sweeps);
+  sum->splits += s.splits;
+  sum->collapses += s.collapses;
+  sum->swaps += s.swaps;
+  sum->moves += s.moves;
   sum->seconds += s.seconds;
 }
 
@@ -117,6 +128,35 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log.add_seconds("treatment", treatment.seconds());
 }
 
+void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& options) {
+  RecombineSummary summary;
+  patch.quads = recombine_greedily(patch.triangles, options, &summary);
+  patch.triangles = {};
+  patch.form = PatchForm::kQuads;
+  add(log.recombination, summary);
+  log.add_seconds("matching", summary.merge_seconds);
+}
+
+void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  merge_greedily(patch, log, {});
+  if (in.options.treatment == Treatment::kNone) return;
+  TreatmentSummary treated;
+  patch.quads = treat_by_degrees(patch.quads, in.size, in.options.treatment_options, &treated);
+  add(log.treatment, treated);
+  log.add_seconds("treatment", treated.seconds);
+}
+
+void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  AdaptationOptions options;
+  options.max_points = in.options.insertion().max_points;
+  AdaptationSummary summary;
+  patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
+  add(log.adaptation, summary);
+  log.add_seconds("adaptation", summary.seconds);
+  constexpr double kGoodPair = 0.5;  // eta
+  merge_greedily(patch, log, {kGoodPair, true, 0});
+}
+
 void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   CleanupSummary summary;
@@ -169,6 +209,8 @@ std::deque<Stage>& stages() {
        }},
       {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+      {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
+      {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads, optimise_surface},
   };
@@ -231,6 +273,7 @@ void StageLog::add(const StageLog& other) {
   for (const auto& [step, s] : other.seconds) add_seconds(step, s);
   if (other.insertion) delquad::add(insertion, *other.insertion);
   if (other.insertion) h_max = other.h_max;
+  if (other.adaptation) delquad::add(adaptation, *other.adaptation);
   smoothing.insert(smoothing.end(), other.smoothing.begin(), other.smoothing.end());
   if (other.recombination) delquad::add(recombination, *other.recombination);
   if (other.treatment) delquad::add(treatment, *other.treatment);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/insertion/linf_adaptation.h"
 #include "algorithms/recombination/recombine.h"
 #include "pipeline/options.h"
 #include "surfaces/curve_nodes.h"
@@ -39,6 +40,7 @@ struct StageLog {
   /// the number of threads.
   std::vector<std::pair<std::string, double>> seconds;
   std::optional<FrontalSummary> insertion;
+  std::optional<AdaptationSummary> adaptation;
   double h_max = 0;                         ///< that insertion used: the option's or the strategy's own
   std::vector<SmoothingSummary> smoothing;  ///< of each patch; after each other where a word smooths twice
   std::optional<RecombineSummary> recombination;

@@ -267,6 +267,7 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_curves", "curves s", "curves"},
                                               {"seconds_fields", "fields s", "fields"},
                                               {"seconds_insertion", "insertion s", "insertion"},
+                                              {"seconds_adaptation", "adaptation s", "adaptation"},
                                               {"seconds_smoothing", "smoothing s", "smoothing"},
                                               {"seconds_matching", "matching s", "matching"},
                                               {"seconds_treatment", "treatment s", "treatment"},

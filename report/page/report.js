@@ -6,6 +6,8 @@ const kAboutLetters = {
   P: "points are packed as in a grid along the wanted directions; D fills what is left",
   L: "moves the points until the region nearest to each is a square along the wanted directions",
   B: "merges pairs of triangles to quads, the best pairs all over the mesh together (Blossom), then removes obvious flaws",
+  G: "merges pairs of triangles to quads, the best first, one by one; some triangles are left",
+  T: "splits, joins and moves the triangles' edges until they are halves of squares, then merges good pairs; some triangles are left",
   C: "changes how quads hang together, so that fewer vertices are irregular",
   O: "moves all vertices together for better shapes and sizes",
 };

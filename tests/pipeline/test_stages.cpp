@@ -6,6 +6,12 @@
 namespace delquad {
 namespace {
 
+TEST(Words, SomeMayLeaveTriangles) {
+  for (const char* word : {"FB", "DBC", "DLBCO"}) EXPECT_TRUE(parse_word(word).quads_only()) << word;
+  for (const char* word : {"FG", "DT", "FGC", "F"}) EXPECT_FALSE(parse_word(word).quads_only()) << word;
+  expect_input_error([] { parse_word("FGB"); }, {"'B'", "quads"});
+}
+
 TEST(Words, AreReadFromLeftToRight) {
   const Word d = parse_word("D");
   ASSERT_EQ(d.stages.size(), 1u);
