@@ -43,24 +43,29 @@ std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& 
 
 namespace {
 
-BoxTree<Vec3> boxes_of(const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles) {
+std::vector<Box<Vec3>> boxes_of(const std::vector<Vec3>& points,
+                                const std::vector<std::array<int, 3>>& triangles) {
   if (triangles.empty()) throw std::invalid_argument("NearestTriangle: no triangles");
   std::vector<Box<Vec3>> boxes;
   boxes.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles)
     boxes.push_back(Box<Vec3>::around({points[a], points[b], points[c]}));
-  return BoxTree<Vec3>(boxes);
+  return boxes;
 }
 
 }  // namespace
 
 NearestTriangle::NearestTriangle(std::vector<Vec3> points, std::vector<std::array<int, 3>> triangles)
-    : points_(std::move(points)), triangles_(std::move(triangles)), tree_(boxes_of(points_, triangles_)) {}
+    : points_(std::move(points)),
+      triangles_(std::move(triangles)),
+      boxes_(boxes_of(points_, triangles_)),
+      tree_(boxes_) {}
 
 NearestTriangle::Found NearestTriangle::find(const Vec3& x, double reach) const {
   Found best;
   double best2 = reach * reach;
   tree_.nearest(x, best2, [&](int t) {
+    if (boxes_[t].distance2(x) > best2) return;
     const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];
     const auto w = nearest_weights(a, b, c, x);
     const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;

@@ -27,6 +27,7 @@ class NearestTriangle {
  private:
   std::vector<Vec3> points_;
   std::vector<std::array<int, 3>> triangles_;
+  std::vector<Box<Vec3>> boxes_;
   BoxTree<Vec3> tree_;
 };
 

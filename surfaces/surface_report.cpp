@@ -155,9 +155,16 @@ class Comparison {
     int face, curve = -1;
   };
 
-  /// Distance to the true surface near a face, in diagonals.
-  double to_face(int face, const Vec3& x) const {
-    return (projector_ ? norm(projector_->to_face(face, x) - x) : triangles_[0].find(x).distance) / diagonal_;
+  /// Distance to the true surface near a face, in diagonals. `near`: that of a place nearby, in its unit.
+  double to_face(int face, const Vec3& x, double& near) const {
+    return (projector_ ? norm(projector_->to_face(face, x) - x) : to_triangles(x, near)) / diagonal_;
+  }
+  /// Most places lie about as far from the model as the one before.
+  double to_triangles(const Vec3& x, double& near) const {
+    constexpr double kOnIt = 1e-9;
+    NearestTriangle::Found found = triangles_[0].find(x, 2 * near + kOnIt * diagonal_);
+    if (found.triangle < 0) found = triangles_[0].find(x);
+    return near = found.distance;
   }
   double to_curve(int curve, const Vec3& x) const {
     return norm(projector_->to_curve(curve, x) - x) / diagonal_;
@@ -166,9 +173,10 @@ class Comparison {
   void measure(const std::vector<Sample>& samples, Distances& distances) const {
     std::vector<double> found(samples.size());
     parallel_ranges(samples.size(), [&](std::size_t begin, std::size_t end) {
+      double near = 0;
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [x, face, curve] = samples[i];
-        found[i] = curve >= 0 ? to_curve(curve, x) : to_face(face, x);
+        found[i] = curve >= 0 ? to_curve(curve, x) : to_face(face, x, near);
       }
     });
     for (const double d : found) distances.add(d);
@@ -227,10 +235,12 @@ class Comparison {
   void measure_nodes_on_lines(const std::vector<Node>& nodes) {
     std::vector<double> distances(nodes.size(), kInf);
     parallel_ranges(nodes.size(), [&](std::size_t begin, std::size_t end) {
+      double near = 0;
       for (std::size_t v = begin; v < end; ++v) {
         for (const int c : nodes[v].curves)
           if (projector_ && !is_cut_[c]) distances[v] = std::min(distances[v], to_curve(c, mesh_.points[v]));
-        for (const int f : nodes[v].faces) distances[v] = std::min(distances[v], to_face(f, mesh_.points[v]));
+        for (const int f : nodes[v].faces)
+          distances[v] = std::min(distances[v], to_face(f, mesh_.points[v], near));
       }
     });
     for (std::size_t v = 0; v < nodes.size(); ++v) {
