@@ -113,22 +113,27 @@ void CleanupProcess::anneal(double tolerance) {
   for (const int v : visiting_) {
     if (!mesh_.vertex_alive(v) || energy_.of(v) == 0) continue;
     TreatmentMove move{};
-    if (pick_neutral(v, move)) {
-      ++summary_.tried;
-      if (attempt(move, tolerance)) {
-        ++summary_.annealed;
-        accept();
-        drain();
-      }
+    if (!pick_neutral(v, move)) continue;
+    ++summary_.tried;
+    if (attempt(move, tolerance)) {
+      ++summary_.annealed;
+      accept();
+      drain();
+    } else {
+      failed_[v].push_back(move);
     }
     list_irregular(v);
   }
 }
 
 bool CleanupProcess::pick_neutral(int v, TreatmentMove& move) {
+  failed_.resize(mesh_.vertex_slots());
+  const auto failed = [&](const TreatmentMove& edit) {
+    return std::ranges::find(failed_[v], edit) != failed_[v].end();
+  };
   choices_.clear();
   for_each_edit_near(v, [&](const TreatmentMove& edit) {
-    if (energy_.gain(edit) == 0 && is_legal(mesh_, edit)) choices_.push_back(edit);
+    if (energy_.gain(edit) == 0 && !failed(edit) && is_legal(mesh_, edit)) choices_.push_back(edit);
   });
   if (choices_.empty()) return false;
   move = choices_[random_() % choices_.size()];
@@ -164,14 +169,19 @@ void CleanupProcess::perform(const TreatmentMove& move) {
 
 void CleanupProcess::accept() {
   mesh_.commit();
+  failed_.resize(mesh_.vertex_slots());
   for (const int v : touched_) {
     if (!mesh_.vertex_alive(v)) continue;
     consider(v);
-    list_irregular(v);
     mesh_.for_each_out(v, [&](int h) {
       const int e = QuadTopology::element(h);
-      for (int k = 0; k < 4; ++k)
-        if (const int w = mesh_.corner(e, k); w >= 0) relocation_.activate(w);
+      for (int k = 0; k < 4; ++k) {
+        const int w = mesh_.corner(e, k);
+        if (w < 0) continue;
+        relocation_.activate(w);
+        failed_[w].clear();
+        list_irregular(w);
+      }
     });
   }
   summary_.relocated += relocation_.relax(kSettled, kSettlingSweeps);

@@ -34,7 +34,8 @@ struct CleanupSummary {
 /// and at least 1, on the boundary, and costs next to no quality. Then annealing: at every irregular vertex
 /// that is left, a random edit that leaves the sum as it is, so that pairs of valences 3 and 5 travel until
 /// they meet others, is kept while the quality around loses less than a tolerance that decays to 0; greedy
-/// edits follow wherever they can. Quality is the mean over quads of eta - 1.5 * (size deviation), after
+/// edits follow wherever they can. What has failed is not tried again before an edit changes what lies
+/// around. Quality is the mean over quads of eta - 1.5 * (size deviation), after
 /// local relocation; the size deviation of a quad is the mean over its sides of 1 - min(l, 1/l), l = length /
 /// delta'.
 ///

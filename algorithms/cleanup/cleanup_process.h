@@ -56,10 +56,11 @@ class CleanupProcess {
   QuadRelocation relocation_;
   CleanupOptions options_;
   std::mt19937_64 random_;
-  std::priority_queue<Candidate> queue_;  ///< edits that lower the sum, the largest gain first
-  std::vector<int> visiting_, work_;      ///< irregular vertices of this round and of the next
-  std::vector<char> listed_;              ///< by vertex: in work_
-  std::vector<int> touched_;              ///< vertices of the edit on trial
+  std::priority_queue<Candidate> queue_;            ///< edits that lower the sum, the largest gain first
+  std::vector<int> visiting_, work_;                ///< irregular vertices of this round and of the next
+  std::vector<char> listed_;                        ///< by vertex: in work_
+  std::vector<std::vector<TreatmentMove>> failed_;  ///< by vertex, since an edit changed what lies around
+  std::vector<int> touched_;                        ///< vertices of the edit on trial
   std::vector<TreatmentMove> choices_;
   std::vector<unsigned> seen_element_;  ///< against seen_
   unsigned seen_ = 0;
