@@ -49,6 +49,7 @@ SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, c
       for (const int node : quad) on_curve_[node] = {};
   for (const Patch& patch : patches_) add_patch(patch);
   hint_.assign(points_.size(), -1);
+  cross_hint_.assign(patches_.size(), -1);
 }
 
 void SurfaceTracks::add_curves() {
@@ -174,8 +175,7 @@ Vec3 SurfaceTracks::arm(int quad, int side) const {
   if (vertex_patch_[a] >= 0 && vertex_patch_[b] >= 0) u = 0.5 * (position_[a] + position_[b]);
   int hint = hint_[inside];
   const auto axis = tangents(*patch.patch, model_.fine, patch.patch->background->locate(u, hint).triangle);
-  int cross_hint = -1;
-  const Cross c = patch.cross->at(u, cross_hint);
+  const Cross c = patch.cross->at(u, cross_hint_[quad_patch_[quad]]);
   if (c.c == 0 && c.s == 0) return {};
   const double angle = c.angle();
   const Vec3 arm = std::cos(angle) * axis[0] + std::sin(angle) * axis[1];

@@ -79,8 +79,9 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   std::vector<int> first_quad_;             ///< of each patch
   std::vector<std::vector<Vec3>> normals_;  ///< at the vertices of each patch's map, by area
   std::vector<char> stays_;
-  std::vector<int> vertex_patch_;  ///< of the vertices inside patches; -1: a node
-  mutable std::vector<int> hint_;  ///< into the maps, by vertex
+  std::vector<int> vertex_patch_;        ///< of the vertices inside patches; -1: a node
+  mutable std::vector<int> hint_;        ///< into the maps, by vertex
+  mutable std::vector<int> cross_hint_;  ///< into the fields, by patch
   mutable int size_hint_ = -1;
 };
 

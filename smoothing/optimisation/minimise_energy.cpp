@@ -7,8 +7,8 @@ namespace delquad {
 
 namespace {
 
-/// Vectors that L-BFGS remembers.
-constexpr int kMemory = 12;
+/// Steps that L-BFGS remembers: more of them cost as much time as they save.
+constexpr int kMemory = 5;
 /// The descent ends when a step gains less than this part of the energy.
 constexpr double kLeastGain = 1e-5;
 
@@ -36,6 +36,7 @@ EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations) {
   options.line_search_direction_type = ceres::LBFGS;
   options.line_search_type = ceres::WOLFE;
   options.max_lbfgs_rank = kMemory;
+  options.use_approximate_eigenvalue_bfgs_scaling = true;
   options.max_num_iterations = max_iterations;
   options.function_tolerance = kLeastGain;
   options.gradient_tolerance = 0;

@@ -3,8 +3,8 @@
 namespace delquad {
 
 struct OptimisationOptions {
-  int passes = 3;           ///< delta and the cross are evaluated anew before each
-  int iterations = 40;      ///< of L-BFGS in a pass, at most
+  int passes = 4;           ///< at most; delta and the cross are evaluated anew before each
+  int iterations = 30;      ///< of L-BFGS, at most: of the worst quads, then of the others, in each pass
   double size = 0.4;        ///< weight of the edges' lengths, see QuadEnergyWeights
   double alignment = 0.02;  ///< weight of the edges' directions
 };
@@ -12,9 +12,9 @@ struct OptimisationOptions {
 struct OptimisationSummary {
   int untangled = 0;   ///< inverted or flat quads of the input that are so no more
   int held = 0;        ///< vertices kept in place that could move, but for flat quads
-  int iterations = 0;  ///< of L-BFGS, the pass for the worst quads included
+  int iterations = 0;  ///< of L-BFGS, those for the worst quads included
   int evaluations = 0;
-  double energy_before = 0, energy_after = 0;  ///< of the last pass over all quads
+  double energy_before = 0, energy_after = 0;  ///< of the pass over all quads
   double worst_before = 1, worst_after = 1;    ///< least eta of quads that can move, after untangling
   double seconds = 0;
 };

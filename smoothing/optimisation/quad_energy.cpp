@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "mesh/parallel.h"
 #include "smoothing/optimisation/quad_corners.h"
 
 namespace delquad {
@@ -11,6 +13,8 @@ namespace {
 
 /// Where |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
+/// Quads in a piece.
+constexpr std::size_t kPieceLength = 1024;
 
 double power(double x, int n) {
   double result = 1;
@@ -22,83 +26,139 @@ double power(double x, int n) {
 
 template <class Vec>
 QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights)
-    : weights_(weights),
-      start_(std::move(mesh.points)),
-      moving_(std::move(mesh.moving)),
-      at_(start_),
-      slope_(start_.size()) {
-  std::vector<char> moves(start_.size(), 0);
-  for (const auto& m : moving_) moves[m.vertex] = 1;
-  struct Side {
-    int a, b, quad, k;
+    : weights_(weights), start_(std::move(mesh.points)), moving_(std::move(mesh.moving)) {
+  add_pieces(mesh);
+  find_slots_of_moving();
+  for (const Slot& slot : slots_) at_.push_back(start_[slot.vertex]);
+  slope_.resize(slots_.size());
+  energies_.resize(pieces_.size());
+}
+
+/// Quads and edges that can move, with vertices for slots at first; then piece by piece slots take over.
+template <class Vec>
+void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
+  std::vector<int> moving(start_.size(), -1);
+  for (std::size_t i = 0; i < moving_.size(); ++i) moving[moving_[i].vertex] = static_cast<int>(i);
+  const auto moves = [&](int v) { return moving[v] >= 0; };
+  std::vector<int> first_side(start_.size(), -1),
+      next_side;  // sides seen so far, chained by their lesser end
+  std::size_t quads_begin = 0, edges_begin = 0;
+  std::vector<int> other_end;
+  const auto is_new = [&](int a, int b) {
+    for (int i = first_side[std::min(a, b)]; i >= 0; i = next_side[i])
+      if (other_end[i] == std::max(a, b)) return false;
+    next_side.push_back(first_side[std::min(a, b)]);
+    other_end.push_back(std::max(a, b));
+    first_side[std::min(a, b)] = static_cast<int>(next_side.size()) - 1;
+    return true;
   };
-  std::vector<Side> sides;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& v = mesh.quads[q];
-    if (std::none_of(v.begin(), v.end(), [&](int i) { return moves[i]; })) continue;
+    if (std::none_of(v.begin(), v.end(), moves)) continue;
     unsigned movable = 0;
     for (int k = 0; k < 4; ++k)
-      if (moves[v[(k + 3) % 4]] || moves[v[k]] || moves[v[(k + 1) % 4]]) movable |= 1U << k;
+      if (moves(v[(k + 3) % 4]) || moves(v[k]) || moves(v[(k + 1) % 4])) movable |= 1U << k;
     quads_.push_back({v, movable, quad_normal(start_[v[2]] - start_[v[0]], start_[v[3]] - start_[v[1]]),
                       mesh.least_sine[q], mesh.weight[q]});
     for (int k = 0; k < 4; ++k) {
       const int a = v[k], b = v[(k + 1) % 4];
-      if (moves[a] || moves[b]) sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(q), k});
+      if ((!moves(a) && !moves(b)) || !is_new(a, b)) continue;
+      edges_.push_back({a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.least_lengths[q][k],
+                        mesh.arm(static_cast<int>(q), k)});
     }
+    if (quads_.size() - quads_begin < kPieceLength) continue;
+    add_slots(quads_begin, edges_begin, moving);
+    quads_begin = quads_.size(), edges_begin = edges_.size();
   }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& s, const Side& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto& [a, b, quad, k] = sides[i];
-    if (i > 0 && sides[i - 1].a == a && sides[i - 1].b == b) continue;
-    edges_.push_back(
-        {a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.least_lengths[quad][k], mesh.arm(quad, k)});
-  }
+  if (quads_begin < quads_.size()) add_slots(quads_begin, edges_begin, moving);
 }
 
 template <class Vec>
-void QuadEnergy<Vec>::place(const double* x, std::vector<Vec>& at) const {
-  for (const auto& [vertex, axes] : moving_) {
-    at[vertex] = start_[vertex] + (x[0] * axes[0] + x[1] * axes[1]);
-    x += 2;
-  }
+void QuadEnergy<Vec>::add_slots(std::size_t quads_begin, std::size_t edges_begin,
+                                const std::vector<int>& moving) {
+  std::vector<int> vertices;
+  for (std::size_t q = quads_begin; q < quads_.size(); ++q)
+    vertices.insert(vertices.end(), quads_[q].slots.begin(), quads_[q].slots.end());
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const int first = static_cast<int>(slots_.size());
+  const auto to_slot = [&](int& v) {
+    v = first + static_cast<int>(std::ranges::lower_bound(vertices, v) - vertices.begin());
+  };
+  for (std::size_t q = quads_begin; q < quads_.size(); ++q) std::ranges::for_each(quads_[q].slots, to_slot);
+  for (std::size_t e = edges_begin; e < edges_.size(); ++e) to_slot(edges_[e].a), to_slot(edges_[e].b);
+  for (const int v : vertices) slots_.push_back({v, moving[v]});
+  pieces_.push_back({quads_.size(), edges_.size(), slots_.size()});
+}
+
+template <class Vec>
+void QuadEnergy<Vec>::find_slots_of_moving() {
+  first_slot_.assign(moving_.size() + 1, 0);
+  for (const Slot& slot : slots_)
+    if (slot.moving >= 0) ++first_slot_[slot.moving + 1];
+  std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
+  slots_of_moving_.resize(first_slot_.back());
+  std::vector<std::size_t> next(first_slot_.begin(), first_slot_.end() - 1);
+  for (std::size_t s = 0; s < slots_.size(); ++s)
+    if (slots_[s].moving >= 0) slots_of_moving_[next[slots_[s].moving]++] = static_cast<int>(s);
+}
+
+template <class Vec>
+Vec QuadEnergy<Vec>::place(int moving, const double* x) const {
+  const auto& [vertex, axes] = moving_[moving];
+  return start_[vertex] + (x[2 * moving] * axes[0] + x[2 * moving + 1] * axes[1]);
 }
 
 template <class Vec>
 std::vector<Vec> QuadEnergy<Vec>::points(const double* x) const {
   std::vector<Vec> at = start_;
-  place(x, at);
+  for (std::size_t i = 0; i < moving_.size(); ++i) at[moving_[i].vertex] = place(static_cast<int>(i), x);
   return at;
 }
 
 template <class Vec>
 bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient) const {
-  place(x, at_);
-  energy = 0;
-  if (gradient == nullptr) return add_all<false>(energy);
-  std::fill(slope_.begin(), slope_.end(), Vec{});
-  if (!add_all<true>(energy)) return false;
-  for (const auto& [vertex, axes] : moving_) {
-    *gradient++ = dot(axes[0], slope_[vertex]);
-    *gradient++ = dot(axes[1], slope_[vertex]);
-  }
+  std::vector<char> is_finite(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    is_finite[p] =
+        gradient == nullptr ? add_piece<false>(p, x, energies_[p]) : add_piece<true>(p, x, energies_[p]);
+  });
+  if (std::ranges::find(is_finite, 0) != is_finite.end()) return false;
+  energy = std::accumulate(energies_.begin(), energies_.end(), 0.0);
+  if (!std::isfinite(energy)) return false;
+  if (gradient == nullptr) return true;
+  parallel_ranges(moving_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Vec slope;
+      for (std::size_t k = first_slot_[i]; k < first_slot_[i + 1]; ++k)
+        slope = slope + slope_[slots_of_moving_[k]];
+      gradient[2 * i] = dot(moving_[i].axes[0], slope);
+      gradient[2 * i + 1] = dot(moving_[i].axes[1], slope);
+    }
+  });
   return true;
 }
 
 template <class Vec>
 template <bool kSlope>
-bool QuadEnergy<Vec>::add_all(double& energy) const {
-  for (const Quad& quad : quads_)
-    if (!add_quad<kSlope>(quad, energy)) return false;
-  for (const Edge& edge : edges_)
-    if (!add_edge<kSlope>(edge, energy)) return false;
-  return std::isfinite(energy);
+bool QuadEnergy<Vec>::add_piece(std::size_t piece, const double* x, double& energy) const {
+  const Piece begin = piece == 0 ? Piece{0, 0, 0} : pieces_[piece - 1], end = pieces_[piece];
+  for (std::size_t s = begin.slots_end; s < end.slots_end; ++s) {
+    if (slots_[s].moving >= 0) at_[s] = place(slots_[s].moving, x);
+    slope_[s] = {};
+  }
+  energy = 0;
+  for (std::size_t q = begin.quads_end; q < end.quads_end; ++q)
+    if (!add_quad<kSlope>(quads_[q], energy)) return false;
+  for (std::size_t e = begin.edges_end; e < end.edges_end; ++e)
+    if (!add_edge<kSlope>(edges_[e], energy)) return false;
+  return true;
 }
 
 template <class Vec>
 template <bool kSlope>
 bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
-  const auto& v = quad.vertices;
+  const auto& v = quad.slots;
   Vec side[4];  // unit vectors
   double inverse[4];
   for (int k = 0; k < 4; ++k) {
@@ -123,6 +183,7 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
   energy += good + bad;
   if constexpr (!kSlope) return true;
   const double steep = (0.5 * good + weights_.bad_power * bad) / shape;
+  Vec by_side[4];
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
     const int before = (k + 3) % 4;
@@ -130,12 +191,10 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
     const double by_sine = -steep / (sine * sine) - weights_.barrier / (sine - quad.least_sine);
     // The sine's derivative by the angle between both sides is their cosine.
     const double by_turn = by_sine * dot(side[before], side[k]);
-    const Vec first = by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
-    const Vec second = by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
-    slope_[v[k]] = slope_[v[k]] - first - second;
-    slope_[v[before]] = slope_[v[before]] + first;
-    slope_[v[(k + 1) % 4]] = slope_[v[(k + 1) % 4]] + second;
+    by_side[before] = by_side[before] - by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
+    by_side[k] = by_side[k] + by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
   }
+  for (int k = 0; k < 4; ++k) slope_[v[k]] = slope_[v[k]] + (by_side[(k + 3) % 4] - by_side[k]);
   return true;
 }
 
@@ -145,9 +204,9 @@ bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
   const Vec along = at_[edge.b] - at_[edge.a];
   const double length = norm(along), inverse = 1 / length;
   if (!(length > edge.least_length)) return false;
-  const double misfit = std::log(length * edge.inverse_length);
-  const double rounded = std::sqrt(misfit * misfit + kSizeKink * kSizeKink),
-               lack = std::exp(kSizeKink - rounded);
+  // Hyperbolic sine and cosine of log(l/d): their difference is min(l/d, d/l).
+  const double ratio = length * edge.inverse_length, cosh = 0.5 * (ratio + 1 / ratio), sinh = ratio - cosh;
+  const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), lack = cosh - rounded + kSizeKink;
   const Vec u = inverse * along;
   // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
@@ -155,7 +214,7 @@ bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
   energy += weights_.size * (1 - lack) + 4 * weights_.alignment * c2 * (1 - c2) + too_short;
   if constexpr (!kSlope) return true;
   const double by_length =
-      weights_.size * lack * misfit / rounded * inverse - too_short / (length - edge.least_length);
+      weights_.size * sinh * (cosh / rounded - 1) * inverse - too_short / (length - edge.least_length);
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   const Vec by_end = by_length * u + by_cosine * (edge.arm - c * u);
   slope_[edge.b] = slope_[edge.b] + by_end;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -44,7 +45,7 @@ struct QuadEnergyMesh {
 ///   the first term
 ///     is about as linear in |angle - 90 degrees| as eta is, the second keeps the mean from being bought with
 ///     some bad quads,
-///   size * (1 - exp(-|log(l/d)|)) over the edges, l the length, d the mean of delta at both ends: what an
+///   size * (1 - min(l/d, d/l)) over the edges, l the length, d the mean of delta at both ends: what an
 ///     edge lacks in tau,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
 ///   barrier * m / (l - m) over the edges, m the least length,
@@ -61,29 +62,41 @@ class QuadEnergy {
   QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights);
 
   int variables() const { return 2 * static_cast<int>(moving_.size()); }
-  /// False where the energy is infinite. `gradient` may be null. Not from two threads at once.
+  /// False where the energy is infinite. `gradient` may be null. Works on several threads, with the same
+  /// result for every number of them; not to be called from two at once.
   bool evaluate(const double* x, double& energy, double* gradient) const;
   /// All points of the mesh after a displacement.
   std::vector<Vec> points(const double* x) const;
 
  private:
   struct Quad {
-    std::array<int, 4> vertices;
+    std::array<int, 4> slots;
     unsigned movable;  ///< a bit for each corner
     Vec normal;        ///< in space
     double least_sine, weight;
     bool moves(int k) const { return (movable >> k & 1U) != 0; }
   };
   struct Edge {
-    int a, b;
+    int a, b;               ///< slots
     double inverse_length;  ///< wanted
     double least_length;
     Vec arm;
   };
+  /// Some quads that follow each other, the edges first seen on them, and a slot for each of their vertices:
+  /// one thread's work. It begins where the piece before ends.
+  struct Piece {
+    std::size_t quads_end, edges_end, slots_end;
+  };
+  struct Slot {
+    int vertex, moving;  ///< `moving`: its number among those that move, -1: it stays
+  };
 
-  void place(const double* x, std::vector<Vec>& at) const;
+  void add_pieces(const QuadEnergyMesh<Vec>& mesh);
+  void add_slots(std::size_t quads_begin, std::size_t edges_begin, const std::vector<int>& moving);
+  void find_slots_of_moving();
+  Vec place(int moving, const double* x) const;
   template <bool kSlope>
-  bool add_all(double& energy) const;
+  bool add_piece(std::size_t piece, const double* x, double& energy) const;
   template <bool kSlope>
   bool add_quad(const Quad& quad, double& energy) const;
   template <bool kSlope>
@@ -94,7 +107,12 @@ class QuadEnergy {
   std::vector<MovingVertex<Vec>> moving_;
   std::vector<Quad> quads_;
   std::vector<Edge> edges_;
-  mutable std::vector<Vec> at_, slope_;  // of all points; where nothing moves, at_ never changes
+  std::vector<Slot> slots_;
+  std::vector<Piece> pieces_;
+  std::vector<std::size_t> first_slot_;  ///< into slots_of_moving_, of each moving vertex
+  std::vector<int> slots_of_moving_;
+  mutable std::vector<Vec> at_, slope_;   // by slot; where nothing moves, at_ never changes
+  mutable std::vector<double> energies_;  // by piece
 };
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "smoothing/optimisation/minimise_energy.h"
@@ -18,10 +19,13 @@ constexpr double kRoom = 0.005;
 /// The barrier stands at this part of that: what falls between both when the pass is over goes back. A
 /// nearer barrier would hold up the descent.
 constexpr double kBarrier = 0.8;
-/// The pass for the worst: quads below this eta, with so many rings around them.
-constexpr double kWorstEta = 0.6;
-constexpr int kWorstRings = 2;
-/// Weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
+/// The worst: quads below this eta. All passes but the first leave alone what lies around better ones than
+/// the second value. Rings of quads around those below move with them.
+constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
+constexpr int kRings = 2;
+/// No pass follows one that gained no more than this part of the energy.
+constexpr double kLeastGain = 0.02;
+/// For the worst: weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
 constexpr double kWorstWeight = 30;
 constexpr int kWorstPower = 3;
 /// Sum over the corners of 1/sin alpha - 1 from which on quads weigh less, so that those beyond help do not
@@ -49,10 +53,10 @@ class TrackOptimisation {
   double movable_sine(std::size_t quad) const;
   double least() const;
   void find_free();
-  std::vector<char> around_worst() const;
+  std::vector<char> around_below(double eta) const;
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
-  void descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
+  EnergyDescent descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
   bool too_short(std::size_t quad) const;
   std::vector<double> reaches(std::vector<double> delta) const;
   void settle(const std::vector<MovingVertex<Vec>>& moving, const std::vector<double>& x);
@@ -107,13 +111,14 @@ void TrackOptimisation<Vec>::find_free() {
   for (std::size_t v = 0; v < free_.size(); ++v) summary_.held += all[v] && !free_[v];
 }
 
+/// The vertices that can move around quads below this eta.
 template <class Vec>
-std::vector<char> TrackOptimisation<Vec>::around_worst() const {
+std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   std::vector<char> near(points_.size(), 0);
   for (std::size_t q = 0; q < quads_.size(); ++q)
-    if (movable_sine(q) < sine_for(kWorstEta))
+    if (movable_sine(q) < sine_for(eta))
       for (const int v : quads_[q]) near[v] = 1;
-  for (int ring = 0; ring < kWorstRings; ++ring) {
+  for (int ring = 0; ring < kRings; ++ring) {
     const std::vector<char> inner = near;
     for (const auto& quad : quads_)
       if (std::any_of(quad.begin(), quad.end(), [&](int v) { return inner[v]; }))
@@ -141,7 +146,12 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
   QuadEnergyMesh<Vec> mesh;
   mesh.points = points_;
   mesh.quads = quads_;
-  for (const Vec& place : points_) mesh.delta.push_back(tracks_.delta(place));
+  mesh.delta.assign(points_.size(), std::numeric_limits<double>::infinity());
+  for (const auto& quad : quads_) {
+    if (std::none_of(quad.begin(), quad.end(), [&](int v) { return free[v]; })) continue;
+    for (const int v : quad)
+      if (std::isinf(mesh.delta[v])) mesh.delta[v] = tracks_.delta(points_[v]);
+  }
   mesh.least_lengths = least_lengths_;
   const std::vector<double> reach = reaches(mesh.delta);
   for (std::size_t v = 0; v < points_.size(); ++v) {
@@ -171,18 +181,18 @@ void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, Quad
 }
 
 template <class Vec>
-void TrackOptimisation<Vec>::descend(const std::vector<char>& free, const QuadEnergyWeights& weights) {
+EnergyDescent TrackOptimisation<Vec>::descend(const std::vector<char>& free,
+                                              const QuadEnergyWeights& weights) {
   QuadEnergyMesh<Vec> mesh = energy_mesh(free);
-  if (mesh.moving.empty()) return;
+  if (mesh.moving.empty()) return {};
   set_barriers(weights, mesh);
   const std::vector<MovingVertex<Vec>> moving = mesh.moving;
   const QuadEnergy<Vec> energy(std::move(mesh), weights);
-  const EnergyDescent descent = minimise(energy, options_.iterations);
+  EnergyDescent descent = minimise(energy, options_.iterations);
   summary_.iterations += descent.iterations;
   summary_.evaluations += descent.evaluations;
-  summary_.energy_before = descent.energy_before;
-  summary_.energy_after = descent.energy_after;
   settle(moving, descent.x);
+  return descent;
 }
 
 template <class Vec>
@@ -244,8 +254,15 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
   QuadEnergyWeights for_worst = weights;
   for_worst.bad = kWorstWeight;
   for_worst.bad_power = kWorstPower;
-  descend(around_worst(), for_worst);
-  for (int pass = 0; pass < options_.passes; ++pass) descend(free_, weights);
+  for (int pass = 0; pass < options_.passes; ++pass) {
+    descend(around_below(kWorstEta), for_worst);
+    const EnergyDescent descent = descend(pass == 0 ? free_ : around_below(kSettledEta), weights);
+    if (pass == 0) {
+      summary_.energy_before = descent.energy_before;
+      summary_.energy_after = descent.energy_after;
+    }
+    if (descent.energy_before - descent.energy_after <= kLeastGain * std::abs(descent.energy_before)) break;
+  }
   summary_.worst_after = eta_for(least());
   return summary_;
 }

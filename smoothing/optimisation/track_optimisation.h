@@ -26,9 +26,10 @@ class VertexTracks {
   virtual Vec arm(int quad, int side) const = 0;
 };
 
-/// Moves the vertices of a quad mesh together to the least of QuadEnergy by L-BFGS (Ceres). Those around the
-/// worst quads move first by themselves, with a weight on bad quads that lifts these. `points` are the places
-/// of the vertices on their tracks, and are updated.
+/// Moves the vertices of a quad mesh together to the least of QuadEnergy by L-BFGS (Ceres). In each pass
+/// those around the worst quads move first by themselves, with a weight on bad quads that lifts these; then
+/// all, from the second pass on those around quads that are not good yet. `points` are the places of the
+/// vertices on their tracks, and are updated. Works on several threads.
 ///
 /// Vertices of flat or inverted quads stay. In each pass vertices move along their tangents and are then put
 /// on their tracks. No quad's least sine falls below both that of eta kOptimisedFloorEta and half a percent

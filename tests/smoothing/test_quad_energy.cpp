@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "mesh/parallel.h"
 #include "smoothing/quad_relocation.h"
 #include "tests/support/quad_patches.h"
 
@@ -91,6 +92,36 @@ TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
       const double difference = (above - below) / (2 * step);
       EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
     }
+  }
+}
+
+TEST(QuadEnergy, TheSameOnAnyNumberOfThreads) {
+  // Large enough to be shared out.
+  const QuadEnergy energy = energy_of(jittered(grid_patch(60, 50), 1, 0.2), 0.9, 0.2, 0.05, {});
+  std::vector<double> at(energy.variables()), gradient(at.size());
+  std::mt19937_64 random(1);
+  for (double& x : at) x = 0.04 * (shapes::uniform(random) - 0.5);
+  double value = 0;
+  set_thread_count(1);
+  ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+  for (const int threads : {2, 3}) {
+    set_thread_count(threads);
+    std::vector<double> again(at.size());
+    double same = 0;
+    ASSERT_TRUE(energy.evaluate(at.data(), same, again.data()));
+    EXPECT_EQ(same, value);
+    EXPECT_EQ(again, gradient);
+  }
+  set_thread_count(1);
+  // Vertices that several threads share move, too.
+  const double step = 1e-5;
+  for (std::size_t i = 0; i < at.size(); i += 97) {
+    std::vector<double> high = at, low = at;
+    high[i] += step, low[i] -= step;
+    double above = 0, below = 0;
+    ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
+    ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
+    EXPECT_NEAR(gradient[i], (above - below) / (2 * step), 1e-4);
   }
 }
 
