@@ -25,7 +25,7 @@ class CornerCap {
       : loops_(loops), loop_(loops[loop]), tip_(tip), nodes_(nodes) {}
 
   std::optional<BoundaryCap> make() {
-    if (!is_sharp()) return std::nullopt;
+    if (!nodes_.may_be_cut(loop_[tip_].node) || !is_sharp()) return std::nullopt;
     normal_ = nodes_.normal(loop_[tip_].point);
     std::vector<Vec3> middles;
     while (const auto next = middle(middles)) middles.push_back(*next);

@@ -9,6 +9,7 @@ namespace delquad {
 
 /// How a cap gets its nodes.
 struct CapNodes {
+  std::function<bool(int node)> may_be_cut;  ///< corners of the model
   std::function<Vec3(int node)> place;
   std::function<Vec3(const Vec3&, Vec2)> to_face;  ///< a point near the face, and about where in the plane
   std::function<Vec3(Vec2)> normal;                ///< of the face, any length

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "mesh/constrained_delaunay.h"
@@ -268,6 +269,18 @@ class DomainBuilder {
     return domain;
   }
 
+  /// Nodes of a patch where two curves meet that have it on one side only.
+  std::set<int> corners_between_curves(int p) const {
+    const auto is_seam = [&](int chain) { return std::ranges::count(demands_[chain].patches, p) > 1; };
+    std::set<int> nodes;
+    for (const FaceCorner& c : corners_) {
+      if (c.patch != p || is_seam(c.before) || is_seam(c.after)) continue;
+      const auto& on_curve = nodes_.on_curve[c.after];
+      nodes.insert((c.after_ends ? on_curve.back() : on_curve.front()).node);
+    }
+    return nodes;
+  }
+
   /// Takes pointed tips and sharp corners out of a patch, and the nodes that this drops from their curves.
   void cap_patch(int p, SurfaceDomain& domain) {
     SurfacePatch& patch = domain.patches[p];
@@ -282,7 +295,9 @@ class DomainBuilder {
         std::erase_if(on_curve, [&](const CurveNode& n) {
           return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
         });
-    const CapNodes cap_nodes{[&](int node) { return nodes_.points[node]; },
+    const std::set<int> corners = corners_between_curves(p);
+    const CapNodes cap_nodes{[&](int node) { return corners.contains(node); },
+                             [&](int node) { return nodes_.points[node]; },
                              [&](const Vec3& x, Vec2 u) {
                                return model_.projector ? model_.projector->to_face(patch.map.face, x)
                                                        : lift(patch, model_, u, hint);

@@ -46,6 +46,10 @@ class SurfaceLift {
   }
 
   int run(int max_sweeps) {
+    outward_.resize(quads_.size());
+    parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) outward_[q] = tracks_.normal(static_cast<int>(q));
+    });
     bool again = true;
     for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
       again = false;
@@ -73,7 +77,7 @@ class SurfaceLift {
   /// the corner `skipped` (none: -1).
   double quality(int q, int skipped = -1) const {
     const auto& v = quads_[q];
-    const Vec3 outward = tracks_.normal(q);
+    const Vec3& outward = outward_[q];
     Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
     const bool turned_over = !(dot(normal, outward) > 0);
     if (turned_over) normal = outward;
@@ -183,6 +187,7 @@ class SurfaceLift {
   std::vector<Vec3> start_;
   double eta_;                        ///< that will do
   std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
+  std::vector<Vec3> outward_;         ///< normals at the quads where these were at first
   std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
   int now_ = 0;
 };
