@@ -16,8 +16,8 @@ constexpr std::size_t kCloseups = 3;
 /// Curves of convergence a cell has at most: of its largest patches nothing is known here, so the first ones.
 constexpr std::size_t kMostCurves = 12;
 
-/// Three digits after the point are a thousandth of an edge.
-double rounded(double value) { return std::round(value * 1000) / 1000; }
+/// Whole numbers take little room.
+long long hundredths(double value) { return std::llround(value * 100); }
 
 /// Five digits are more than a curve shows.
 Json energies_json(const Json& energies) {
@@ -32,8 +32,8 @@ Json closeups_json(const Mesh& mesh) {
   Json json = Json::array();
   for (const Closeup& closeup : worst_quads(mesh, kCloseups)) {
     Json points = Json::array(), etas = Json::array();
-    for (const Vec2& p : closeup.points) points.push_back({rounded(p.x), rounded(p.y)});
-    for (const double eta : closeup.etas) etas.push_back(rounded(eta));
+    for (const Vec2& p : closeup.points) points.push_back({hundredths(p.x), hundredths(p.y)});
+    for (const double eta : closeup.etas) etas.push_back(hundredths(eta));
     json.push_back({{"eta", closeup.eta},
                     {"size", closeup.size},
                     {"normal", {closeup.normal.x, closeup.normal.y, closeup.normal.z}},

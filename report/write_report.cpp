@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPictureBytes = 18e6;
+constexpr double kPictureBytes = 20e6;
 /// A picture with less shows nothing; rather some cells have none.
 constexpr double kLeastPicture = 20e3;
 /// That are shown one by one; more would make a page that no browser likes. Tables have all.
@@ -198,6 +198,7 @@ class Page {
         }
       Json json = cell_json(record, mesh);
       if (mesh) add_picture(*mesh, json);
+      if (json.contains("closeups")) written_ += static_cast<double>(json["closeups"].dump().size());
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
         sheet["facts"] = std::move(facts);

@@ -16,11 +16,11 @@ function tableNode(table, metrics) {
   const columns = table.columns.filter((c) => table.rows.some((r) => c.key in r.values || c.key in r.published));
   const cell = (row, { key, digits }) => {
     const ours = row.values[key], published = row.published[key], half = row.half_widths[key];
-    let content = ours === undefined ? "\u2013" : (row.marks[key] === "as good" ? "~" : "") + fixed(ours, digits);
-    if (half !== undefined) content += ` \u00b1 ${fixed(half, digits)}`;
+    const content = ours === undefined ? "\u2013" : (row.marks[key] === "as good" ? "~" : "") + fixed(ours, digits);
+    const around = half === undefined ? null : el("span", { class: "beside" }, `\u00b1 ${fixed(half, digits)}`);
     const beside = published === undefined ? null : el("span", { class: "beside" },
       ours === undefined ? `published ${published}` : `${published}, ${ours >= published ? "+" : ""}${fixed(ours - published, digits)}`);
-    return el("td", {}, row.marks[key] === "best" ? el("b", {}, content) : content, beside);
+    return el("td", {}, row.marks[key] === "best" ? el("b", {}, content) : content, around, beside);
   };
   const body = el("tbody");
   table.rows.forEach((row, i) => {

@@ -1,12 +1,13 @@
 // The sheet of one case: its words side by side.
 
+/// Places are in hundredths of the quad's mean edge, eta in hundredths.
 function closeupPicture(closeup, colours) {
-  const [box, all] = [3.2, closeup.points];
+  const [box, all] = [320, closeup.points];
   const picture = svg("svg", { viewBox: `${-box} ${-box} ${2 * box} ${2 * box}`, "aria-hidden": "true" });
   closeup.elements.forEach((corners, i) => {
-    const colour = corners.length === 3 ? "#e4e7ea" : colours[Math.min(colours.length - 1, Math.floor(closeup.etas[i] * colours.length))];
+    const colour = corners.length === 3 ? "#e4e7ea" : colours[Math.min(colours.length - 1, Math.floor((closeup.etas[i] / 100) * colours.length))];
     picture.prepend(svg("polygon", { points: corners.map((v) => `${all[v][0]},${-all[v][1]}`).join(" "), fill: colour,
-      stroke: i === 0 ? "#b3001b" : "#222", "stroke-width": i === 0 ? 0.12 : 0.03, "stroke-linejoin": "round" }));
+      stroke: i === 0 ? "#b3001b" : "#222", "stroke-width": i === 0 ? 12 : 3, "stroke-linejoin": "round" }));
   });
   return picture;
 }
