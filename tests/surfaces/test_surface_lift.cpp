@@ -67,8 +67,8 @@ TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
       const int v = quad[k], w = quad[(k + 1) % 4];
       if (v % 3 != 0 || m.tracks->is_on_curve(v) != m.tracks->is_on_curve(w)) continue;
       if (norm(m.tracks->axes(v)[0]) == 0) continue;
-      const auto spot = m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]},
-                                            0.3 * m.places[v] + 0.7 * m.places[w]);
+      const auto spot =
+          m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]}, 0.3 * m.places[v] + 0.7 * m.places[w]);
       m.tracks->put(v, spot);
       m.places[v] = spot.place;
       break;
