@@ -8,6 +8,8 @@ const kAboutLetters = {
   B: "merges pairs of triangles to quads, the best pairs all over the mesh together (Blossom), then removes obvious flaws",
   G: "merges pairs of triangles to quads, the best first, one by one; some triangles are left",
   T: "splits, joins and moves the triangles' edges until they are halves of squares, then merges good pairs; some triangles are left",
+  G: "in place of B: merges pairs of triangles, the best first; leaves some",
+  T: "in place of B: adapts triangles to halves of squares, then merges good pairs; leaves some",
   C: "changes how quads hang together, so that fewer vertices are irregular",
   O: "moves all vertices together for better shapes and sizes",
 };
