@@ -1,6 +1,7 @@
 #include "apps/delquad.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -243,10 +244,19 @@ int after_printing(int code) {
   return code == kDone ? kBadInput : code;
 }
 
+/// Large arrays come and go in every step: giving them back to the system each time costs 3 to 5 % of a run.
+void keep_freed_memory() {
+  constexpr int kMebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // the most that is allowed
+  mallopt(M_TRIM_THRESHOLD, 1024 * kMebibyte);
+  mallopt(M_TOP_PAD, 16 * kMebibyte);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
   exit_on_interrupt();
+  keep_freed_memory();
   try {
     return after_printing(run_command_line(argc, argv));
   } catch (const InputError& error) {

@@ -54,8 +54,12 @@ void QuadRelocation::adopt_new_vertices(int first) {
   const std::size_t n = mesh_.vertex_slots();
   hint_.resize(n, -1), delta_.resize(n), delta_at_.resize(n), active_.resize(n, 0);
   for (std::size_t v = first; v < n; ++v) {
-    // Points that lie close together follow one another.
+    // Neighbours lie close by, and mostly points that follow one another.
     if (v > 0) hint_[v] = hint_[v - 1];
+    if (mesh_.vertex_alive(static_cast<int>(v)))
+      mesh_.for_each_out(static_cast<int>(v), [&](int h) {
+        if (mesh_.target(h) < static_cast<int>(v)) hint_[v] = hint_[mesh_.target(h)];
+      });
     delta_at_[v] = mesh_.point(static_cast<int>(v));
     delta_[v] = size_.at(delta_at_[v], hint_[v]);
   }
