@@ -121,7 +121,7 @@ void ArcMeasure::finish(const std::vector<Panel>& panels) {
 }
 
 // Illinois' false position on the integral from the cell's start; the bracket never loses the target.
-Vec2 ArcMeasure::find(const Cell& cell, double begin, double target) const {
+double ArcMeasure::find(const Cell& cell, double begin, double target) const {
   const double tolerance = 4 * kEps * integral();
   double low = cell.first.t, f_low = begin - target;
   double high = cell.last.t, f_high = cell.end - target;
@@ -144,11 +144,11 @@ Vec2 ArcMeasure::find(const Cell& cell, double begin, double target) const {
       side = 1;
     }
   }
-  return curve_.point(t);
+  return t;
 }
 
-std::vector<Vec2> ArcMeasure::interior_nodes(int n) const {
-  std::vector<Vec2> nodes;
+std::vector<double> ArcMeasure::interior_nodes(int n) const {
+  std::vector<double> nodes;
   nodes.reserve(static_cast<std::size_t>(n) - 1);
   std::size_t c = 0;
   for (int k = 1; k < n; ++k) {

@@ -22,9 +22,9 @@ class ArcMeasure {
   /// To kIntegralTolerance, relative.
   double integral() const { return cells_.back().end; }
 
-  /// The n - 1 nodes that split the piece in n parts of equal integral, in order; the ends are not among
-  /// them.
-  std::vector<Vec2> interior_nodes(int n) const;
+  /// The parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order; the ends
+  /// are not among them.
+  std::vector<double> interior_nodes(int n) const;
 
   static constexpr double kIntegralTolerance = 1e-7;
 
@@ -53,7 +53,7 @@ class ArcMeasure {
   std::vector<Panel> first_panels() const;
   void refine(std::vector<Panel>& panels, double most) const;
   void finish(const std::vector<Panel>& panels);
-  Vec2 find(const Cell& cell, double begin, double target) const;
+  double find(const Cell& cell, double begin, double target) const;
 
   const Curve& curve_;
   double t0_, t1_;

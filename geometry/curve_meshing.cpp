@@ -22,7 +22,8 @@ struct Piece {
   ArcMeasure measure;
   int least = 1;  ///< fewest edges
   int n = 0;      ///< edges
-  std::vector<Vec2> interior = {};
+  double from = 0, to = 1;
+  std::vector<double> interior = {};  ///< parameters of its nodes
 
   void set_edges(int edges) {
     n = edges;
@@ -46,7 +47,8 @@ class CurveMesher {
     for (Vec2 p : chain_.nodes) mesh.points.push_back({p.x, p.y, 0});
     for (const Piece& piece : pieces_) {
       int last = piece.ends[0];
-      for (Vec2 p : piece.interior) {
+      for (const double t : piece.interior) {
+        const Vec2 p = model_.curves[static_cast<std::size_t>(piece.curve)].shape->point(t);
         const int next = static_cast<int>(mesh.points.size());
         mesh.points.push_back({p.x, p.y, 0});
         mesh.lines.push_back({last, next});
@@ -61,6 +63,16 @@ class CurveMesher {
       mesh.curves.push_back(std::move(curve));
     }
     return mesh;
+  }
+
+  /// Of the mesh's points.
+  std::vector<CurvePlace> places() const {
+    std::vector<CurvePlace> places(chain_.nodes.size());
+    for (const Piece& piece : pieces_)
+      for (const double t : piece.interior)
+        places.push_back(
+            {model_.curves[static_cast<std::size_t>(piece.curve)].shape, t, piece.from, piece.to});
+    return places;
   }
 
   /// The regions that the model names, each by a node of its loop.
@@ -96,6 +108,8 @@ class CurveMesher {
         }
         pieces_.push_back(
             {static_cast<int>(c), {node, next}, ArcMeasure(shape, t, stop, size, label, max_edges - total)});
+        pieces_.back().from = t;
+        pieces_.back().to = stop;
         total += pieces_.back().measure.integral();
         t = stop;
         node = next;
@@ -188,7 +202,9 @@ Mesh mesh_curves(const PlanarModel& model, const SizeFunction& size, const Curve
 PlanarDomain make_domain(const PlanarModel& model, const SizeFunction& size,
                          const CurveMeshOptions& options) {
   const CurveMesher mesher(model, size, options);
-  return build_domain(mesher.mesh(), mesher.loop_regions(), mesher.names());
+  PlanarDomain domain = build_domain(mesher.mesh(), mesher.loop_regions(), mesher.names());
+  domain.places = mesher.places();
+  return domain;
 }
 
 }  // namespace delquad

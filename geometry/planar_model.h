@@ -59,9 +59,16 @@ struct CurveMeshOptions {
 /// and as make_domain() does.
 Mesh mesh_curves(const PlanarModel& model, const SizeFunction& size, const CurveMeshOptions& options = {});
 
+/// Where a node is on its curve, and how far it may slide: over from <= t <= to.
+struct CurvePlace {
+  std::shared_ptr<const Curve> curve;  ///< null: the node stays
+  double t = 0, from = 0, to = 1;
+};
+
 /// The regions that a line mesh bounds.
 struct PlanarDomain {
-  Mesh boundary;  ///< points, lines, curves, regions; no elements
+  Mesh boundary;                   ///< points, lines, curves, regions; no elements
+  std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
 };

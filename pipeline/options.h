@@ -5,7 +5,7 @@
 #include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/treatment.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "smoothing/optimisation/quad_optimisation.h"
+#include "smoothing/optimisation/optimisation_options.h"
 
 namespace delquad {
 

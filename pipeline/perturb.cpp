@@ -63,6 +63,17 @@ class RotatedSize final : public SizeField {
   Rotation rotation_;
 };
 
+class RotatedCurve final : public Curve {
+ public:
+  RotatedCurve(std::shared_ptr<const Curve> base, const Rotation& rotation)
+      : base_(std::move(base)), rotation_(rotation) {}
+  Vec2 point(double t) const override { return rotation_(base_->point(t)); }
+
+ private:
+  std::shared_ptr<const Curve> base_;
+  Rotation rotation_;
+};
+
 class RotatedCross final : public CrossField {
  public:
   RotatedCross(std::shared_ptr<const CrossField> base, const Rotation& rotation)
@@ -97,6 +108,8 @@ void rotate(const Rotation& rotation, PlanarDomain& domain) {
   }
   for (PatchBoundary& patch : domain.patches)
     for (Vec2& p : patch.points) p = rotation(p);
+  for (CurvePlace& place : domain.places)
+    if (place.curve) place.curve = std::make_shared<RotatedCurve>(std::move(place.curve), rotation);
 }
 
 std::shared_ptr<const SizeField> rotated(std::shared_ptr<const SizeField> size, const Rotation& rotation) {

@@ -250,6 +250,7 @@ PreparedCase prepare_case(const Case& c) {
   check_holes(c.holes, domain);
   if (c.seed != 0) turn(c, domain, p);
   p.boundary = std::move(domain.boundary);
+  p.curve_places = std::move(domain.places);
   p.seconds.emplace_back("curves", watch.seconds());
 
   const Stopwatch fields;

@@ -42,7 +42,8 @@ struct FaceFailure {
 
 /// What every pipeline on a case starts from.
 struct PreparedCase {
-  Mesh boundary;  ///< nodes on curves, lines, curves and regions; no elements
+  Mesh boundary;                         ///< nodes on curves, lines, curves and regions; no elements
+  std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
   std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces

@@ -91,7 +91,7 @@ void drop_stray_lines(Mesh& mesh) {
 std::string run_on_patch(const Stage& stage, const Case& c, const PreparedCase& prepared, std::size_t i,
                          PatchMesh& mesh, StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
-  const StageInput input{patch.boundary, *patch.cross, *patch.size, c.options, prepared.surface != nullptr};
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, c.options};
   if (!prepared.surface) {
     stage.run(input, mesh, log);
     return "";
@@ -298,7 +298,7 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, 
       });
   for (const StageLog& one : logs) state.log.add(one);
   check_insertion(c, state.log);
-  if (stage.finish && prepared.surface) {
+  if (stage.finish) {
     std::vector<char> left_out;
     for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
     stage.finish({prepared, c.options, patches, left_out, state.nodes}, state.log);

@@ -9,6 +9,8 @@
 #include "mesh/error.h"
 #include "pipeline/prepare.h"
 #include "pipeline/stopwatch.h"
+#include "smoothing/optimisation/planar_tracks.h"
+#include "smoothing/optimisation/untangle_flat.h"
 #include "surfaces/places_inside.h"
 #include "surfaces/surface_tracks.h"
 
@@ -165,20 +167,15 @@ void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log.add_seconds("clean-up", watch.seconds());
 }
 
-void optimise_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   OptimisationSummary summary;
-  if (in.in_space)
-    summary.untangled = untangle_flat(patch.quads, in.size);
-  else
-    patch.quads = optimise_vertices(patch.quads, in.size, in.cross, in.options.optimisation, &summary);
+  summary.untangled = untangle_flat(patch.quads, in.size);
   add(log.optimisation, summary);
   log.add_seconds("optimisation", watch.seconds());
 }
 
-/// Each patch is untangled in its plane; then all of them move in space, nodes along their curves.
-void optimise_surface(const PatchesInSpace& in, StageLog& log) {
-  const Stopwatch watch;
+OptimisationSummary optimise_surface(const AllPatches& in) {
   const PreparedSurface& surface = *in.prepared.surface;
   std::vector<SurfaceTracks::Patch> patches;
   for (std::size_t i = 0; i < in.patches.size(); ++i) {
@@ -190,9 +187,36 @@ void optimise_surface(const PatchesInSpace& in, StageLog& log) {
   }
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(patches));
   std::vector<Vec3> points = tracks.points();
-  OptimisationSummary summary = optimise_on_tracks(points, tracks.quads(), tracks, in.options.optimisation);
-  summary.seconds = watch.work_seconds();
+  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, in.options.optimisation);
   tracks.store(points);
+  return summary;
+}
+
+OptimisationSummary optimise_plane(const AllPatches& in) {
+  std::vector<Vec2> nodes;
+  for (const Vec3& p : in.nodes.points) nodes.push_back({p.x, p.y});
+  const std::size_t n_nodes = nodes.size();
+  std::vector<PlanarTracks::Patch> patches;
+  for (std::size_t i = 0; i < in.patches.size(); ++i) {
+    if (in.left_out[i]) continue;
+    const PreparedPatch& prepared = in.prepared.patches[i];
+    patches.push_back({&in.patches[i].quads, prepared.boundary.point_node, prepared.cross.get()});
+  }
+  PlanarTracks tracks(std::move(nodes), in.prepared.curve_places, std::move(patches),
+                      *in.prepared.patches[0].size);
+  std::vector<Vec2> points = tracks.points();
+  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, in.options.optimisation);
+  tracks.store(points);
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    in.nodes.points[i] = {points[i].x, points[i].y, in.nodes.points[i].z};
+  return summary;
+}
+
+/// Once each patch was untangled in its plane, all of them move together, nodes along their curves.
+void optimise_quads(const AllPatches& in, StageLog& log) {
+  const Stopwatch watch;
+  OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
+  summary.seconds = watch.work_seconds();
   add(log.optimisation, summary);
   log.add_seconds("optimisation", watch.work_seconds());
 }
@@ -212,7 +236,7 @@ std::deque<Stage>& stages() {
       {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
       {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
-      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, optimise_quads, optimise_surface},
+      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},
   };
   return all;
 }

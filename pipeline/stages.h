@@ -31,7 +31,6 @@ struct StageInput {
   const CrossField& cross;
   const ParametricSize& size;
   const MeshingOptions& options;
-  bool in_space;  ///< a patch of a surface; else the plane is what is meshed
 };
 
 /// What the stages did: on one patch, or summed over patches.
@@ -58,13 +57,13 @@ struct PreparedCase;
 std::vector<Vec3> places_inside(const PreparedCase& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes);
 
-/// What a word has made of all patches of a surface so far.
-struct PatchesInSpace {
+/// What a word has made of all patches so far.
+struct AllPatches {
   const PreparedCase& prepared;
   const MeshingOptions& options;
   std::vector<PatchMesh>& patches;
   const std::vector<char>& left_out;  ///< by patch
-  SurfaceNodes& nodes;                ///< on curves
+  SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
 };
 
 /// One letter of a pipeline word: takes a patch from one form to another.
@@ -73,8 +72,8 @@ struct Stage {
   std::string name;
   PatchForm from, to;
   std::function<void(const StageInput&, PatchMesh&, StageLog&)> run;
-  /// On surfaces: what it then does to all patches together. May be empty.
-  std::function<void(const PatchesInSpace&, StageLog&)> finish = {};
+  /// What it then does to all patches together. May be empty.
+  std::function<void(const AllPatches&, StageLog&)> finish = {};
   bool leaves_triangles = false;  ///< among its quads, however even the boundary is
 };
 

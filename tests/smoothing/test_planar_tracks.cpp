@@ -1,11 +1,14 @@
-#include "smoothing/optimisation/quad_optimisation.h"
+#include "smoothing/optimisation/planar_tracks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "geometry/curves.h"
+#include "smoothing/optimisation/untangle_flat.h"
 #include "smoothing/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
@@ -30,11 +33,49 @@ double worst(const QuadPatch& mesh) {
   return least;
 }
 
+/// Untangles and optimises a mesh of one patch; its boundary points have the `places`, or stay.
+QuadPatch optimise_vertices(QuadPatch mesh, const ParametricSize& size, const CrossField& cross,
+                            OptimisationSummary* summary = nullptr,
+                            const std::vector<CurvePlace>& places = {}) {
+  const int untangled = untangle_flat(mesh, size);
+  std::vector<int> nodes(mesh.n_boundary);
+  std::iota(nodes.begin(), nodes.end(), 0);
+  PlanarTracks tracks({mesh.points.begin(), mesh.points.begin() + mesh.n_boundary}, places,
+                      {{&mesh, nodes, &cross}}, size);
+  std::vector<Vec2> points = tracks.points();
+  OptimisationSummary done = optimise_on_tracks(points, tracks.quads(), tracks);
+  tracks.store(points);
+  done.untangled = untangled;
+  if (summary != nullptr) *summary = done;
+  return mesh;
+}
+
+TEST(PlanarTracks, NodesSlideOnTheirCurves) {
+  // The nodes of each side of a square are displaced along it: they go back to where the grid wants them.
+  const QuadPatch grid = grid_patch(6, 6);
+  QuadPatch mesh = grid;
+  std::vector<CurvePlace> places(mesh.n_boundary);
+  for (int side = 0; side < 4; ++side) {
+    const auto segment = make_segment(grid.points[6 * side], grid.points[6 * (side + 1) % 24]);
+    for (int k = 1; k < 6; ++k) {
+      const double even = k / 6.0, t = even + 0.05 * std::sin(2 * std::numbers::pi * even + side);
+      places[6 * side + k] = {segment, t, 0, 1};
+      mesh.points[6 * side + k] = segment->point(t);
+      EXPECT_LT(norm(mesh.points[6 * side + k] - grid.points[6 * side + k]), 0.31);
+    }
+  }
+  const QuadPatch held = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0));
+  EXPECT_TRUE(std::equal(held.points.begin(), held.points.begin() + 24, mesh.points.begin()));
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), nullptr, places);
+  for (std::size_t v = 0; v < grid.points.size(); ++v)
+    EXPECT_LT(norm(result.points[v] - grid.points[v]), 0.02) << v;
+}
+
 TEST(QuadOptimisation, JitteredGridBecomesRegular) {
   const QuadPatch grid = grid_patch(8, 7);
   OptimisationSummary summary;
   const QuadPatch result =
-      optimise_vertices(jittered(grid, 3, 0.3), FunctionSize(1), FunctionCross(0), {}, &summary);
+      optimise_vertices(jittered(grid, 3, 0.3), FunctionSize(1), FunctionCross(0), &summary);
   for (std::size_t v = 0; v < grid.points.size(); ++v)
     EXPECT_LT(norm(result.points[v] - grid.points[v]), 0.02);
   EXPECT_EQ(result.quads, grid.quads);
@@ -66,7 +107,7 @@ TEST(QuadOptimisation, UntanglesFirst) {
   const QuadPatch mesh = jittered(grid_patch(8, 8), 5, 2);
   ASSERT_LT(worst(mesh), -0.5);
   OptimisationSummary summary;
-  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), {}, &summary);
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), &summary);
   EXPECT_GT(summary.untangled, 0);
   EXPECT_EQ(summary.held, 0);
   EXPECT_GT(worst(result), 0.98);
@@ -97,7 +138,7 @@ TEST(QuadOptimisation, WorstQuadIsLifted) {
   QuadPatch mesh = grid_patch(6, 6);
   mesh.points[mesh.n_boundary + 12] += Vec2{0.45, 0.4};
   OptimisationSummary summary;
-  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), {}, &summary);
+  const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), &summary);
   EXPECT_GT(summary.worst_after, summary.worst_before + 0.2);
   EXPECT_NEAR(summary.worst_after, 2 / std::numbers::pi * std::asin(worst(result)), 1e-12);
 }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "fields/cross_field.h"
+#include "fields/size_field.h"
+#include "geometry/planar_model.h"
+#include "mesh/patch.h"
+#include "smoothing/optimisation/track_optimisation.h"
+
+namespace delquad {
+
+/// The vertices of all patches of a planar domain as one mesh, each on its track: nodes inside curves slide
+/// along these, other nodes stay, vertices inside a patch move freely. Vertices of leftover triangles stay.
+///
+/// Vertices: the nodes, then those inside each patch, patch by patch. All arguments outlive this object.
+class PlanarTracks final : public VertexTracks<Vec2> {
+ public:
+  struct Patch {
+    QuadPatch* mesh;
+    std::vector<int> point_node;  ///< the node of each boundary point
+    const CrossField* cross;
+  };
+  /// `places`: of the nodes; empty: all stay.
+  PlanarTracks(std::vector<Vec2> nodes, const std::vector<CurvePlace>& places, std::vector<Patch> patches,
+               const ParametricSize& size);
+
+  const std::vector<Vec2>& points() const { return points_; }
+  const std::vector<std::array<int, 4>>& quads() const { return quads_; }
+  /// Writes places back to the patches.
+  void store(const std::vector<Vec2>& points);
+
+  Vec2 position(int v) const override { return is_node(v) ? Vec2{places_[v].t, 0} : points_[v]; }
+  Vec2 put(int v, Vec2 position) override;
+  std::array<Vec2, 2> axes(int v) const override;
+  double delta(const Vec2& place) const override { return size_.at(place, size_hint_); }
+  Vec2 arm(int quad, int side) const override;
+
+ private:
+  bool is_node(int v) const { return v < static_cast<int>(places_.size()); }
+
+  std::vector<CurvePlace> places_;  ///< of the nodes
+  std::vector<Patch> patches_;
+  const ParametricSize& size_;
+  std::vector<Vec2> points_;
+  std::vector<std::array<int, 4>> quads_;
+  std::vector<int> quad_patch_;
+  std::vector<char> stays_;
+  mutable int size_hint_ = -1;
+  mutable std::vector<int> cross_hint_;  ///< by patch
+};
+
+}  // namespace delquad

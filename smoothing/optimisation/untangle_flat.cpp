@@ -1,0 +1,59 @@
+#include "smoothing/optimisation/untangle_flat.h"
+
+#include <algorithm>
+
+#include "smoothing/quad_relocation.h"
+#include "smoothing/short_edges.h"
+#include "smoothing/untangling.h"
+
+namespace delquad {
+
+namespace {
+
+/// A quad with a corner of this sine or less is untangled.
+constexpr double kFlatSine = 1e-3;
+/// Rings of elements around flat ones that are untangled with them.
+constexpr int kUntanglingRings = 2;
+
+/// The vertices of some elements and of `rings` rings of elements around.
+std::vector<char> near(const QuadTopology& topology, const std::vector<char>& elements, int rings) {
+  std::vector<char> vertex(topology.vertex_slots(), 0), inside = elements;
+  for (int ring = 0;; ++ring) {
+    for (int e = 0; e < topology.element_slots(); ++e)
+      for (int k = 0; inside[e] && k < 4; ++k)
+        if (const int v = topology.corner(e, k); v >= 0) vertex[v] = 1;
+    if (ring == rings) return vertex;
+    for (int e = 0; e < topology.element_slots(); ++e)
+      for (int k = 0; k < 4; ++k)
+        if (const int v = topology.corner(e, k); v >= 0 && vertex[v]) inside[e] = 1;
+  }
+}
+
+std::vector<char> flat_quads(const QuadTopology& topology) {
+  std::vector<char> flat(topology.element_slots(), 0);
+  for (int e = 0; e < topology.element_slots(); ++e)
+    flat[e] = topology.is_quad(e) && least_sine(topology, e) <= kFlatSine;
+  return flat;
+}
+
+}  // namespace
+
+int untangle_flat(QuadPatch& mesh, const ParametricSize& size) {
+  QuadTopology topology(mesh);
+  if (lengthen_short_edges(topology, size) > 0) mesh = topology.to_patch();
+  const auto flat = flat_quads(topology);
+  const auto n = std::count(flat.begin(), flat.end(), 1);
+  if (n == 0) return 0;
+  const auto around = near(topology, flat, kUntanglingRings);
+  std::vector<int> vertices;
+  for (int v = mesh.n_boundary; v < topology.vertex_slots(); ++v)
+    if (around[v]) vertices.push_back(v);
+  untangle(topology, vertices);
+  const auto left = flat_quads(topology);
+  const auto n_left = std::count(left.begin(), left.end(), 1);
+  if (n_left >= n) return 0;
+  for (const int v : vertices) mesh.points[v] = topology.point(v);
+  return static_cast<int>(n - n_left);
+}
+
+}  // namespace delquad

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fields/size_field.h"
+#include "mesh/patch.h"
+
+namespace delquad {
+
+/// Opens edges without length and untangles what is inverted or flat, with its surroundings. Connectivity and
+/// boundary points stay. Returns how many quads are no more so. Throws std::invalid_argument where the input
+/// is not conforming.
+int untangle_flat(QuadPatch& mesh, const ParametricSize& size);
+
+}  // namespace delquad
