@@ -113,6 +113,22 @@ void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log.add_seconds("smoothing", watch.work_seconds());
 }
 
+/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
+/// two quads around a tube.
+bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node) {
+  std::vector<int> nodes = point_node;
+  std::ranges::sort(nodes);
+  if (std::ranges::adjacent_find(nodes) == nodes.end()) return false;
+  std::vector<std::array<int, 4>> quads = mesh.quads;
+  const int n_nodes = nodes.back() + 1;
+  for (auto& quad : quads) {
+    for (int& v : quad) v = v < mesh.n_boundary ? point_node[v] : n_nodes + v;
+    std::ranges::sort(quad);
+  }
+  std::ranges::sort(quads);
+  return std::ranges::adjacent_find(quads) != quads.end();
+}
+
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch recombination;
   RecombineSummary summary;
@@ -125,7 +141,13 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
 
   const Stopwatch treatment;
   TreatmentSummary treated;
-  patch.quads = treat_paper(std::move(patch.quads), in.size, in.options.treatment_options, &treated);
+  QuadPatch result = treat_paper(patch.quads, in.size, in.options.treatment_options, &treated);
+  if (closes_too_tightly(result, in.boundary.point_node)) {
+    TreatmentOptions relocation = in.options.treatment_options;
+    relocation.max_rounds = 0;
+    result = treat_paper(patch.quads, in.size, relocation, &treated);
+  }
+  patch.quads = std::move(result);
   add(log.treatment, treated);
   log.add_seconds("treatment", treatment.seconds());
 }
@@ -162,7 +184,8 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
 void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   CleanupSummary summary;
-  patch.quads = clean_up(patch.quads, in.size, in.options.cleanup, &summary);
+  QuadPatch cleaned = clean_up(patch.quads, in.size, in.options.cleanup, &summary);
+  if (!closes_too_tightly(cleaned, in.boundary.point_node)) patch.quads = std::move(cleaned);
   add(log.cleanup, summary);
   log.add_seconds("clean-up", watch.seconds());
 }
