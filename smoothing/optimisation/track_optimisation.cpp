@@ -24,7 +24,7 @@ constexpr double kBarrier = 0.8;
 constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
 constexpr int kRings = 2;
 /// No pass follows one that gained no more than this part of the energy.
-constexpr double kLeastGain = 0.02;
+constexpr double kLeastGain = 0.05;
 /// For the worst: weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
 constexpr double kWorstWeight = 30;
 constexpr int kWorstPower = 3;
