@@ -169,7 +169,8 @@ class Adaptation {
     int a, b;
   };
 
-  void sample(int i, const VertexFields& near) {
+  /// `near` by value: it may lie in the list that grows here.
+  void sample(int i, VertexFields near) {
     if (static_cast<std::size_t>(i) >= fields_.size()) fields_.resize(i + 1);
     fields_[i] = sample_fields(cross_, size_, mesh_.points[i], near);
   }
