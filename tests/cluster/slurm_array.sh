@@ -70,7 +70,16 @@ until_true() {
     sleep 0.2
   done
 }
-until_true 60 "sinfo -h -o %t 2>/dev/null | grep -q idle"
+up=0
+for _ in $(seq 300); do
+  sinfo -h -o %t 2>/dev/null | grep -q idle && up=1 && break
+  sleep 0.2
+done
+if [ $up -eq 0 ]; then # some containers do not let a node start
+  reason=$(tail -q -n 1 "$work"/log/* 2>/dev/null | tr '\n' ' ' || true)
+  printf '%s\n' "cluster.SlurmArray: Skipped" "Slurm does not come up on this machine: $reason"
+  exit 77
+fi
 
 cat >"$work/sweep.toml" <<'TOML'
 title = "Turned squares"
