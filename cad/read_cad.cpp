@@ -116,6 +116,8 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   orient(model, bodies(cad.shape, faces));
   report_edges(model);
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
+  for (const auto& [point, face] : welded.inside)
+    model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
   return model;
 }
 

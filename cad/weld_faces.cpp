@@ -13,6 +13,7 @@
 #include <array>
 #include <utility>
 
+#include "cad/part_twin_sides.h"
 #include "cad/repair_face.h"
 #include "mesh/error.h"
 
@@ -57,6 +58,7 @@ class Welder {
     WeldedFaces welded;
     add_triangles(welded.mesh);
     number_points(welded.mesh);
+    welded.inside = part_twin_sides(welded.mesh, numbered_boundaries());
     for (int e = 0; e < edges_.Extent(); ++e) add_curve(e, welded);
     find_corners(welded);
     welded.bad_faces = std::move(bad_faces_);
@@ -183,6 +185,18 @@ class Welder {
     }
     for (auto& triangle : mesh.triangles)
       for (int& node : triangle) node = number_[node];
+  }
+
+  std::vector<std::vector<std::array<int, 2>>> numbered_boundaries() {
+    std::vector<std::vector<std::array<int, 2>>> sides(boundary_.size());
+    for (std::size_t f = 0; f < boundary_.size(); ++f) {
+      for (const auto& [a, b] : boundary_[f]) {
+        const int p = number_[sets_.find(a)], q = number_[sets_.find(b)];
+        sides[f].push_back({std::min(p, q), std::max(p, q)});
+      }
+      std::ranges::sort(sides[f]);
+    }
+    return sides;
   }
 
   void add_curve(int e, WeldedFaces& welded) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cad/part_twin_sides.h"
 #include "cad/tessellate.h"
 #include "mesh/mesh.h"
 
@@ -20,7 +21,8 @@ struct WeldedFaces {
   Mesh mesh;  ///< regions are the faces, without names
   std::vector<CurveMesh> curves;
   std::vector<int> corners;
-  std::vector<int> bad_faces;  ///< triangles miss the boundary by more than `gap`, or are no surface
+  std::vector<PointInside> inside;  ///< not on the surface yet: see part_twin_sides()
+  std::vector<int> bad_faces;       ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
 /// Makes one node of those of all faces that stand for the same point: of an edge by their order along it
