@@ -22,8 +22,9 @@ constexpr double kGood = 0.35, kPower = 8;
 constexpr double kLeastGain = 0.01, kLeastLack = 1e-4;
 /// What a quad that is turned over has less.
 constexpr double kTurnedOver = 2;
-/// No edge at a node on a curve becomes shorter than this part of the shortest around it.
-constexpr double kShortest = 0.5;
+/// No edge at a node becomes shorter than this part of the shortest around it, on a curve and inside: angles
+/// alone would let nodes run into each other.
+constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
 class SurfaceLift {
  public:
@@ -150,13 +151,15 @@ class SurfaceLift {
     if (norm(free[0]) == 0 || is_stale(v)) return false;
     tried_[v] = ++now_;
     const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
-    const double before = lack_around(v), shortest = kShortest * shortest_edge(v, start_);
+    const double before = lack_around(v);
+    const double shortest =
+        (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest_edge(v, start_);
     SurfaceTracks::Spot at = start;
     double best = before;
     const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
       const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
       places_[v] = trial.place;
-      if (tracks_.is_on_curve(v) && shortest_edge(v, places_) < shortest) return;
+      if (shortest_edge(v, places_) < shortest) return;
       const double lacking = lack_around(v);
       if (lacking < best) best = lacking, at = trial;
     };

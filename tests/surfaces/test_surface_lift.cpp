@@ -58,6 +58,18 @@ struct Meshed {
   std::vector<Vec3> places;
 };
 
+/// Of each vertex, the shortest edge.
+std::vector<double> shortest_edges(const Meshed& m) {
+  std::vector<double> shortest(m.places.size(), 1e300);
+  for (const auto& quad : m.tracks->quads())
+    for (int k = 0; k < 4; ++k) {
+      const int v = quad[k], w = quad[(k + 1) % 4];
+      const double length = norm(m.places[w] - m.places[v]);
+      shortest[v] = std::min(shortest[v], length), shortest[w] = std::min(shortest[w], length);
+    }
+  return shortest;
+}
+
 // Each third vertex goes most of the way to a neighbour of its own kind.
 TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
   Meshed m(surfaces::bump(40, 0.4), 0.12);
@@ -74,8 +86,11 @@ TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
       break;
     }
   ASSERT_LT(m.worst(), 0.1);
+  const auto shortest_before = shortest_edges(m);
   EXPECT_GT(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20), n / 50);
   EXPECT_GT(m.worst(), 0.2);
+  const auto shortest = shortest_edges(m);
+  for (int v = 0; v < n; ++v) EXPECT_GT(shortest[v], 0.19 * *std::ranges::min_element(shortest_before)) << v;
   m.tracks->store(m.places);
   for (std::size_t c = 0; c < m.nodes.on_curve.size(); ++c)
     for (const CurveNode& node : m.nodes.on_curve[c])
