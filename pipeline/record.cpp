@@ -233,13 +233,9 @@ Json bad_quads_json(const PreparedCase& p, const RunResult& result) {
 }
 
 Json treatment_json(const TreatmentSummary& s) {
-  return {{"rounds", s.rounds},
-          {"doublets", s.doublets},
-          {"diamonds", s.diamonds},
-          {"swaps", s.swaps},
-          {"boundary_repairs", s.boundary_repairs},
-          {"relocated", s.relocated},
-          {"seconds", s.seconds}};
+  return {{"rounds", s.rounds},       {"doublets", s.doublets}, {"diamonds", s.diamonds},
+          {"swaps", s.swaps},         {"openings", s.openings}, {"boundary_repairs", s.boundary_repairs},
+          {"relocated", s.relocated}, {"seconds", s.seconds}};
 }
 
 Json topology_json(const Topology& t) {
@@ -307,6 +303,7 @@ Json cleanup_json(const CleanupSummary& s) {
           {"diamonds", s.diamonds},
           {"doublets", s.doublets},
           {"splits", s.splits},
+          {"openings", s.openings},
           {"tried", s.tried},
           {"annealed", s.annealed},
           {"relocated", s.relocated},

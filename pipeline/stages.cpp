@@ -58,6 +58,7 @@ void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
   sum->doublets += s.doublets;
   sum->diamonds += s.diamonds;
   sum->swaps += s.swaps;
+  sum->openings += s.openings;
   sum->boundary_repairs += s.boundary_repairs;
   sum->relocated += s.relocated;
   sum->seconds += s.seconds;
@@ -71,6 +72,7 @@ void add(std::optional<CleanupSummary>& sum, const CleanupSummary& s) {
   sum->diamonds += s.diamonds;
   sum->doublets += s.doublets;
   sum->splits += s.splits;
+  sum->openings += s.openings;
   sum->tried += s.tried;
   sum->annealed += s.annealed;
   sum->relocated += s.relocated;

@@ -110,13 +110,57 @@ std::array<int, 6> QuadTopology::hexagon(int h) const {
   return {corner_[bc], corner_[cd], target(cd), corner_[ae], corner_[ef], target(ef)};
 }
 
-bool QuadTopology::can_rotate(int h, bool counterclockwise) const {
+bool QuadTopology::can_open(int h) const {
   if (twin_[h] < 0 || !is_quad(element(h)) || !is_quad(element(twin_[h]))) return false;
   const auto x = hexagon(h);
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < i; ++j)
       if (x[i] == x[j]) return false;
+  return true;
+}
+
+bool QuadTopology::can_rotate(int h, bool counterclockwise) const {
+  if (!can_open(h)) return false;
+  const auto x = hexagon(h);
   return counterclockwise ? !adjacent(x[1], x[4]) : !adjacent(x[2], x[5]);
+}
+
+void QuadTopology::open(int h, bool counterclockwise) {
+  // By place in the hexagon; 6 and 7 are the new vertices, next to 1 and 4 or to 2 and 5.
+  using Quads = std::array<std::array<int, 4>, 4>;
+  constexpr Quads kCounterclockwise{{{0, 1, 6, 7}, {1, 2, 3, 6}, {3, 4, 7, 6}, {4, 5, 0, 7}}};
+  constexpr Quads kClockwise{{{2, 3, 7, 6}, {3, 4, 5, 7}, {5, 0, 6, 7}, {2, 6, 0, 1}}};
+  const Quads& quads = counterclockwise ? kCounterclockwise : kClockwise;
+  const int other = twin_[h], p = counterclockwise ? 1 : 2, q = p + 3;
+  std::array<int, 8> x;
+  std::ranges::copy(hexagon(h), x.begin());
+  std::array<int, 6> outside;
+  for (int k = 0, g = next(h), f = next(other); k < 3; ++k, g = next(g), f = next(f))
+    outside[k] = twin_[g], outside[k + 3] = twin_[f];
+  // Each of the two in the middle of its three neighbours.
+  const Vec2 at_p = points_[x[p]] + points_[x[counterclockwise ? 3 : 0]];
+  const Vec2 at_q = points_[x[q]] + points_[x[counterclockwise ? 0 : 3]];
+  x[6] = add_vertex(0.125 * (3 * at_p + at_q));
+  x[7] = add_vertex(0.125 * (at_p + 3 * at_q));
+  for (const int v : {x[p], x[q]}) add_to_valence(v, 1);
+  for (const int v : {x[6], x[7]}) write(kValence, v, 3);
+
+  const std::array<int, 4> element_of{element(h), element(other), add_element(), add_element()};
+  const auto twin_of = [&](int from, int to) {
+    if (from < 6 && to == (from + 1) % 6) return outside[from];
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 4; ++k)
+        if (quads[i][k] == to && quads[i][(k + 1) % 4] == from) return 4 * element_of[i] + k;
+    return -1;
+  };
+  for (int i = 0; i < 4; ++i) {
+    std::array<int, 4> corners, twins;
+    for (int k = 0; k < 4; ++k) {
+      corners[k] = x[quads[i][k]];
+      twins[k] = twin_of(quads[i][k], quads[i][(k + 1) % 4]);
+    }
+    set_element(element_of[i], corners, twins);
+  }
 }
 
 int QuadTopology::rotate(int h, bool counterclockwise) {

@@ -72,6 +72,12 @@ class QuadTopology {
   /// Half-edges of both quads get other places; returns the new edge's half-edge in h's element.
   int rotate(int h, bool counterclockwise);
 
+  /// Both elements at h are quads and no two of their corners are the same.
+  bool can_open(int h) const;
+  /// Turns edge h as rotate() does and opens it to two more quads: the next corners get an edge each to a new
+  /// vertex, h's ends keep theirs, one to each of the two. These are the last slots.
+  void open(int h, bool counterclockwise);
+
   /// The opposite corner of h's quad can be merged into h's origin.
   bool can_collapse(int h) const;
   /// Removes h's quad by merging its opposite corner (interior) into h's origin, which keeps its place.

@@ -63,7 +63,10 @@ int CleanupProcess::count_irregular() const {
 /// Edits of the elements around v, splits of v and of its neighbours.
 template <class F>
 void CleanupProcess::for_each_edit_near(int v, F&& f) {
-  mesh_.for_each_out(v, [&](int h) { for_each_move(mesh_, QuadTopology::element(h), f); });
+  mesh_.for_each_out(v, [&](int h) {
+    for_each_move(mesh_, QuadTopology::element(h), f);
+    for_each_opening(mesh_, QuadTopology::element(h), f);
+  });
   for_each_split(mesh_, v, f);
   mesh_.for_each_out(v, [&](int h) { for_each_split(mesh_, mesh_.target(h), f); });
 }
@@ -197,6 +200,10 @@ void CleanupProcess::count(const TreatmentMove& move) {
       break;
     case TreatmentMove::kSplit:
       ++summary_.splits;
+      break;
+    case TreatmentMove::kOpenForward:
+    case TreatmentMove::kOpenBackward:
+      ++summary_.openings;
       break;
     default:
       ++summary_.rotations;

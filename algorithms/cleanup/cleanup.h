@@ -21,6 +21,7 @@ struct CleanupSummary {
   int diamonds = 0;
   int doublets = 0;
   int splits = 0;
+  int openings = 0;
   long long tried = 0;      ///< neutral moves tried while annealing
   int annealed = 0;         ///< of these, accepted
   long long relocated = 0;  ///< moves of vertices
@@ -29,7 +30,8 @@ struct CleanupSummary {
 
 /// Lowers the number of irregular vertices of a quad mesh.
 ///
-/// Edits are diamond collapses, edge rotations, vertex splits and doublet removals. First greedy: an edit is
+/// Edits are diamond collapses, edge rotations, vertex splits, doublet removals and openings (which give a
+/// boundary vertex a quad more and take none from the next). First greedy: an edit is
 /// kept when it lowers the sum of (valence - ideal)^2, 4 being ideal inside and angle / 90 degrees, rounded
 /// and at least 1, on the boundary, and costs next to no quality. Then annealing: at every irregular vertex
 /// that is left, a random edit that leaves the sum as it is, so that pairs of valences 3 and 5 travel until

@@ -48,10 +48,12 @@ bool TreatmentProcess::irregular(int element) const {
 }
 
 void TreatmentProcess::consider(int element) {
-  for_each_move(mesh_, element, [&](const TreatmentMove& move) {
+  const auto push = [&](const TreatmentMove& move) {
     const int gain = energy_.gain(move);
     if (gain > 0) queue_.push({gain, move});
-  });
+  };
+  for_each_move(mesh_, element, push);
+  for_each_opening(mesh_, element, push);
 }
 
 int TreatmentProcess::single_moves() {
@@ -238,6 +240,10 @@ void TreatmentProcess::count(const TreatmentMove& move) {
     case TreatmentMove::kInset:
       ++summary_.boundary_repairs;
       summary_.ring_quads += 4;
+      break;
+    case TreatmentMove::kOpenForward:
+    case TreatmentMove::kOpenBackward:
+      ++summary_.openings;
       break;
     default:
       ++summary_.swaps;

@@ -14,6 +14,7 @@ struct TreatmentSummary {
   int doublets = 0;          ///< interior vertices between two quads, removed
   int diamonds = 0;          ///< quads removed by merging two opposite corners
   int swaps = 0;             ///< edges rotated within the hexagon of their two quads
+  int openings = 0;          ///< pairs of quads added so that a boundary vertex gets its second one
   int boundary_repairs = 0;  ///< times that a ring of new quads was put around bad ones
   int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
   int relocated = 0;         ///< moves of vertices
@@ -28,6 +29,8 @@ struct TreatmentSummary {
 ///   with their own ideal; two edits may be tried together where the first alone gains nothing;
 /// - it is kept only if, after local relocation, the elements around are not poorer (eta below 0.3) than
 ///   before;
+/// - a flat boundary vertex with one quad, which rotations would only hand to the next, gets its second by an
+///   opening, see QuadTopology::open;
 /// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) a ring of new
 ///   quads; those of eta 0 are in the end remeshed with their neighbourhood, see LocalRemeshing;
 /// - relocation weighs angles and edge lengths, and a last pass lifts the worst quads.

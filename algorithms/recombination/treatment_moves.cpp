@@ -87,10 +87,12 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
     return of(a) + of(c) - of(a, m.valence(a) + m.valence(c) - 2) + change(b, -1) + change(d, -1);
   }
   const int t = m.twin(h);
-  const bool forward = move.kind == TreatmentMove::kRotateForward;
+  const bool opens = move.kind == TreatmentMove::kOpenForward || move.kind == TreatmentMove::kOpenBackward;
+  const bool forward = move.kind == TreatmentMove::kRotateForward || move.kind == TreatmentMove::kOpenForward;
   const int p = forward ? m.target(m.next(h)) : m.origin(m.prev(h));
   const int q = forward ? m.target(m.next(t)) : m.origin(m.prev(t));
-  return change(a, -1) + change(b, -1) + change(p, 1) + change(q, 1);
+  const int at_ends = opens ? -2 * misfit(3, {4, 4}) : change(a, -1) + change(b, -1);
+  return at_ends + change(p, 1) + change(q, 1);
 }
 
 bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads) {
@@ -119,6 +121,9 @@ bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
     }
     case TreatmentMove::kSplit:
       return mesh.can_split(move.at, move.to);
+    case TreatmentMove::kOpenForward:
+    case TreatmentMove::kOpenBackward:
+      return mesh.can_open(move.at);
     default:
       return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
   }
@@ -141,6 +146,10 @@ void apply(QuadTopology& mesh, const TreatmentMove& move) {
       break;
     case TreatmentMove::kSplit:
       split_apart(mesh, move);
+      break;
+    case TreatmentMove::kOpenForward:
+    case TreatmentMove::kOpenBackward:
+      mesh.open(move.at, move.kind == TreatmentMove::kOpenForward);
       break;
     default:
       mesh.rotate(move.at, move.kind == TreatmentMove::kRotateForward);

@@ -10,7 +10,16 @@ namespace delquad {
 
 /// One edit of the quad mesh that the treatment or the clean-up may choose.
 struct TreatmentMove {
-  enum Kind : int { kRotateForward, kRotateBackward, kCollapse, kDoublet, kInset, kSplit };
+  enum Kind : int {
+    kRotateForward,
+    kRotateBackward,
+    kCollapse,
+    kDoublet,
+    kInset,
+    kSplit,
+    kOpenForward,
+    kOpenBackward
+  };
   Kind kind;
   int at;       ///< half-edge; for a doublet its vertex
   int to = -1;  ///< second half-edge of a split
@@ -78,6 +87,18 @@ void for_each_move(const QuadTopology& mesh, int element, F&& f) {
     const int opposite = mesh.next(mesh.next(h));
     const bool goes = !mesh.on_boundary(mesh.origin(opposite));
     if (goes && (mesh.on_boundary(v) || h < opposite)) f(TreatmentMove{TreatmentMove::kCollapse, h});
+  }
+}
+
+/// Calls f(move) for the openings of sides of an element that give one of its boundary vertices an edge more.
+/// Legality is not checked. Unlike rotations they take none from the next boundary vertex.
+template <class F>
+void for_each_opening(const QuadTopology& mesh, int element, F&& f) {
+  if (!mesh.is_quad(element)) return;
+  for (int h = 4 * element; h < 4 * element + 4; ++h) {
+    if (mesh.twin(h) < 0) continue;
+    if (mesh.on_boundary(mesh.target(mesh.next(h)))) f(TreatmentMove{TreatmentMove::kOpenForward, h});
+    if (mesh.on_boundary(mesh.origin(mesh.prev(h)))) f(TreatmentMove{TreatmentMove::kOpenBackward, h});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,15 @@ int valence_energy(const QuadPatch& mesh) {
   return sum;
 }
 
+/// Boundary vertices whose only quad has an angle of about 160 degrees or more.
+int forced_bad(const QuadPatch& mesh) {
+  const QuadTopology topology(mesh);
+  const ValenceEnergy energy(topology);
+  int bad = 0;
+  for (int v = 0; v < mesh.n_boundary; ++v) bad += topology.valence(v) == 1 && energy.of(v) > 7;
+  return bad;
+}
+
 /// Cleans up and checks what must hold for any input.
 QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
                   const CleanupOptions& options = {}, CleanupSummary* summary = nullptr) {
@@ -53,7 +63,7 @@ QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const Pa
   EXPECT_TRUE(wrong.empty()) << wrong.front();
   EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
-            own.splits - own.diamonds - own.doublets);
+            own.splits + 2 * own.openings - own.diamonds - own.doublets);
   EXPECT_LE(valence_energy(result), valence_energy(mesh));
   EXPECT_GE(worst(result), std::min(worst(mesh), sine_of_eta(kCleanupFloorEta)));
   if (summary != nullptr) *summary = own;
@@ -86,6 +96,38 @@ TEST(ValenceEnergy, ForcedElementsCostMore) {
   EXPECT_EQ(of_corner(179.99, 1), 13);
   EXPECT_EQ(of_corner(20, 1), 0);  // the best there is
   EXPECT_EQ(of_corner(20, 2), 4);  // 10 for an eta of 1/9 in place of 7 for 2/9, and one step
+}
+
+TEST(ValenceEnergy, GainIsWhatTheSumLoses) {
+  const QuadPatch mesh = scrambled(grid_patch(8, 7), 3, 30);
+  const auto sum = [](const QuadTopology& topology, const ValenceEnergy& energy) {
+    int total = 0;
+    for (int v = 0; v < topology.vertex_slots(); ++v)
+      if (topology.vertex_alive(v)) total += energy.of(v);
+    return total;
+  };
+  QuadTopology topology(mesh);
+  const ValenceEnergy energy(topology);
+  const int before = sum(topology, energy);
+  std::array<int, 8> tried{};
+  const auto check = [&](const TreatmentMove& move) {
+    if (!is_legal(topology, move)) return;
+    const int gain = energy.gain(move);
+    const auto start = topology.mark();
+    apply(topology, move);
+    EXPECT_EQ(before - sum(topology, energy), gain) << "kind " << move.kind << " at " << move.at;
+    topology.rollback(start);
+    ++tried[move.kind];
+  };
+  for (int e = 0; e < topology.element_slots(); ++e) {
+    for_each_move(topology, e, check);
+    for_each_opening(topology, e, check);
+  }
+  for (int v = 0; v < topology.vertex_slots(); ++v) for_each_split(topology, v, check);
+  using Move = TreatmentMove;
+  for (const auto kind : {Move::kRotateForward, Move::kRotateBackward, Move::kCollapse, Move::kSplit,
+                          Move::kOpenForward, Move::kOpenBackward})
+    EXPECT_GT(tried[kind], 10) << "kind " << kind;
 }
 
 TEST(Cleanup, RegularGridStays) {
@@ -176,6 +218,7 @@ TEST(Cleanup, RandomPolygonsWithHoles) {
     const QuadPatch mesh = treated(boundary, *placement, cross, size);
     const QuadPatch result = cleaned(mesh, boundary, size);
     EXPECT_GT(worst(result), 0);
+    EXPECT_EQ(forced_bad(result), 0);
     const QuadPatch again = clean_up(mesh, size);
     EXPECT_EQ(again.points, result.points);
     EXPECT_EQ(again.quads, result.quads);

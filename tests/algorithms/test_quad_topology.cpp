@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "smoothing/quad_relocation.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
@@ -80,6 +81,31 @@ TEST(QuadTopology, RotationTurnsBothWays) {
   ASSERT_TRUE(mesh.can_rotate(turned, false));
   mesh.rotate(turned, false);
   EXPECT_EQ(canonical(mesh.to_patch().quads), canonical(grid.quads));
+}
+
+TEST(QuadTopology, OpeningGivesTheNextCornersAnEdgeAndTakesNone) {
+  const QuadPatch grid = grid_patch(3, 3);
+  for (const bool counterclockwise : {true, false}) {
+    QuadTopology mesh(grid);
+    const int h = half_edge(mesh, 12, 13);  // two interior points
+    ASSERT_TRUE(mesh.can_open(h));
+    const auto hexagon = mesh.hexagon(h);
+    const auto start = mesh.mark();
+    mesh.open(h, counterclockwise);
+    EXPECT_TRUE(mesh.check_invariants().empty());
+    const int first = mesh.vertex_slots() - 2;
+    for (const int v : {first, first + 1}) EXPECT_EQ(mesh.valence(v), 3);
+    const QuadTopology before(grid);
+    for (int k = 0; k < 6; ++k)
+      EXPECT_EQ(mesh.valence(hexagon[k]) - before.valence(hexagon[k]), k % 3 == (counterclockwise ? 1 : 2));
+    const auto wrong = check_quad_patch(mesh.to_patch(), shapes::rectangle(3, 3, 3, 3), 1);
+    EXPECT_TRUE(wrong.empty()) << wrong.front();
+    for (int e = 0; e < mesh.element_slots(); ++e) EXPECT_GT(least_sine(mesh, e), 0.3);
+    mesh.rollback(start);
+    expect_same(mesh.to_patch(), grid);
+  }
+  const QuadTopology mesh(grid);
+  EXPECT_FALSE(mesh.can_open(half_edge(mesh, 0, 1))) << "a side of the boundary";
 }
 
 TEST(QuadTopology, NoRotationOfBoundaryOrDoubletSides) {
@@ -216,13 +242,13 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
   const PatchBoundary boundary = shapes::rectangle(6, 5, 6, 5);
   std::mt19937_64 random(7);
   QuadTopology mesh(grid_patch(6, 5));
-  int rotations = 0, collapses = 0, doublets = 0, insets = 0, splits = 0, rollbacks = 0;
+  int rotations = 0, openings = 0, collapses = 0, doublets = 0, insets = 0, splits = 0, rollbacks = 0;
   QuadPatch kept = mesh.to_patch();
   auto mark = mesh.mark();
-  for (int step = 0; step < 4000; ++step) {
+  for (int step = 0; step < 8000; ++step) {
     const int h = static_cast<int>(random() % (4 * mesh.element_slots()));
     const int v = static_cast<int>(random() % mesh.vertex_slots());
-    const auto kind = random() % 16;
+    const auto kind = random() % 18;
     if (kind < 9 && mesh.can_rotate(h, kind % 2 == 0)) {
       mesh.rotate(h, kind % 2 == 0);
       ++rotations;
@@ -239,7 +265,10 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
       if (!mesh.can_split(from, to)) continue;
       mesh.split(from, to);
       ++splits;
-    } else if (kind >= 14 && mesh.can_remove_doublet(v)) {
+    } else if (kind >= 16 && mesh.can_open(h) && mesh.to_patch().quads.size() < 50) {
+      mesh.open(h, step % 2 == 0);
+      ++openings;
+    } else if (kind >= 14 && kind < 16 && mesh.can_remove_doublet(v)) {
       mesh.remove_doublet(v);
       ++doublets;
     } else {
@@ -260,7 +289,7 @@ TEST(QuadTopology, RandomEditsKeepAllInvariantsAndAreRevocable) {
       kept = mesh.to_patch();
     }
   }
-  EXPECT_GT(std::min({rotations, collapses, doublets, insets, splits, rollbacks}), 20);
+  EXPECT_GT(std::min({rotations, openings, collapses, doublets, insets, splits, rollbacks}), 20);
 }
 
 }  // namespace

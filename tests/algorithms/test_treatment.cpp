@@ -48,9 +48,9 @@ QuadPatch treated(const QuadPatch& mesh, const PatchBoundary& boundary, const Pa
   const auto wrong = check_quad_patch(result, boundary, 2 - count_loops(boundary));
   EXPECT_TRUE(wrong.empty()) << wrong.front();
   EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  // Doublets and diamonds take one quad each.
+  // Doublets and diamonds take one quad each, openings add two.
   EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
-            summary.ring_quads - summary.diamonds - summary.doublets);
+            summary.ring_quads + 2 * summary.openings - summary.diamonds - summary.doublets);
   return result;
 }
 
