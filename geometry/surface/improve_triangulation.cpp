@@ -1,6 +1,7 @@
 #include "geometry/surface/improve_triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -89,8 +90,20 @@ class Improver {
     return dot(u, v) / std::max(norm(cross(u, v)), std::numeric_limits<double>::min());
   }
 
-  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) share?
-  bool should_flip(int a, int b, int c, int d) const {
+  /// Of a face at one of its points, any length.
+  Vec3 normal_at(int v, int face) const {
+    Vec3 sum;
+    for (const int t : editor_.triangles_at(v)) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (mesh_.triangle_region[t] == face) sum = sum + double_area(a, b, c);
+    }
+    return sum;
+  }
+
+  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) of a face share? Where one of
+  /// them is too thin to tell how the surface lies, as facets of long cylinders are, the normals at their
+  /// points must not turn away from the triangles more than they did.
+  bool should_flip(int a, int b, int c, int d, int face) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are
     if (cotangent(c, a, b) + cotangent(d, a, b) > -kTie) return false;
     const Vec3 old_normals[] = {normal(a, b, c, kThin), normal(b, a, d, kThin)};
@@ -101,7 +114,15 @@ class Improver {
       for (const Vec3& o : old_normals)
         if (dot(o, o) > 0 && dot(n, o) < limit) return false;
     }
-    return true;
+    const bool known = dot(old_normals[0], old_normals[0]) > 0 && dot(old_normals[1], old_normals[1]) > 0;
+    return known || std::ranges::all_of(std::array{a, b, c, d}, [&](int v) {
+             const Vec3 at = normal_at(v, face);
+             const auto least = [&](const Vec3& m, const Vec3& n) {
+               return std::min(dot(m, at), dot(n, at));
+             };
+             return least(new_normals[0], new_normals[1]) >=
+                    std::min(kTurnSmooth * norm(at), least(normal(a, b, c, 0), normal(b, a, d, 0)));
+           });
   }
 
   /// Takes the least edge out of the queue, a heap, as often as it is there.
@@ -125,7 +146,7 @@ class Improver {
       if (on_edge_.size() != 2) continue;
       const auto [a, b, c] = seen_from(on_edge_[0], e);
       const int d = seen_from(on_edge_[1], e)[2];
-      if (!should_flip(a, b, c, d) || !editor_.flip_edge(a, b)) continue;
+      if (!should_flip(a, b, c, d, mesh_.triangle_region[on_edge_[0]]) || !editor_.flip_edge(a, b)) continue;
       --budget;
       for (int t : on_edge_) flipped_.push_back(t);
       for (const Edge& next : {edge(a, c), edge(a, d), edge(b, c), edge(b, d)}) {

@@ -55,6 +55,19 @@ TEST(ImproveTriangulation, DividesNeedlesOfACylinder) {
   for (const Vec3& p : model.fine.points) EXPECT_NEAR(std::hypot(p.x, p.y), 1, 1e-12);
 }
 
+// Facets a thousand times as long as wide, too thin for a normal of their own: the tube must not be pinched.
+TEST(ImproveTriangulation, KeepsALongCylinderRound) {
+  SurfaceModel model = cylinder(40, 1, 1, 200);
+  model.projector = std::make_shared<CylinderProjector>();
+  improve_triangulation(model);
+  const std::vector<Vec3>& points = model.fine.points;
+  for (const auto& v : model.fine.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 middle = 0.5 * (points[v[k]] + points[v[(k + 1) % 3]]);
+      EXPECT_GT(std::hypot(middle.x, middle.y), 0.7);
+    }
+}
+
 // Two tilted plane faces that share a ridge, badly triangulated: no new points, no flip across the ridge.
 TEST(ImproveTriangulation, KeepsPlaneFacesAndLines) {
   SurfaceModel model;
