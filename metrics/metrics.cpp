@@ -23,19 +23,19 @@ void add_to(Histogram& histogram, double value) {
   ++histogram.counts[bin > 0 ? static_cast<size_t>(std::min(bin, bins - 1)) : 0];
 }
 
-/// Smallest value that at least `percent` of the sorted values do not exceed.
-double nearest_rank(const std::vector<double>& sorted, double percent) {
-  const double rank = std::ceil(percent / 100 * static_cast<double>(sorted.size()));
-  return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];
+/// Smallest value that at least `percent` of the values do not exceed; puts them in another order.
+double nearest_rank(std::vector<double>& values, double percent) {
+  const double rank = std::ceil(percent / 100 * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 template <size_t N>
-void add_angles(const ElementShape<N>& shape, MeshMetrics& metrics) {
-  double& low = metrics.values["angle_min"];
-  double& high = metrics.values["angle_max"];
+void add_angles(const ElementShape<N>& shape, Histogram& angles, double& low, double& high) {
   for (const double radians : shape.angle) {
     const double angle = radians * 180 / std::numbers::pi;
-    add_to(metrics.angle, angle);
+    add_to(angles, angle);
     if (!(angle >= low)) low = angle;
     if (!(angle <= high)) high = angle;
   }
@@ -47,11 +47,12 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
   parallel_ranges(shapes.size(), [&](size_t begin, size_t end) {
     for (size_t q = begin; q < end; ++q) shapes[q] = quad_shape(mesh, static_cast<int>(q), normal);
   });
+  double &low = metrics.values["angle_min"], &high = metrics.values["angle_max"];
   std::vector<double> etas;
   etas.reserve(shapes.size());
   double inverted = 0, worst_jacobian = 1, jacobian_sum = 0, eta_sum = 0;
   for (const ElementShape<4>& shape : shapes) {
-    add_angles(shape, metrics);
+    add_angles(shape, metrics.angle, low, high);
     etas.push_back(eta_of(shape.angle));
     add_to(metrics.eta, etas.back());
     eta_sum += etas.back();
@@ -61,16 +62,15 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
   }
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     const ElementShape<3> shape = triangle_shape(mesh, static_cast<int>(t), normal);
-    add_angles(shape, metrics);
+    add_angles(shape, metrics.angle, low, high);
     inverted += shape.scaled_jacobian > 0 ? 0 : 1;
   }
   metrics.values["n_inverted"] = inverted;
   if (etas.empty()) return;
 
-  std::sort(etas.begin(), etas.end());
   const double n = static_cast<double>(etas.size());
   metrics.values["eta_mean"] = eta_sum / n;
-  metrics.values["eta_worst"] = etas.front();
+  metrics.values["eta_worst"] = *std::ranges::min_element(etas);
   metrics.values["eta_p1"] = nearest_rank(etas, 1);
   metrics.values["eta_p5"] = nearest_rank(etas, 5);
   metrics.values["eta_p50"] = nearest_rank(etas, 50);

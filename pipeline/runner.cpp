@@ -138,6 +138,7 @@ void check_sound(const Mesh& mesh, const PreparedCase& prepared) {
 
 /// Tells bad quads in sharp corners from others, and names the worst corner.
 void count_bad_quads(const std::string& label, const PreparedCase& prepared, RunResult& result) {
+  if (!(result.metrics.values.at("eta_worst") < kBadEta)) return;
   const Mesh& mesh = result.mesh;
   // By face and place: a mesh without the faces that failed numbers its nodes anew.
   using Corner = std::tuple<int, double, double, double>;
@@ -201,6 +202,7 @@ void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vect
 }  // namespace
 
 void warn_of_bad_quads(const std::string& label, RunResult& result) {
+  if (!(result.metrics.values.at("eta_worst") <= 0)) return;
   const Mesh& mesh = result.mesh;
   const std::vector<double> etas = quad_etas(mesh);
   const auto is_bad = [](double eta) { return !(eta > 0); };

@@ -34,6 +34,7 @@ class SurfaceLift {
         places_(places),
         start_(places),
         eta_(eta),
+        steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
         tried_(places.size(), 0),
         moved_(places.size(), 0) {
     first_.assign(places.size() + 1, 0);
@@ -47,10 +48,7 @@ class SurfaceLift {
   }
 
   int run(int max_sweeps) {
-    outward_.resize(quads_.size());
-    parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) outward_[q] = tracks_.normal(static_cast<int>(q));
-    });
+    outward_ = tracks_.normals();
     bool again = true;
     for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
       again = false;
@@ -66,7 +64,8 @@ class SurfaceLift {
   std::vector<int> quads_below() const {
     std::vector<char> is_below(quads_.size(), 0);
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) is_below[q] = quality(static_cast<int>(q)) < eta_;
+      for (int q = static_cast<int>(begin); q < static_cast<int>(end); ++q)
+        is_below[q] = !is_clearly_good(q) && quality(q) < eta_;
     });
     std::vector<int> below;
     for (std::size_t q = 0; q < is_below.size(); ++q)
@@ -92,6 +91,21 @@ class SurfaceLift {
       least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
     }
     return turned_over ? least - kTurnedOver : least;
+  }
+
+  /// Whether quality() is above the wanted eta without doubt: as cheap as can be, for most quads are.
+  bool is_clearly_good(int q) const {
+    constexpr double kMargin = 1 - 1e-9;
+    const auto& v = quads_[q];
+    const Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
+    if (!(dot(normal, outward_[q]) > 0)) return false;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& at = places_[v[k]];
+      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
+      const double cosine = dot(out, in);  // both times the lengths of the sides
+      if (!(dot(c, normal) > 0 && cosine * cosine < kMargin * steepest2_ * dot(c, c))) return false;
+    }
+    return true;
   }
 
   template <class F>
@@ -189,6 +203,7 @@ class SurfaceLift {
   std::vector<Vec3>& places_;
   std::vector<Vec3> start_;
   double eta_;                        ///< that will do
+  double steepest2_;                  ///< square of the cotangent of the sharpest angle that will do
   std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
   std::vector<Vec3> outward_;         ///< normals at the quads where these were at first
   std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never

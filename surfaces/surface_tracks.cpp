@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/parallel.h"
+
 namespace delquad {
 
 namespace {
@@ -140,19 +142,25 @@ void SurfaceTracks::put(int v, const Spot& spot) {
   nodes_.on_curve[chain][k].s = s_at(chain, spot.position.x);
 }
 
-Vec3 SurfaceTracks::normal(int quad) const {
-  const int p = quad_patch_[quad];
-  const SurfacePatch& patch = *patches_[p].patch;
-  const QuadPatch& mesh = *patches_[p].mesh;
-  Vec3 sum;
-  int hint = -1;
-  for (int k = 0; k < 4; ++k) {
-    const int v = quads_[quad][k];
-    const Vec2 u = is_on_curve(v) ? mesh.points[mesh.quads[quad - first_quad_[p]][k]] : position_[v];
-    const auto [t, weights] = patch.background->locate(u, hint);
-    for (int i = 0; i < 3; ++i) sum = sum + weights[i] * normals_[p][patch.map.flat.triangles[t][i]];
-  }
-  return sum;
+std::vector<Vec3> SurfaceTracks::normals() const {
+  std::vector<Vec3> normals(quads_.size());
+  parallel_for(
+      patches_.size(),
+      [&](std::size_t p) {
+        const SurfacePatch& patch = *patches_[p].patch;
+        const QuadPatch& mesh = *patches_[p].mesh;
+        std::vector<Vec3> at;
+        int hint = -1;
+        for (const Vec2 u : mesh.points) {
+          const auto [t, weights] = patch.background->locate(u, hint);
+          Vec3& sum = at.emplace_back();
+          for (int i = 0; i < 3; ++i) sum = sum + weights[i] * normals_[p][patch.map.flat.triangles[t][i]];
+        }
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+          for (const int v : mesh.quads[q]) normals[first_quad_[p] + q] = normals[first_quad_[p] + q] + at[v];
+      },
+      [&](std::size_t p) { return static_cast<double>(patches_[p].mesh->points.size()); });
+  return normals;
 }
 
 std::array<Vec3, 2> SurfaceTracks::axes(int v) const {

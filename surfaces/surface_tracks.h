@@ -48,8 +48,9 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   Spot spot_near(int v, const Spot& from, const Vec3& x) const;
   void put(int v, const Spot& spot);
   bool is_on_curve(int v) const { return vertex_patch_[v] < 0; }
-  /// Outward normal of the fine triangles around a quad's corners; any length.
-  Vec3 normal(int quad) const;
+  /// Of each quad, the outward normal of the fine triangles around its corners, where these were when the
+  /// tracks were made; any length.
+  std::vector<Vec3> normals() const;
 
  private:
   struct OnCurve {
