@@ -107,54 +107,63 @@ void QuadRelocation::gather(int v) {
     const int before = mesh_.prev(h);
     star_[i].right = unit(mesh_.point(mesh_.origin(mesh_.prev(before))) - star_[i].end);
   });
+  rays_.resize(star_.size());
 }
 
+/// Directions first, then logarithms, then sums: each loop keeps what it adds up in registers.
 template <bool kDerivatives>
 QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives) const {
+  const std::size_t n = star_.size();
   Value value;
   value.shortest = 1e300;
-  // Gradient of the direction angle of a spoke with respect to v: -perp(u) / length.
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 along = star_[i].end - at;
+    const double length = std::max(norm(along), kTiny), inverse = 1 / length;
+    rays_[i] = {inverse * along, inverse, length / star_[i].delta};
+    value.shortest = std::min(value.shortest, length);
+  }
+  for (std::size_t i = 0; i < n; ++i) rays_[i].misfit = std::log(rays_[i].misfit);
+
+  double cost = 0, least_sine = 1, hxx = 0, hxy = 0, hyy = 0;
+  int flat = 0;
+  Vec2 gradient;
   const auto corner = [&](double sine, double cosine, Vec2 turn) {
     const double c = 1 - sine, excess = std::max(0.0, kSteepSine - sine);
-    value.cost += c + kSteep * excess * excess;
-    value.least_sine = std::min(value.least_sine, sine);
-    value.flat += sine <= 0;
+    cost += c + kSteep * excess * excess;
+    least_sine = std::min(least_sine, sine);
+    flat += sine <= 0;
     if constexpr (kDerivatives) {
       const double slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
       const double first = -slope * cosine;
       const double second = std::max(slope * sine + (excess > 0 ? 2 * kSteep * cosine * cosine : 0), 0.1);
-      derivatives->gradient += first * turn;
-      derivatives->hxx += second * turn.x * turn.x;
-      derivatives->hxy += second * turn.x * turn.y;
-      derivatives->hyy += second * turn.y * turn.y;
+      gradient += first * turn;
+      hxx += second * turn.x * turn.x;
+      hxy += second * turn.x * turn.y;
+      hyy += second * turn.y * turn.y;
     }
   };
-  const Spoke& last = star_.back();
-  Vec2 previous = last.end - at;
-  double length = std::max(norm(previous), kTiny);
-  previous = (1 / length) * previous;
-  Vec2 previous_turn = (-1 / length) * perp(previous);
-  for (const Spoke& spoke : star_) {
-    const Vec2 along = spoke.end - at;
-    length = std::max(norm(along), kTiny);
-    const double inverse = 1 / length;
-    const Vec2 u = inverse * along, turn = (-inverse) * perp(u);
+  // Gradient of the direction angle of a spoke with respect to v: -perp(u) / length.
+  Vec2 previous = rays_[n - 1].u, previous_turn = (-rays_[n - 1].inverse) * perp(previous);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& [u, inverse, misfit] = rays_[i];
+    const Vec2 left = star_[i].left, right = star_[i].right, turn = (-inverse) * perp(u);
     corner(cross(previous, u), dot(previous, u), turn - previous_turn);
-    corner(cross(u, spoke.left), -dot(u, spoke.left), turn);
-    corner(cross(spoke.right, u), -dot(spoke.right, u), -turn);
-    const double misfit = std::log(length / spoke.delta), soft = 1 / (1 + misfit * misfit / kHopeless);
-    value.cost += kLengthWeight * misfit * misfit * soft;
-    value.shortest = std::min(value.shortest, length);
+    corner(cross(u, left), -dot(u, left), turn);
+    corner(cross(right, u), -dot(right, u), -turn);
+    const double soft = 1 / (1 + misfit * misfit / kHopeless);
+    cost += kLengthWeight * misfit * misfit * soft;
     if constexpr (kDerivatives) {
-      derivatives->gradient += (-2 * kLengthWeight * misfit * soft * soft * inverse) * u;
+      gradient += (-2 * kLengthWeight * misfit * soft * soft * inverse) * u;
       const double second = 2 * kLengthWeight * soft * soft * soft * inverse * inverse;
-      derivatives->hxx += second * u.x * u.x;
-      derivatives->hxy += second * u.x * u.y;
-      derivatives->hyy += second * u.y * u.y;
+      hxx += second * u.x * u.x;
+      hxy += second * u.x * u.y;
+      hyy += second * u.y * u.y;
     }
     previous = u;
     previous_turn = turn;
   }
+  value.cost = cost, value.least_sine = least_sine, value.flat = flat;
+  if constexpr (kDerivatives) *derivatives = {gradient, hxx, hxy, hyy};
   return value;
 }
 

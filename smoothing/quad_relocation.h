@@ -60,6 +60,12 @@ class QuadRelocation {
     Vec2 right;    ///< same on the right
     double delta;  ///< wanted length
   };
+  /// A spoke as seen from a place of the vertex.
+  struct Ray {
+    Vec2 u;          ///< unit vector
+    double inverse;  ///< of the length
+    double misfit;   ///< log(length / delta)
+  };
   struct Value {
     double cost = 0;
     double least_sine = 1;
@@ -87,6 +93,7 @@ class QuadRelocation {
   std::vector<char> active_;
   std::vector<int> queue_, visiting_;
   std::vector<Spoke> star_;
+  mutable std::vector<Ray> rays_;  ///< as many as spokes; evaluate() fills them
   bool keep_convex_corners_ = false;
   double kept_sine_ = -1;
 };

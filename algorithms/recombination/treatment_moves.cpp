@@ -43,6 +43,8 @@ void split_apart(QuadTopology& mesh, const TreatmentMove& move) {
 }  // namespace
 
 ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
+  for (std::size_t valence = 0; valence < inside_.size(); ++valence)
+    inside_[valence] = misfit(static_cast<int>(valence), kInside);
   for (int v = 0; v < mesh.vertex_slots() && mesh.on_boundary(v); ++v) {
     double angle = 0;
     if (mesh.vertex_alive(v)) {
@@ -56,10 +58,6 @@ ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
     angle /= std::numbers::pi / 2;
     ideal_.push_back({angle, std::max(1, static_cast<int>(std::lround(angle)))});
   }
-}
-
-int ValenceEnergy::of(int v, int valence) const {
-  return misfit(valence, mesh_.on_boundary(v) ? ideal_[v] : Ideal{4, 4});
 }
 
 int ValenceEnergy::misfit(int valence, const Ideal& ideal) {
@@ -80,7 +78,7 @@ int ValenceEnergy::gain(const TreatmentMove& move) const {
   if (move.kind == TreatmentMove::kSplit) {
     int moving = 0;
     for (int g = h; g != move.to; g = m.around(g)) ++moving;
-    return change(a, 1 - moving) + change(b, 1) + change(m.target(move.to), 1) - misfit(moving + 1, {4, 4});
+    return change(a, 1 - moving) + change(b, 1) + change(m.target(move.to), 1) - misfit(moving + 1, kInside);
   }
   if (move.kind == TreatmentMove::kCollapse) {
     const int c = m.target(m.next(h)), d = m.origin(m.prev(h));

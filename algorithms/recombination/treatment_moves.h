@@ -42,7 +42,10 @@ class ValenceEnergy {
  public:
   explicit ValenceEnergy(const QuadTopology& mesh);
 
-  int of(int v, int valence) const;
+  int of(int v, int valence) const {
+    if (mesh_.on_boundary(v)) return misfit(valence, ideal_[v]);
+    return static_cast<std::size_t>(valence) < inside_.size() ? inside_[valence] : misfit(valence, kInside);
+  }
   int of(int v) const { return of(v, mesh_.valence(v)); }
   /// What the move takes off the sum. Not for insets, which are never chosen for it.
   int gain(const TreatmentMove& move) const;
@@ -52,11 +55,13 @@ class ValenceEnergy {
     double angle;  ///< of the elements around the vertex, in right angles
     int valence;
   };
+  static constexpr Ideal kInside{4, 4};
   static int misfit(int valence, const Ideal& ideal);
   int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
 
   const QuadTopology& mesh_;
-  std::vector<Ideal> ideal_;  ///< of boundary vertices
+  std::vector<Ideal> ideal_;    ///< of boundary vertices
+  std::array<int, 16> inside_;  ///< of interior vertices, by valence
 };
 
 /// Whether a ring of quads laid around these would divide a sharp corner of the boundary that one of them
