@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace delquad {
 
@@ -92,22 +93,22 @@ void QuadRelocation::activate_ring(int v) {
 }
 
 void QuadRelocation::gather(int v) {
-  star_.clear();
-  mesh_.for_each_out(v, [&](int h) {
-    const int across = mesh_.next(h);
-    const Vec2 end = mesh_.point(mesh_.origin(across));
-    star_.push_back({end,
-                     unit(mesh_.point(mesh_.target(across)) - end),
-                     {},
-                     0.5 * (delta_[v] + delta_[mesh_.origin(across)])});
-  });
+  const std::size_t n = mesh_.valence(v);
+  star_.resize(n);
+  rays_.resize(n);
   std::size_t i = 0;
   mesh_.for_each_out(v, [&](int h) {
-    i = i + 1 == star_.size() ? 0 : i + 1;
-    const int before = mesh_.prev(h);
-    star_[i].right = unit(mesh_.point(mesh_.origin(mesh_.prev(before))) - star_[i].end);
+    const int across = mesh_.next(h), end = mesh_.origin(across), after = mesh_.target(across);
+    const int opposite = mesh_.is_quad(QuadTopology::element(h)) ? after : end;  // of the next spoke
+    star_[i] = {mesh_.point(end), mesh_.point(after), mesh_.point(opposite), 0.5 * (delta_[v] + delta_[end])};
+    ++i;
   });
-  rays_.resize(star_.size());
+  Vec2 opposite = star_[n - 1].right;
+  for (Spoke& spoke : star_) {
+    spoke.left = unit(spoke.left - spoke.end);
+    std::swap(opposite, spoke.right);
+    spoke.right = unit(spoke.right - spoke.end);
+  }
 }
 
 /// Directions first, then logarithms, then sums: each loop keeps what it adds up in registers.

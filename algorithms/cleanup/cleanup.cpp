@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "algorithms/cleanup/cleanup_process.h"
 #include "algorithms/recombination/poorness.h"
@@ -71,16 +72,32 @@ void CleanupProcess::for_each_edit_near(int v, F&& f) {
   mesh_.for_each_out(v, [&](int h) { for_each_split(mesh_, mesh_.target(h), f); });
 }
 
-void CleanupProcess::consider(int v) {
-  for_each_edit_near(v, [&](const TreatmentMove& move) {
+/// Edits near any of these vertices (dead ones are skipped), each once.
+void CleanupProcess::consider(std::span<const int> vertices) {
+  const auto add = [&](const TreatmentMove& move) {
     const int gain = energy_.gain(move);
     if (gain > 0 && is_legal(mesh_, move)) queue_.push({gain, move});
-  });
+  };
+  ++seen_;
+  seen_element_.resize(mesh_.element_slots(), 0);
+  seen_vertex_.resize(mesh_.vertex_slots(), 0);
+  const auto is_new = [&](unsigned& seen) { return std::exchange(seen, seen_) != seen_; };
+  for (const int v : vertices) {
+    if (!mesh_.vertex_alive(v)) continue;
+    if (is_new(seen_vertex_[v])) for_each_split(mesh_, v, add);
+    mesh_.for_each_out(v, [&](int h) {
+      const int e = QuadTopology::element(h), w = mesh_.target(h);
+      if (is_new(seen_element_[e])) for_each_move(mesh_, e, add);
+      if (is_new(seen_vertex_[w])) for_each_split(mesh_, w, add);
+    });
+  }
 }
 
 void CleanupProcess::greedy() {
+  std::vector<int> irregular;
   for (int v = 0; v < mesh_.vertex_slots(); ++v)
-    if (mesh_.vertex_alive(v) && energy_.of(v) > 0) consider(v);
+    if (mesh_.vertex_alive(v) && energy_.of(v) > 0) irregular.push_back(v);
+  consider(irregular);
   drain();
 }
 
@@ -173,9 +190,9 @@ void CleanupProcess::perform(const TreatmentMove& move) {
 void CleanupProcess::accept() {
   mesh_.commit();
   failed_.resize(mesh_.vertex_slots());
+  consider(touched_);
   for (const int v : touched_) {
     if (!mesh_.vertex_alive(v)) continue;
-    consider(v);
     mesh_.for_each_out(v, [&](int h) {
       const int e = QuadTopology::element(h);
       for (int k = 0; k < 4; ++k) {

@@ -38,7 +38,7 @@ class CleanupProcess {
   void greedy();
   template <class F>
   void for_each_edit_near(int v, F&& f);
-  void consider(int v);
+  void consider(std::span<const int> vertices);
   void drain();
   void anneal(double tolerance);
   bool pick_neutral(int v, TreatmentMove& move);
@@ -62,7 +62,7 @@ class CleanupProcess {
   std::vector<std::vector<TreatmentMove>> failed_;  ///< by vertex, since an edit changed what lies around
   std::vector<int> touched_;                        ///< vertices of the edit on trial
   std::vector<TreatmentMove> choices_;
-  std::vector<unsigned> seen_element_;  ///< against seen_
+  std::vector<unsigned> seen_element_, seen_vertex_;  ///< against seen_
   unsigned seen_ = 0;
   CleanupSummary summary_;
 };
