@@ -6,9 +6,9 @@
 namespace delquad {
 
 struct CleanupOptions {
-  int rounds = 60;          ///< of annealing; 0: greedy only
-  double tolerance = 0.07;  ///< how much quality an edit may cost in the first round; none in the last
-  long long seed = 1;       ///< of the annealing
+  int rounds = 60;         ///< of annealing; 0: greedy only
+  double tolerance = 0.1;  ///< how much quality an edit may cost in the first round; none in the last
+  long long seed = 1;      ///< of the annealing
 };
 
 /// Neither an edit nor relocation takes the least eta of the quads around below both this and what it was.
