@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <new>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -136,22 +136,26 @@ void check_sound(const Mesh& mesh, const PreparedCase& prepared) {
       fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
 }
 
-/// Tells bad quads in sharp corners from others, and names the worst corner.
+/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge.
+constexpr double kPartOfBound = 0.9;
+
+/// Tells bad quads that sharp corners explain from others, and names the worst corner.
 void count_bad_quads(const std::string& label, const PreparedCase& prepared, RunResult& result) {
   if (!(result.metrics.values.at("eta_worst") < kBadEta)) return;
   const Mesh& mesh = result.mesh;
   // By face and place: a mesh without the faces that failed numbers its nodes anew.
   using Corner = std::tuple<int, double, double, double>;
   const auto corner = [](int face, const Vec3& p) { return Corner{face, p.x, p.y, p.z}; };
-  std::set<Corner> corners;
+  std::map<Corner, double> bounds;
   for (const SharpCorner& c : prepared.sharp_corners)
-    corners.insert(corner(c.face, prepared.boundary.points[c.node]));
+    bounds.emplace(corner(c.face, prepared.boundary.points[c.node]), c.eta_bound);
   const std::vector<double> etas = quad_etas(mesh);
   for (std::size_t q = 0; q < etas.size(); ++q) {
     if (etas[q] >= kBadEta) continue;
     const auto& v = mesh.quads[q];
     const bool in_corner = std::any_of(v.begin(), v.end(), [&](int i) {
-      return corners.contains(corner(mesh.quad_region[q], mesh.points[i]));
+      const auto found = bounds.find(corner(mesh.quad_region[q], mesh.points[i]));
+      return found != bounds.end() && etas[q] >= kPartOfBound * found->second;
     });
     ++(in_corner ? result.bad_in_corners : result.bad_elsewhere);
   }

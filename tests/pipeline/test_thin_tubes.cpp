@@ -7,6 +7,7 @@
 #include "metrics/metrics.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/runner.h"
+#include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {
@@ -14,13 +15,22 @@ namespace {
 
 namespace surfaces = testing_support;
 
-/// run_word() throws where an element meets itself or two have the same vertices.
-RunResult mesh_of(SurfaceModel model, double size, const char* word) {
+PreparedCase prepared_surface(SurfaceModel model, double size) {
   Case c;
   c.name = c.where = "tube";
-  const PreparedCase prepared = prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
+  return prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
+}
+
+/// run_word() throws where an element meets itself or two have the same vertices.
+RunResult mesh_of(const PreparedCase& prepared, const char* word) {
+  Case c;
+  c.name = c.where = "tube";
   Progress progress;
   return run_word(c, prepared, parse_word(word), progress);
+}
+
+RunResult mesh_of(SurfaceModel model, double size, const char* word) {
+  return mesh_of(prepared_surface(std::move(model), size), word);
 }
 
 double worst_eta(const Mesh& mesh) {
@@ -58,6 +68,19 @@ TEST(ThinTubes, VerticesMoveBesideTips) {
   const RunResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
   EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
   EXPECT_GT(worst_eta(result.mesh), 0.9 * 0.15 / (std::numbers::pi / 4));
+}
+
+TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
+  PreparedCase prepared = prepared_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
+  ASSERT_EQ(prepared.sharp_corners.size(), 1u);
+  EXPECT_LT(prepared.sharp_corners[0].eta_bound, 0.1);
+  const RunResult result = mesh_of(prepared, "DB");
+  EXPECT_EQ(result.bad_in_corners, 1);
+  EXPECT_EQ(result.bad_elsewhere, 0);
+  prepared.sharp_corners[0].eta_bound *= 1.5;
+  const RunResult other = mesh_of(prepared, "DB");
+  EXPECT_EQ(other.bad_in_corners, 0);
+  EXPECT_EQ(other.bad_elsewhere, 1);
 }
 
 TEST(ThinTubes, TrianglesCoverThemToo) {
