@@ -24,6 +24,7 @@
 #include "cad/shape_bytes.h"
 #include "cad/shape_file.h"
 #include "cad/tessellate.h"
+#include "cad/unwind_faces.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 
@@ -90,6 +91,7 @@ CadShape prepare(CadShape cad, const CadOptions& options) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
   heal_shape(cad, kSewing * cad.diagonal);
+  unwind_faces(cad);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -238,6 +239,22 @@ TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
   EXPECT_EQ(model.fine.regions.size(), 6u);
   EXPECT_EQ(count(model.fine).euler, 4);
   EXPECT_NEAR(count(model.fine).volume / (2 * pi * 20), 1, kFine);
+}
+
+TEST(ReadCad, KeepsAPocketAroundPoles) {
+  // Both poles of the sphere lie in the pocket, whose boundary crosses the seam; from STEP the kernel makes
+  // of it what lies outside, the whole sphere once more on top.
+  const TemporaryFolder folder;
+  const auto cylinder = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, -1}, {0, 0, 1}), 1, 2).Shape();
+  const auto ball = BRepPrimAPI_MakeSphere(gp_Ax2({0.5, 0.75, -0.25}, {0, 0, 1}), 0.75).Shape();
+  const TopoDS_Shape shape = BRepAlgoAPI_Cut(cylinder, ball).Shape();
+  const SurfaceModel step = read_cad(write_step(folder / "a.step", shape));
+  const SurfaceModel brep = read_cad(write_brep(folder / "a.brep", shape));
+  EXPECT_EQ(check_invariants(step.fine), std::vector<std::string>{});
+  expect_sound(step);
+  EXPECT_EQ(count(step.fine).euler, 2);
+  EXPECT_NEAR(count(step.fine).area, count(brep.fine).area, 0.01 * count(brep.fine).area);
+  EXPECT_GT(count(step.fine).volume, 0);
 }
 
 TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
