@@ -45,8 +45,8 @@ struct QuadEnergyMesh {
 ///   the first term
 ///     is about as linear in |angle - 90 degrees| as eta is, the second keeps the mean from being bought with
 ///     some bad quads,
-///   size * (1 - min(l/d, d/l)) over the edges, l the length, d the mean of delta at both ends: what an
-///     edge lacks in tau,
+///   size * (1 - min(l/d, d/l) + 2.5 log^2 max(1, 0.3 d/l)) over the edges, l the length, d the mean of delta
+///     at both ends: what an edge lacks in tau, and more for one that angles alone would leave short,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
 ///   barrier * m / (l - m) over the edges, m the least length,
 ///   barrier * -log(sin alpha - least sine) over the corners,
