@@ -44,12 +44,16 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
   return mesh;
 }
 
-bool is_whole(const TopTools_IndexedMapOfShape& faces) {
+bool is_whole(const TopTools_IndexedMapOfShape& faces, int& n_triangles) {
+  n_triangles = 0;
+  bool whole = true;
   for (int f = 1; f <= faces.Extent(); ++f) {
     TopLoc_Location place;
-    if (BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place).IsNull()) return false;
+    const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place);
+    whole = whole && !triangulation.IsNull();
+    if (!triangulation.IsNull()) n_triangles += triangulation->NbTriangles();
   }
-  return true;
+  return whole;
 }
 
 double area(const FaceMesh& mesh) {
@@ -67,15 +71,14 @@ std::string face_title(int number, const std::vector<std::string>& names) {
   return names.empty() ? fmt::format("face {}", number) : fmt::format("face {} ({})", number, names.front());
 }
 
-/// Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
-/// may not.
 void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle) {
   // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
-  // may not.
-  constexpr int kMostTrials = 6;
+  // may not. Where curves lie on each other no fineness helps, and each trial takes twice the triangles.
+  constexpr int kMostTrials = 6, kMostTriangles = 100000;
   constexpr double kFiner = 0.7;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
+  int n_triangles = 0;
+  for (int trial = 0; trial < kMostTrials && n_triangles < kMostTriangles; ++trial) {
     if (trial > 0) BRepTools::Clean(shape);
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
@@ -84,7 +87,7 @@ void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& fa
     parameters.AdjustMinSize = true;
     parameters.InParallel = thread_count() > 1;
     BRepMesh_IncrementalMesh(shape, parameters);
-    if (is_whole(faces)) return;
+    if (is_whole(faces, n_triangles)) return;
   }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -108,6 +109,15 @@ TEST_F(CadBadInput, BoundaryThatCrossesItselfIsCutAtTheCrossing) {
   EXPECT_NEAR(count(model.fine).area, 0.5, 1e-12);
   ASSERT_FALSE(model.warnings.empty());
   EXPECT_EQ(model.warnings[0], "the shape was invalid and has been healed");
+}
+
+TEST_F(CadBadInput, FaceThatNoFinenessHelps) {
+  // The torus touches the bottom of the box where its side cuts it: edges of that side lie on each other. The
+  // torus would have half a million triangles were they made finer and finer for its sake.
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(-1, -1, -0.5), 2, 2, 1);
+  const TopoDS_Shape torus = BRepPrimAPI_MakeTorus(gp_Ax2({-0.75, 0.75, -0.25}, {0, 0, 1}), 0.75, 0.25);
+  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", BRepAlgoAPI_Fuse(box, torus).Shape())); },
+                     {"a.brep", "cannot be triangulated: face"});
 }
 
 }  // namespace
