@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <new>
 #include <numbers>
@@ -276,6 +277,26 @@ void check_insertion(const Case& c, const StageLog& log) {
                                  c.where, log.insertion->inserted, c.options.max_elements));
 }
 
+/// Metrics and, at the same time, the report of a surface.
+void measure(const PreparedCase& prepared, const std::vector<char>& left_out, RunResult& result) {
+  double metrics_seconds = 0, report_seconds = 0;
+  const std::function<void()> parts[] = {
+      [&] {
+        const Stopwatch watch;
+        result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
+        metrics_seconds = watch.work_seconds();
+      },
+      [&] {
+        const Stopwatch watch;
+        const PreparedSurface& surface = *prepared.surface;
+        result.surface = report_surface(surface.model, surface.cuts, left_out, result.mesh);
+        report_seconds = watch.work_seconds();
+      }};
+  parallel_for(prepared.surface ? 2 : 1, [&](std::size_t i) { parts[i](); });
+  result.log.add_seconds("metrics", metrics_seconds);
+  if (prepared.surface) result.log.add_seconds("surface report", report_seconds);
+}
+
 }  // namespace
 
 MeshingState begin_meshing(const PreparedCase& prepared) {
@@ -324,15 +345,7 @@ RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std:
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();
   check_sound(result.mesh, prepared);
-  const Stopwatch measuring;
-  result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
-  result.log.add_seconds("metrics", measuring.work_seconds());
-  if (prepared.surface) {
-    const PreparedSurface& surface = *prepared.surface;
-    const Stopwatch reporting;
-    result.surface = report_surface(surface.model, surface.cuts, left_out, result.mesh);
-    result.log.add_seconds("surface report", reporting.work_seconds());
-  }
+  measure(prepared, left_out, result);
   result.peak_memory = peak_memory();
   warn_of_bad_quads(label, result);
   count_bad_quads(label, prepared, result);

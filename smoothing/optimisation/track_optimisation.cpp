@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
+#include "mesh/parallel.h"
 #include "smoothing/optimisation/minimise_energy.h"
 #include "smoothing/optimisation/quad_corners.h"
 
@@ -51,6 +53,7 @@ class TrackOptimisation {
  private:
   std::array<double, 4> movable_sines(std::size_t quad) const;
   double movable_sine(std::size_t quad) const;
+  std::vector<double> least_sines() const;
   double least() const;
   void find_free();
   std::vector<char> around_below(double eta) const;
@@ -87,11 +90,20 @@ double TrackOptimisation<Vec>::movable_sine(std::size_t quad) const {
   return std::min({sines[0], sines[1], sines[2], sines[3]});
 }
 
+/// movable_sine() of each quad.
+template <class Vec>
+std::vector<double> TrackOptimisation<Vec>::least_sines() const {
+  std::vector<double> sines(quads_.size());
+  parallel_ranges(sines.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) sines[q] = movable_sine(q);
+  });
+  return sines;
+}
+
 template <class Vec>
 double TrackOptimisation<Vec>::least() const {
-  double sine = 1;
-  for (std::size_t q = 0; q < quads_.size(); ++q) sine = std::min(sine, movable_sine(q));
-  return sine;
+  const std::vector<double> sines = least_sines();
+  return std::accumulate(sines.begin(), sines.end(), 1.0, [](double a, double b) { return std::min(a, b); });
 }
 
 template <class Vec>
@@ -115,8 +127,10 @@ void TrackOptimisation<Vec>::find_free() {
 template <class Vec>
 std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   std::vector<char> near(points_.size(), 0);
+  const std::vector<double> sines = least_sines();
+  const double good = sine_for(eta);
   for (std::size_t q = 0; q < quads_.size(); ++q)
-    if (movable_sine(q) < sine_for(eta))
+    if (sines[q] < good)
       for (const int v : quads_[q]) near[v] = 1;
   for (int ring = 0; ring < kRings; ++ring) {
     const std::vector<char> inner = near;
@@ -154,13 +168,16 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
   }
   mesh.least_lengths = least_lengths_;
   const std::vector<double> reach = reaches(mesh.delta);
-  for (std::size_t v = 0; v < points_.size(); ++v) {
-    if (!free[v]) continue;
-    auto axes = tracks_.axes(static_cast<int>(v));
-    for (Vec& axis : axes)
-      if (const double n = norm(axis); n > 0) axis = (reach[v] / n) * axis;
-    mesh.moving.push_back({static_cast<int>(v), axes});
-  }
+  for (std::size_t v = 0; v < points_.size(); ++v)
+    if (free[v]) mesh.moving.push_back({static_cast<int>(v), {}});
+  parallel_ranges(mesh.moving.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      auto& [v, axes] = mesh.moving[i];
+      axes = tracks_.axes(v);
+      for (Vec& axis : axes)
+        if (const double n = norm(axis); n > 0) axis = (reach[v] / n) * axis;
+    }
+  });
   mesh.arm = [this](int quad, int side) { return tracks_.arm(quad, side); };
   return mesh;
 }
@@ -168,16 +185,18 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
 template <class Vec>
 void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
   const double floor = sine_for(kOptimisedFloorEta), worst = std::min(least(), floor);
-  kept_.clear();
-  for (std::size_t q = 0; q < quads_.size(); ++q) {
-    const auto sines = movable_sines(q);
-    const double bound = std::min({sines[0], sines[1], sines[2], sines[3], floor});
-    kept_.push_back(std::max((1 - kRoom) * bound, worst));
-    mesh.least_sine.push_back(kBarrier * bound);
-    double shape = 0;
-    for (const double sine : sines) shape += 1 / std::max(sine, kHeldSine) - 1;
-    mesh.weight.push_back(1 / (1 + std::pow(shape / kHopelessShape, weights.bad_power)));
-  }
+  for (auto* values : {&kept_, &mesh.least_sine, &mesh.weight}) values->resize(quads_.size());
+  parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      const auto sines = movable_sines(q);
+      const double bound = std::min({sines[0], sines[1], sines[2], sines[3], floor});
+      kept_[q] = std::max((1 - kRoom) * bound, worst);
+      mesh.least_sine[q] = kBarrier * bound;
+      double shape = 0;
+      for (const double sine : sines) shape += 1 / std::max(sine, kHeldSine) - 1;
+      mesh.weight[q] = 1 / (1 + std::pow(shape / kHopelessShape, weights.bad_power));
+    }
+  });
 }
 
 template <class Vec>
@@ -213,14 +232,16 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
   };
   std::vector<Move> moves(points_.size());
   const auto put = [&](int v) { points_[v] = tracks_.put(v, moves[v].from + moves[v].part * moves[v].by); };
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const auto& [v, scaled] = moving[i];
-    const auto axes = tracks_.axes(v);
-    moves[v] = {tracks_.position(v), {}, 1};
-    if (const double n = norm(axes[0]); n > 0) moves[v].by.x = x[2 * i] * norm(scaled[0]) / n;
-    if (const double n = norm(axes[1]); n > 0) moves[v].by.y = x[2 * i + 1] * norm(scaled[1]) / n;
-    put(v);
-  }
+  parallel_ranges(moving.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [v, scaled] = moving[i];
+      const auto axes = tracks_.axes(v);
+      moves[v] = {tracks_.position(v), {}, 1};
+      if (const double n = norm(axes[0]); n > 0) moves[v].by.x = x[2 * i] * norm(scaled[0]) / n;
+      if (const double n = norm(axes[1]); n > 0) moves[v].by.y = x[2 * i + 1] * norm(scaled[1]) / n;
+      put(v);
+    }
+  });
   for (bool worse = true; worse;) {
     worse = false;
     for (std::size_t q = 0; q < quads_.size(); ++q) {

@@ -9,7 +9,7 @@
 namespace delquad {
 
 /// Where the vertices of a quad mesh can go, in the plane (Vec2) or in space (Vec3): over surfaces, or along
-/// curves.
+/// curves. position(), put() and axes() of different vertices may be called from several threads at a time.
 template <class Vec>
 class VertexTracks {
  public:
