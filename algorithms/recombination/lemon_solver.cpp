@@ -18,6 +18,8 @@ namespace {
 // nodes.
 constexpr std::size_t kMinimumStack = std::size_t{64} << 20;
 constexpr std::size_t kStackPerNode = 256;
+/// What every thread has left on its stack. A thread of its own costs as much time as some hundred nodes.
+constexpr std::size_t kUsualStack = std::size_t{1} << 20;
 
 /// The costs as LEMON wants them, to be maximised. Arcs inherit the value of their edge.
 class NegatedCosts {
@@ -74,12 +76,12 @@ class LemonSolver final : public MatchingSolver {
   std::string name() const override { return "lemon"; }
 
   MatchingResult solve(const MatchingGraph& graph) const override {
+    const std::size_t needed = kStackPerNode * static_cast<std::size_t>(graph.n_nodes);
+    if (needed <= kUsualStack) return match(graph);
     Task task{graph, {}, nullptr};
     pthread_attr_t attributes;
     check(pthread_attr_init(&attributes), "matching thread");
-    const std::size_t stack =
-        std::max(kMinimumStack, kStackPerNode * static_cast<std::size_t>(graph.n_nodes));
-    int code = pthread_attr_setstacksize(&attributes, stack);
+    int code = pthread_attr_setstacksize(&attributes, std::max(kMinimumStack, needed));
     pthread_t thread;
     if (code == 0) code = pthread_create(&thread, &attributes, run_task, &task);
     pthread_attr_destroy(&attributes);
