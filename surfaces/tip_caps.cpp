@@ -11,7 +11,7 @@ namespace delquad {
 namespace {
 
 /// Corners below this angle take two quads at most; a cap ends where this many edges go around the cone.
-constexpr double kTwoQuads = 200 * std::numbers::pi / 180, kAround = 3.7;
+constexpr double kTwoQuads = 200 * std::numbers::pi / 180, kAround = 5.5;
 /// The largest angle of a cap's quads opposite to the tip.
 constexpr double kFarAngle = 120 * std::numbers::pi / 180;
 

@@ -64,6 +64,14 @@ TEST(ThinTubes, TwoQuadsMeetAtAPointedTip) {
   }
 }
 
+TEST(ThinTubes, ATipDoesNotKeepTheRestFromTreatment) {
+  // Where treatment leaves but two quads around, the whole patch keeps what the matching left: flat boundary
+  // corners.
+  for (const auto& [half_angle, n] : {std::pair(0.05, 76), {0.05, 88}, {0.066, 64}, {0.09, 94}})
+    EXPECT_EQ(mesh_of(surfaces::cone(48, 64, half_angle), 1.0 / n, "DB").bad_elsewhere, 0)
+        << half_angle << " " << n;
+}
+
 TEST(ThinTubes, VerticesMoveBesideTips) {
   const RunResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
   EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
