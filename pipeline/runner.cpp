@@ -18,6 +18,7 @@
 #include "mesh/error.h"
 #include "mesh/half_edges.h"
 #include "mesh/parallel.h"
+#include "pipeline/part_twins.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_lift.h"
 
@@ -325,11 +326,11 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, 
       });
   for (const StageLog& one : logs) state.log.add(one);
   check_insertion(c, state.log);
-  if (stage.finish) {
-    std::vector<char> left_out;
-    for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
-    stage.finish({prepared, c.options, patches, left_out, state.nodes}, state.log);
-  }
+  std::vector<char> left_out;
+  for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
+  const AllPatches all{prepared, c.options, patches, left_out, state.nodes};
+  if (prepared.surface) part_twins(all);
+  if (stage.finish) stage.finish(all, state.log);
   state.seconds += watch.seconds();
 }
 

@@ -78,6 +78,26 @@ inline Mesh can(int n_around, int n_along) {
   return shape.mesh;
 }
 
+/// Two caps of paraboloids, each `height` high, on one circle of radius 1: regions 1 (above) and 2.
+inline Mesh lens(int n_around, int n_rings, double height) {
+  TriangulatedShape shape;
+  for (const int side : {1, -1}) {
+    shape.region();
+    const auto at = [&](int i, int ring) {
+      const double t = side * 2 * std::numbers::pi * (i % n_around) / n_around, r = double(ring) / n_rings;
+      return Vec3{r * std::cos(t), r * std::sin(t), side * height * (1 - r * r)};
+    };
+    for (int i = 0; i < n_around; ++i) {
+      shape.triangle(at(0, 0), at(i, 1), at(i + 1, 1));
+      for (int j = 1; j < n_rings; ++j) {
+        shape.triangle(at(i, j), at(i, j + 1), at(i + 1, j + 1));
+        shape.triangle(at(i, j), at(i + 1, j + 1), at(i + 1, j));
+      }
+    }
+  }
+  return shape.mesh;
+}
+
 /// All triangles in one region.
 inline Mesh without_regions(Mesh mesh) {
   mesh.regions = {{1, {}}};
