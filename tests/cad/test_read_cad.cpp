@@ -7,6 +7,7 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -14,7 +15,10 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
+#include <GCE2d_MakeSegment.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -255,6 +259,23 @@ TEST(ReadCad, KeepsAPocketAroundPoles) {
   EXPECT_EQ(count(step.fine).euler, 2);
   EXPECT_NEAR(count(step.fine).area, count(brep.fine).area, 0.01 * count(brep.fine).area);
   EXPECT_GT(count(step.fine).volume, 0);
+}
+
+TEST(ReadCad, KeepsAStripThatWindsThreeTimes) {
+  const TemporaryFolder folder;
+  const Handle(Geom_CylindricalSurface) cylinder = new Geom_CylindricalSurface(gp_Ax3(), 1);
+  const gp_Pnt2d corners[] = {{0, 0}, {6 * pi, 6}, {6 * pi, 6.5}, {0, 0.5}};
+  BRepBuilderAPI_MakeWire wire;
+  for (int i = 0; i < 4; ++i)
+    wire.Add(BRepBuilderAPI_MakeEdge(GCE2d_MakeSegment(corners[i], corners[(i + 1) % 4]).Value(), cylinder));
+  const TopoDS_Face strip = BRepBuilderAPI_MakeFace(cylinder, wire.Wire());
+  BRepLib::BuildCurves3d(strip);
+  for (const auto& path : {write_step(folder / "a.step", strip), write_brep(folder / "a.brep", strip)}) {
+    const SurfaceModel model = read_cad(path);
+    EXPECT_FALSE(mentions(model, "turned over"));
+    EXPECT_EQ(count(model.fine).euler, 1);
+    EXPECT_NEAR(count(model.fine).area, 3 * pi, 0.01);
+  }
 }
 
 TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
