@@ -13,10 +13,11 @@ namespace delquad {
 /// Each vertex lowers
 ///   sum over the corners that its place changes of  c + 40 max(0, c - 0.95)^2,  c = 1 - sin alpha
 /// + 0.12 * sum over its edges of  m^2 / (1 + m^2 / 2),  m = log(l/d),  l the length, d the mean of delta' at
-/// both ends, by a damped Newton step, at most a part of its shortest edge. c grows with |alpha - 90 degrees|
-/// up to 180 degrees, so that reflex and inverted corners are pulled straight. An edge's term is bounded, so
-/// that lengths which cannot be had (the boundary's edges are given) do not outweigh shapes. Only vertices
-/// near which something still moves are visited.
+/// both ends (m by a Pade approximant, within 0.2 % from d/2 to 2 d), by a damped Newton step, at most a part
+/// of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that reflex and inverted
+/// corners are pulled straight. An edge's term is bounded, so that lengths which cannot be had (the
+/// boundary's edges are given) do not outweigh shapes. Only vertices near which something still moves are
+/// visited.
 class QuadRelocation {
  public:
   /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part
@@ -64,7 +65,7 @@ class QuadRelocation {
   struct Ray {
     Vec2 u;          ///< unit vector
     double inverse;  ///< of the length
-    double misfit;   ///< log(length / delta)
+    double misfit;   ///< log(length / delta), nearly
   };
   struct Value {
     double cost = 0;
