@@ -252,8 +252,13 @@ class DomainBuilder {
     for (size_t p = 0; p < maps_.size(); ++p) {
       domain.patches.push_back({std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]),
                                 std::move(backgrounds[p]), std::move(tube_sizes_[p])});
-      cap_patch(static_cast<int>(p), domain);
-      seed_narrow_places(domain.patches[p].boundary);
+      SurfacePatch& patch = domain.patches[p];
+      try {
+        cap_patch(static_cast<int>(p), domain);
+        seed_narrow_places(patch.boundary);
+      } catch (const InputError& error) {
+        throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(patch.map), error.what()));
+      }
     }
     for (size_t c = 0; c < chains_.size(); ++c) {
       for (size_t i = 0; i + 1 < nodes_.on_curve[c].size(); ++i) {
