@@ -8,6 +8,7 @@
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopoDS.hxx>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -75,10 +76,10 @@ void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& fa
                  double angle) {
   // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
   // may not. Where curves lie on each other no fineness helps, and each trial takes twice the triangles.
-  constexpr int kMostTrials = 6, kMostTriangles = 100000;
+  constexpr int kMostTrials = 6, kMostTriangles = 100000, kMostTimes = 8;
   constexpr double kFiner = 0.7;
-  int n_triangles = 0;
-  for (int trial = 0; trial < kMostTrials && n_triangles < kMostTriangles; ++trial) {
+  int n_triangles = 0, most = kMostTriangles;
+  for (int trial = 0; trial < kMostTrials && n_triangles < most; ++trial) {
     if (trial > 0) BRepTools::Clean(shape);
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
@@ -88,6 +89,8 @@ void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& fa
     parameters.InParallel = thread_count() > 1;
     BRepMesh_IncrementalMesh(shape, parameters);
     if (is_whole(faces, n_triangles)) return;
+    // A large model begins with many.
+    if (trial == 0) most = std::max(most, kMostTimes * n_triangles);
   }
 }
 

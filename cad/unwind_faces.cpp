@@ -67,8 +67,7 @@ void unwind_faces(CadShape& cad) {
   if (n == 0) return;
   cad.shape = reshape.Apply(cad.shape);
   cad.names = names;
-  cad.warnings.push_back(
-      fmt::format("{} faces were wound around more than once and have been turned over", n));
+  cad.warnings.push_back(fmt::format("{} face(s) went around more than once and have been turned over", n));
 }
 
 }  // namespace delquad::cad
