@@ -1,8 +1,10 @@
 #include "surfaces/tube_sizes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "surfaces/surface_size.h"
@@ -13,6 +15,8 @@ namespace {
 
 /// Edges around a tube; growth of sizes away from the cut; the least size at a tip, as a part of the size.
 constexpr double kAround = 4, kGrowth = 0.2, kTipPart = 1.0 / 8;
+/// Below this angle around a tip (radians) the surface is a cone there, as for sharp_tips().
+constexpr double kPointed = 2 * std::numbers::pi - 0.5;
 constexpr double kNone = std::numeric_limits<double>::max();
 
 /// The two sides of one line of a cut.
@@ -27,14 +31,17 @@ class TubePatch {
 
   /// The lines of one curve that both have the patch on either side.
   void add_cut(const std::vector<Seam>& lines) {
-    bool has_tip = false;
+    bool has_tip = false, is_pointed = false;
     double widest = 0, tip_size = kNone;
     std::vector<std::pair<int, double>> found;
     int hint = -1;
     for (const Seam& s : lines) {
       for (const auto& [v, w] :
            {std::pair(s.forward->from, s.backward->to), std::pair(s.forward->to, s.backward->from)}) {
-        if (v == w) has_tip = true, tip_size = kTipPart * size_.at(space(v), hint);
+        if (v == w) {
+          has_tip = true, tip_size = kTipPart * size_.at(space(v), hint);
+          is_pointed = is_pointed || angle_around(v) < kPointed;
+        }
         if (!faces(*s.forward, v, w) || !faces(*s.backward, w, v)) continue;
         const double width = norm(flat(w) - flat(v)) / stretch(s) / kAround;
         widest = std::max(widest, width);
@@ -42,7 +49,9 @@ class TubePatch {
         found.emplace_back(w, width);
       }
     }
-    const double least = has_tip ? std::min(tip_size, widest) : 0;
+    // Without a way around but at the tip the cut closes no tube: a slit does not even make a cone.
+    if (widest == 0 && !is_pointed) return;
+    const double least = widest == 0 ? tip_size : has_tip ? std::min(tip_size, widest) : 0;
     for (const auto& [v, width] : found) limit_[v] = std::min(limit_[v], std::max(width, least));
   }
 
@@ -63,6 +72,18 @@ class TubePatch {
  private:
   Vec2 flat(int v) const { return map_.flat.points[v]; }
   Vec3 space(int v) const { return fine_.points[map_.fine_node[v]]; }
+
+  /// In space (radians).
+  double angle_around(int v) const {
+    double sum = 0;
+    for (const auto& t : map_.flat.triangles)
+      for (int k = 0; k < 3; ++k) {
+        if (t[k] != v) continue;
+        const Vec3 a = space(t[(k + 1) % 3]) - space(v), b = space(t[(k + 2) % 3]) - space(v);
+        sum += std::atan2(norm(cross(a, b)), dot(a, b));
+      }
+    return sum;
+  }
 
   /// Does the straight way from v, an end of the side, to w lead into the patch?
   bool faces(const CurveSide& side, int v, int w) const {

@@ -1,8 +1,36 @@
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/surface/conformal_maps.h"
 
 namespace delquad {
+
+namespace {
+
+/// How far the sides of a slit move apart, each, as a part of the shorter line beside.
+constexpr double kOpening = 1e-4;
+
+/// Slits are lines with the chart on both sides: vertices that coincide move a little into their own sectors.
+void open_slits(const Chart& chart, std::vector<Vec2>& flat) {
+  std::vector<std::pair<int, int>> by_node;  // fine node, vertex
+  for (int v = 0; v < chart.n_boundary; ++v) by_node.emplace_back(chart.fine_node[v], v);
+  std::ranges::sort(by_node);
+  std::vector<char> doubled(chart.n_boundary, 0);
+  for (std::size_t i = 1; i < by_node.size(); ++i)
+    if (by_node[i].first == by_node[i - 1].first)
+      doubled[by_node[i].second] = doubled[by_node[i - 1].second] = 1;
+  const std::vector<Vec2> closed = flat;
+  for (const auto& loop : chart.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if (!doubled[loop[k]]) continue;
+      const Vec2 in = closed[loop[k]] - closed[loop[(k + loop.size() - 1) % loop.size()]];
+      const Vec2 out = closed[loop[(k + 1) % loop.size()]] - closed[loop[k]];
+      const Vec2 inward = (1 / norm(in)) * perp(in) + (1 / norm(out)) * perp(out);
+      if (norm(inward) > 0) flat[loop[k]] += kOpening * std::min(norm(in), norm(out)) / norm(inward) * inward;
+    }
+}
+
+}  // namespace
 
 std::optional<std::vector<Vec2>> planar_map(const Chart& chart, double tolerance) {
   auto double_area = [&](const std::array<int, 3>& v) {
@@ -24,6 +52,7 @@ std::optional<std::vector<Vec2>> planar_map(const Chart& chart, double tolerance
   const Vec3 e2 = cross(normal, e1);
   std::vector<Vec2> flat;
   for (const Vec3& p : chart.points) flat.push_back({dot(p - origin, e1), dot(p - origin, e2)});
+  open_slits(chart, flat);
   return flat;
 }
 

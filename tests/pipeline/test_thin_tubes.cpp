@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fields/fields.h"
+#include "geometry/surface/surface_editor.h"
 #include "metrics/metrics.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/runner.h"
@@ -89,6 +90,37 @@ TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
   const RunResult other = mesh_of(prepared, "DB");
   EXPECT_EQ(other.bad_in_corners, 0);
   EXPECT_EQ(other.bad_elsewhere, 1);
+}
+
+/// A square of side 10 with a slit from the middle of a side to its centre, in so many lines.
+SurfaceModel slit_square(int lines) {
+  const int n = 2 * lines;
+  SurfaceModel model = surfaces::grid_surface({n, n}, [](double u, double v) {
+    return Vec3{10 * u, 10 * v, 0};
+  });
+  std::vector<int> chain;
+  for (int i = 0; i <= lines; ++i) {
+    const Vec3 x{5.0 * i / lines, 5, 0};
+    const auto at =
+        std::ranges::find_if(model.fine.points, [&](const Vec3& p) { return norm(p - x) < 1e-9; });
+    chain.push_back(static_cast<int>(at - model.fine.points.begin()));
+  }
+  SurfaceEditor editor(model);
+  editor.add_curve(chain);
+  editor.finish();
+  model.corners = {chain.front(), chain.back()};
+  std::ranges::sort(model.corners);
+  return model;
+}
+
+TEST(ThinTubes, ASlitIsNone) {
+  for (const int lines : {1, 5})
+    for (const double size : {0.5, 1.0, 2.0}) {
+      const RunResult result = mesh_of(slit_square(lines), size, "DB");
+      EXPECT_LT(static_cast<double>(result.mesh.quads.size()), 1.5 * 100 / (size * size))
+          << lines << " " << size;
+      EXPECT_GT(worst_eta(result.mesh), 0.3) << lines << " " << size;
+    }
 }
 
 TEST(ThinTubes, TrianglesCoverThemToo) {
