@@ -60,7 +60,7 @@ BackgroundMesh::BackgroundMesh(std::span<const PatchBoundary> patches) {
     append(tri_, part);
     patch_.resize(tri_.triangles.size(), static_cast<int>(p));
   }
-  tree_ = std::make_shared<const TriangleTree>(tri_);
+  set_up_search();
 }
 
 BackgroundMesh::BackgroundMesh(TriPatch triangulation) : tri_(std::move(triangulation)) {
@@ -74,7 +74,25 @@ BackgroundMesh::BackgroundMesh(TriPatch triangulation) : tri_(std::move(triangul
       boundary_[from] = {from, to, 0, (1 / norm(side)) * side};
     }
   }
+  set_up_search();
+}
+
+void BackgroundMesh::set_up_search() {
   tree_ = std::make_shared<const TriangleTree>(tri_);
+  low_ = high_ = tri_.points.at(0);
+  for (const Vec2 p : tri_.points) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+  }
+  const double reach = norm(high_ - low_);
+  low_ += Vec2{-reach, -reach};
+  high_ += Vec2{reach, reach};
+}
+
+/// NaNs become the lower ends.
+Vec2 BackgroundMesh::within_reach(Vec2 u) const {
+  const auto clamped = [](double x, double low, double high) { return !(x > low) ? low : std::min(x, high); };
+  return {clamped(u.x, low_.x, high_.x), clamped(u.y, low_.y, high_.y)};
 }
 
 /// The first triangle that contains u, or -1 where the walk cannot tell: u outside or on the boundary, a
@@ -105,6 +123,7 @@ int BackgroundMesh::walk(Vec2 u, int hint) const {
 }
 
 BackgroundMesh::Location BackgroundMesh::locate(Vec2 u, int& hint) const {
+  u = within_reach(u);
   int t = walk(u, hint);
   if (t < 0) t = tree_->containing(tri_, u);
   if (t < 0) {

@@ -36,7 +36,8 @@ class BackgroundMesh {
   const std::vector<BoundaryPoint>& boundary_points() const { return boundary_; }
 
   /// The triangle that contains u (the first of several), or the nearest one when u is outside, and the
-  /// barycentric coordinates there, none negative.
+  /// barycentric coordinates there, none negative. What lies further from the bounding box than that is wide
+  /// is moved to there first: the search among all triangles would be exact arithmetic for nothing.
   struct Location {
     int triangle;
     double b[3];
@@ -47,11 +48,14 @@ class BackgroundMesh {
 
  private:
   int walk(Vec2 u, int hint) const;
+  void set_up_search();
+  Vec2 within_reach(Vec2 u) const;
 
   TriPatch tri_;
   std::vector<int> patch_;
   std::vector<BoundaryPoint> boundary_;
   std::shared_ptr<const TriangleTree> tree_;
+  Vec2 low_, high_;  ///< of the reach of locate()
 };
 
 }  // namespace delquad

@@ -1,6 +1,7 @@
 #include "fields/size_aware_cross_field.h"
 
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <array>
 #include <cmath>
@@ -25,6 +26,9 @@ constexpr int kSteps = 10;
 constexpr double kMass = 0.5 / 3;
 /// Relative residual of each step: its result is brought back to unit length, and only the last step's stays.
 constexpr double kTolerance = 1e-4;
+/// Of conjugate gradients: ordinary patches take 10 to 150, and as many as this cost about as much as a
+/// direct solution.
+constexpr int kMostIterations = 500;
 
 using Complex = std::complex<double>;
 /// Of real and imaginary parts in turn: products of complex numbers would be checked for overflow one by one.
@@ -97,15 +101,25 @@ class CrossDiffusion {
       now[2 * row_[i]] = z_[i].real();
       now[2 * row_[i] + 1] = z_[i].imag();
     }
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver(matrix);
-    solver.setTolerance(kTolerance);
-    const Vector next = solver.solveWithGuess(weight.cwiseProduct(now) + fixed_, now);
+    const Vector next = solve(matrix, weight.cwiseProduct(now) + fixed_, now);
     for (std::size_t i = 0; i < row_.size(); ++i) {
       if (row_[i] >= 0) z_[i] = normalised({next[2 * row_[i]], next[2 * row_[i] + 1]}, z_[i]);
     }
   }
 
  private:
+  /// By conjugate gradients from `start`, or directly where these do not converge: triangles with angles near
+  /// 180 degrees, as badly made triangulations have them, can take them as many steps as there are unknowns.
+  static Vector solve(const Matrix& matrix, const Vector& right, const Vector& start) {
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
+    iterative.setTolerance(kTolerance);
+    iterative.setMaxIterations(kMostIterations);
+    const Vector x = iterative.solveWithGuess(right, start);
+    if (iterative.info() == Eigen::Success) return x;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> direct(matrix);
+    return direct.info() == Eigen::Success ? Vector(direct.solve(right)) : x;
+  }
+
   void assemble(const TriPatch& tri, const Sides& sides, const SizeConnection& connection) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(36 * tri.triangles.size());

@@ -97,6 +97,7 @@ void QuadRelocation::activate_ring(int v) {
 
 void QuadRelocation::gather(int v) {
   const std::size_t n = mesh_.valence(v);
+  looks_ += static_cast<long long>(n);
   star_.resize(n);
   rays_.resize(n);
   std::size_t i = 0;

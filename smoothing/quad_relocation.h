@@ -52,6 +52,8 @@ class QuadRelocation {
   double lift(int v, double enough);
   /// The vertex's part of the objective where it is.
   double cost(int v);
+  /// Elements looked at so far around vertices, each time that one was visited: the work done.
+  long long looks() const { return looks_; }
 
  private:
   struct Spoke {
@@ -95,6 +97,7 @@ class QuadRelocation {
   std::vector<int> queue_, visiting_;
   std::vector<Spoke> star_;
   mutable std::vector<Ray> rays_;  ///< as many as spokes; evaluate() fills them
+  long long looks_ = 0;
   bool keep_convex_corners_ = false;
   double kept_sine_ = -1;
 };

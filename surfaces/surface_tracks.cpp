@@ -20,6 +20,14 @@ std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int tr
   return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
 }
 
+/// The place of the patch's map that is nearest to u.
+Vec2 place_within(const SurfacePatch& patch, Vec2 u, int& hint) {
+  const auto [t, weights] = patch.background->locate(u, hint);
+  Vec2 place;
+  for (int k = 0; k < 3; ++k) place += weights[k] * patch.map.flat.points[patch.map.flat.triangles[t][k]];
+  return place;
+}
+
 /// At each vertex of a patch's map the sum of its triangles' normals, as long as their areas.
 std::vector<Vec3> vertex_normals(const SurfacePatch& patch, const Mesh& fine) {
   std::vector<Vec3> normals(patch.map.flat.points.size());
@@ -131,7 +139,8 @@ SurfaceTracks::Spot SurfaceTracks::spot_near(int v, const Spot& from, const Vec3
   const SurfacePatch& patch = *patches_[vertex_patch_[v]].patch;
   int hint = hint_[v];
   const auto [a, b] = tangents(patch, model_.fine, patch.background->locate(from.position, hint).triangle);
-  const Vec2 u = from.position + Vec2{dot(a, d) / dot(a, a), dot(b, d) / dot(b, b)};
+  const Vec2 u =
+      place_within(patch, from.position + Vec2{dot(a, d) / dot(a, a), dot(b, d) / dot(b, b)}, hint);
   return {u, model_.projector ? model_.projector->to_face(patch.map.face, x) : lift(patch, model_, u, hint)};
 }
 

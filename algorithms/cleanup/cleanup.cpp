@@ -53,6 +53,7 @@ void CleanupProcess::run() {
   summary_.relocated += relocation_.relax(0.01, 30);
   summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
   summary_.irregular_after = count_irregular();
+  summary_.looks = relocation_.looks();
 }
 
 int CleanupProcess::count_irregular() const {

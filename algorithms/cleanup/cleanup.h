@@ -25,6 +25,7 @@ struct CleanupSummary {
   long long tried = 0;      ///< neutral moves tried while annealing
   int annealed = 0;         ///< of these, accepted
   long long relocated = 0;  ///< moves of vertices
+  long long looks = 0;      ///< QuadRelocation::looks(): at most linear in the number of elements
   double seconds = 0;
 };
 

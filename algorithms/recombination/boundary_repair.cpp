@@ -63,6 +63,7 @@ double place(std::vector<Vec2>& points, int v, std::span<const Element> star) {
   constexpr Vec2 kDirections[] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                                   {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
   constexpr double kLastStep = 1e-3;  // of the first one: positions matter less beyond
+  constexpr int kMovesPerStep = 8;    // the star is four first steps wide, and each later step half as long
   const Vec2 start = points[v], mean = star_mean(points, v, star);
   double best = worst_quality(points, star);
   Vec2 at = start;
@@ -82,7 +83,8 @@ double place(std::vector<Vec2>& points, int v, std::span<const Element> star) {
     }
   }
   for (double step = size / 2; step > kLastStep * size; step /= 2) {
-    for (bool moved = true; moved;) {
+    bool moved = true;
+    for (int moves = 0; moved && moves < kMovesPerStep; ++moves) {
       moved = false;
       const Vec2 centre = at;
       for (const Vec2 d : kDirections) moved = try_at(centre + step * d) || moved;

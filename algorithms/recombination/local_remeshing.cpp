@@ -17,12 +17,22 @@ constexpr int kNearRings = 2, kFarRings = 3, kMostRings = 20;
 /// A region grows by no more rings once it has so many vertices; and at the last attempt.
 constexpr int kLargeRegion = 40, kHugeRegion = 1500;
 
+/// Vertices that may be settled, counting each time, for each element of the mesh; and in any mesh. Patches
+/// whose bad quads are few need a tenth of it.
+constexpr long long kSettlementsPerElement = 200, kLeastSettlements = 20000;
+
 void sort_unique(std::vector<int>& v) {
   std::sort(v.begin(), v.end());
   v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 
 }  // namespace
+
+LocalRemeshing::LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, Poorness& poorness)
+    : mesh_(mesh),
+      relocation_(relocation),
+      poorness_(poorness),
+      settlements_(kLeastSettlements + kSettlementsPerElement * mesh.element_slots()) {}
 
 bool LocalRemeshing::improve(int quad, double least_relief) {
   collect_region(quad, kNearRings, kLargeRegion);
@@ -118,6 +128,7 @@ void LocalRemeshing::perform(const Edit& edit) {
 }
 
 void LocalRemeshing::settle() {
+  settlements_ -= static_cast<long long>(free_.size());
   untangle(mesh_, free_);
   for (int sweep = 0; sweep < kRelocationSweeps; ++sweep)
     for (const int v : free_) relocation_.step(v);
@@ -133,6 +144,7 @@ bool LocalRemeshing::try_all(double least_relief, bool first_will_do) {
   double best = before - least_relief;
   const Edit* choice = nullptr;
   for (const Edit& edit : edits_) {
+    if (settlements_ <= 0) break;
     perform(edit);
     const double after = poorness_.around(region_);
     if (after < best) best = after, choice = &edit;

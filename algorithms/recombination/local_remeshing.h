@@ -11,12 +11,13 @@
 namespace delquad {
 
 /// The last resort for a bad quad: every edit of it and its neighbours is tried, up to a ring of new quads
-/// around the neighbourhood, each followed by untangling of some rings around, and the best is kept.
+/// around the neighbourhood, each followed by untangling of some rings around, and the best is kept. A mesh
+/// of which all is bad cannot be helped so: all attempts together settle a number of vertices that is linear
+/// in its size, and none helps after.
 class LocalRemeshing {
  public:
   /// All outlive this object.
-  LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, Poorness& poorness)
-      : mesh_(mesh), relocation_(relocation), poorness_(poorness) {}
+  LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, Poorness& poorness);
 
   /// Whether the poorness around the quad fell by at least `least_relief`. The edit is not committed;
   /// touched() holds the vertices around.
@@ -46,6 +47,7 @@ class LocalRemeshing {
   QuadTopology& mesh_;
   QuadRelocation& relocation_;
   Poorness& poorness_;
+  long long settlements_;    ///< of vertices, that are left
   std::vector<int> region_;  ///< all vertices whose elements may change
   std::vector<int> free_;
   std::vector<Edit> edits_;

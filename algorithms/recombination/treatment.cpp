@@ -23,6 +23,8 @@ constexpr int kRemeshingPasses = 5;
 void TreatmentProcess::run(const TreatmentOptions& options) {
   relocation_.activate_all();
   summary_.relocated += relocation_.relax(0.1, 6);
+  // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
+  // never negative; a rescue, at most one for each element that the round began with, may raise it by a few.
   for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds; ++summary_.rounds) {
     changes = single_moves();
     changes += paired_moves();
@@ -37,6 +39,7 @@ void TreatmentProcess::run(const TreatmentOptions& options) {
     summary_.relocated += relocation_.relax(0.01, 30);
   }
   summary_.relocated += relocation_.lift_worst(0.5, 10);
+  summary_.looks = relocation_.looks();
 }
 
 // --- single moves, the largest gain first
@@ -62,6 +65,7 @@ int TreatmentProcess::single_moves() {
   return drain();
 }
 
+/// Ends: each move that is kept lowers the valence energy and calls for no more others than lie around it.
 int TreatmentProcess::drain() {
   int changes = 0;
   Candidate last{0, {}};
@@ -99,6 +103,7 @@ bool TreatmentProcess::try_single(const TreatmentMove& move) {
 
 // --- pairs of moves: the first may cost energy, both together gain
 
+/// Ends: elements are passed once, new ones included, and there are new ones only where energy fell.
 int TreatmentProcess::paired_moves() {
   int changes = 0;
   pending_.resize(mesh_.element_slots(), 1);
@@ -213,16 +218,23 @@ bool TreatmentProcess::settles(double poorness_before) {
 }
 
 void TreatmentProcess::accept() {
-  if (!revocable_) mesh_.commit();
+  if (revocable_) {
+    touched_on_trial_.insert(touched_on_trial_.end(), touched_.begin(), touched_.end());
+    for (const int v : touched_)
+      if (mesh_.vertex_alive(v)) mesh_.for_each_out(v, [&](int h) { consider(QuadTopology::element(h)); });
+    return;
+  }
+  mesh_.commit();
   pending_.resize(mesh_.element_slots(), 1);
   hopeless_.resize(mesh_.element_slots(), 0);
+  beyond_rescue_.resize(mesh_.element_slots(), 0);
   for (const int v : touched_) {
     if (!mesh_.vertex_alive(v)) continue;
     mesh_.for_each_out(v, [&](int h) {
       const int e = QuadTopology::element(h);
       consider(e);
       pending_[e] = 1;
-      hopeless_[e] = 0;
+      hopeless_[e] = beyond_rescue_[e] = 0;
       for (int k = 0; k < 4; ++k)
         if (const int w = mesh_.corner(e, k); w >= 0) relocation_.activate(w);
     });

@@ -18,6 +18,7 @@ struct TreatmentSummary {
   int boundary_repairs = 0;  ///< times that a ring of new quads was put around bad ones
   int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
   int relocated = 0;         ///< moves of vertices
+  long long looks = 0;       ///< QuadRelocation::looks(): at most linear in the number of elements
   double seconds = 0;
 };
 

@@ -20,7 +20,8 @@ class TreatmentProcess {
         relocation_(mesh_, size),
         poorness_(mesh_),
         remeshing_(mesh_, relocation_, poorness_),
-        pending_(mesh_.element_slots(), 1) {}
+        pending_(mesh_.element_slots(), 1),
+        most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()) {}
 
   void run(const TreatmentOptions& options);
   QuadPatch result() const { return mesh_.to_patch(); }
@@ -66,12 +67,17 @@ class TreatmentProcess {
   std::priority_queue<Candidate> queue_;  ///< single moves by gain
   std::vector<char> pending_;             ///< by element: changed since pairs of moves were tried there
   std::vector<char> hopeless_;            ///< by element: unchanged since remeshing failed there
+  std::vector<char> beyond_rescue_;       ///< by element: unchanged since no move took off enough there
   std::vector<int> touched_;              ///< vertices of the move on trial
   std::vector<Candidate> firsts_, seconds_;
   std::vector<int> region_;
   std::vector<unsigned> seen_element_, seen_vertex_;  ///< against seen_
   unsigned seen_ = 0;
-  bool revocable_ = false;  ///< accepted moves may still be taken back
+  bool revocable_ = false;             ///< accepted moves may still be taken back
+  std::vector<int> touched_on_trial_;  ///< by those moves
+  /// Rings of new quads may not outgrow the patch, however poor its quads stay.
+  static constexpr int kRingQuadsPerElement = 4;
+  int most_ring_quads_;
   TreatmentSummary summary_;
 };
 

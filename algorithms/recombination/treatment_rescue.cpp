@@ -13,11 +13,18 @@ constexpr double kLeastRelief = 0.05, kReliefPerEnergy = 0.05;
 
 }  // namespace
 
+/// Ends: each element that was there at the start is looked at once.
 int TreatmentProcess::rescues() {
   int changes = 0;
   const double poor = sine_of_eta(kPoorEta);
-  for (int e = 0; e < mesh_.element_slots(); ++e)
-    if (mesh_.is_quad(e) && least_sine(mesh_, e) < poor && rescue(e)) changes += 1 + drain();
+  for (int e = 0, n = mesh_.element_slots(); e < n; ++e) {
+    beyond_rescue_.resize(mesh_.element_slots(), 0);
+    if (!mesh_.is_quad(e) || beyond_rescue_[e] || least_sine(mesh_, e) >= poor) continue;
+    if (rescue(e))
+      changes += 1 + drain();
+    else
+      beyond_rescue_[e] = 1;
+  }
   return changes;
 }
 
@@ -33,8 +40,15 @@ bool TreatmentProcess::rescue(int element) {
   if (choice.at < 0) return least_sine(mesh_, element) < sine_of_eta(kBadEta) && rescue_by_inset(element);
   touched_.clear();
   touch(touched_by(mesh_, choice));
+  const double before = poorness();
+  const auto start = mesh_.mark();
   perform(choice);
   relax_touched();
+  // The relief was against relaxed neighbours, which may be poorer than those that are there.
+  if (before - poorness() < kLeastRelief) {
+    mesh_.rollback(start);
+    return false;
+  }
   count(choice);
   accept();
   return true;
@@ -57,7 +71,7 @@ double TreatmentProcess::relief_of(const TreatmentMove& move) {
 /// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
 bool TreatmentProcess::rescue_by_inset(int element) {
   const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
-  if (!is_legal(mesh_, inset)) return false;
+  if (!is_legal(mesh_, inset) || summary_.ring_quads >= most_ring_quads_) return false;
   const TreatmentSummary summary = summary_;
   const auto start = mesh_.mark();
   touched_.clear();
@@ -67,6 +81,7 @@ bool TreatmentProcess::rescue_by_inset(int element) {
   relax_touched();
   count(inset);
   revocable_ = true;
+  touched_on_trial_.clear();
   accept();
   const std::vector<int> around = touched_;
   drain();
@@ -78,15 +93,17 @@ bool TreatmentProcess::rescue_by_inset(int element) {
     summary_ = summary;
     return false;
   }
+  touched_ = touched_on_trial_;
   accept();
   return true;
 }
 
-/// The last resort: the neighbourhoods of bad quads.
+/// The last resort: the neighbourhoods of bad quads. Ends: each element that was there at the start is looked
+/// at once.
 int TreatmentProcess::remeshings() {
   int changes = 0;
   const double bad = sine_of_eta(kRemeshedEta);
-  for (int e = 0; e < mesh_.element_slots(); ++e) {
+  for (int e = 0, n = mesh_.element_slots(); e < n; ++e) {
     hopeless_.resize(mesh_.element_slots(), 0);
     if (!mesh_.is_quad(e) || hopeless_[e] || least_sine(mesh_, e) >= bad) continue;
     hopeless_[e] = !remeshing_.improve(e, kLeastRelief);

@@ -22,9 +22,10 @@ class Descent {
 
   std::optional<CutPath> run(int start) {
     go_to_vertex(start);
-    do {  // u falls with each step, so that this ends
-      if (!(at_.b < 0 ? leave_vertex() : leave_edge())) return std::nullopt;
-    } while (!arrived_);
+    // u falls with each step, but for rounding: a path longer than the chart has triangles meets itself.
+    for (std::size_t steps = 0; !arrived_; ++steps)
+      if (steps > chart_.triangles.size() || !(at_.b < 0 ? leave_vertex() : leave_edge()))
+        return std::nullopt;
     if (is_boundary_side(chart_, path_)) return std::nullopt;
     std::set<std::pair<int, int>> seen;
     for (const EdgePoint& p : path_.points)

@@ -61,6 +61,7 @@ class TrackOptimisation {
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
   EnergyDescent descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
   bool too_short(std::size_t quad) const;
+  std::vector<std::vector<int>> quads_around() const;
   std::vector<double> reaches(std::vector<double> delta) const;
   void settle(const std::vector<MovingVertex<Vec>>& moving, const std::vector<double>& x);
 
@@ -222,6 +223,14 @@ bool TrackOptimisation<Vec>::too_short(std::size_t quad) const {
   return false;
 }
 
+template <class Vec>
+std::vector<std::vector<int>> TrackOptimisation<Vec>::quads_around() const {
+  std::vector<std::vector<int>> around(points_.size());
+  for (std::size_t q = 0; q < quads_.size(); ++q)
+    for (const int v : quads_[q]) around[v].push_back(static_cast<int>(q));
+  return around;
+}
+
 /// Puts the vertices on their tracks, as far as no quad falls below what it must keep.
 template <class Vec>
 void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving,
@@ -242,19 +251,29 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
       put(v);
     }
   });
-  for (bool worse = true; worse;) {
-    worse = false;
-    for (std::size_t q = 0; q < quads_.size(); ++q) {
+  // Ends: a vertex that is put anew has gone back by half, or at last to where it was, and only quads around
+  // such ones are looked at again.
+  std::vector<std::vector<int>> quads_at;
+  std::vector<int> looked_at(quads_.size());
+  std::iota(looked_at.begin(), looked_at.end(), 0);
+  while (!looked_at.empty()) {
+    std::vector<int> changed;
+    for (const int q : looked_at) {
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
       if (movable_sine(q) >= kept_[q] && !too_short(q)) continue;
-      worse = true;
       for (const int v : quad) {
         if (moves[v].part == 0) continue;
         moves[v].part = moves[v].part > kLeastPart ? moves[v].part / 2 : 0;
         put(v);
+        changed.push_back(v);
       }
     }
+    looked_at.clear();
+    if (quads_at.empty() && !changed.empty()) quads_at = quads_around();
+    for (const int v : changed) looked_at.insert(looked_at.end(), quads_at[v].begin(), quads_at[v].end());
+    std::ranges::sort(looked_at);
+    looked_at.erase(std::unique(looked_at.begin(), looked_at.end()), looked_at.end());
   }
 }
 

@@ -226,6 +226,17 @@ TEST(Locate, VertexHasAllOfTheWeight) {
   }
 }
 
+TEST(Locate, PlacesFarAwayAreThoseAtTheEndOfItsReach) {
+  const auto background = background_of(shapes::rectangle(1, 1, 8, 8));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  int hint = -1;
+  for (const auto& [far, near] : {std::pair(Vec2{1e200, 0.3}, Vec2{1, 0.3}),
+                                  {{0.3, -1e308}, {0.3, 0}},
+                                  {{INFINITY, INFINITY}, {1, 1}},
+                                  {{nan, nan}, {0, 0}}})
+    EXPECT_LT(norm(at(background->triangles(), background->locate(far, hint)) - near), 1e-12);
+}
+
 /// A square with a square hole and the patch that fills it.
 std::vector<PatchBoundary> touching_patches() {
   PatchBoundary inner = shapes::polygon({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, 4);

@@ -70,6 +70,20 @@ std::vector<double> shortest_edges(const Meshed& m) {
   return shortest;
 }
 
+TEST(SurfaceTracks, PlacesOutsideThePatchGetAPositionInside) {
+  const Meshed m(surfaces::bump(40, 0.4), 0.12);
+  const SurfacePatch& patch = m.domain.patches.at(0);
+  for (int v = 0; v < static_cast<int>(m.places.size()); v += 7) {
+    if (m.tracks->is_on_curve(v) || v < static_cast<int>(m.nodes.points.size())) continue;
+    const auto spot = m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]}, {1e9, -1e9, 1e12});
+    int hint = -1;
+    const auto [t, b] = patch.background->locate(spot.position, hint);
+    Vec2 nearest;
+    for (int k = 0; k < 3; ++k) nearest += b[k] * patch.map.flat.points[patch.map.flat.triangles[t][k]];
+    EXPECT_LT(norm(nearest - spot.position), 1e-9);
+  }
+}
+
 // Each third vertex goes most of the way to a neighbour of its own kind.
 TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
   Meshed m(surfaces::bump(40, 0.4), 0.12);

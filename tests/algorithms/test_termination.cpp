@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/insertion/point_placement.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/recombination/treatment.h"
+#include "algorithms/recombination/treatment_moves.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/quad_patches.h"
+#include "tests/support/shapes.h"
+
+/// Loops that edit a mesh end, after work that is linear in it, whatever the mesh is like.
+namespace delquad {
+namespace {
+
+using testing_support::FunctionCross;
+using testing_support::FunctionSize;
+
+/// Uniform between two values, in the logarithm.
+double log_uniform(std::mt19937_64& random, double low, double high) {
+  return low * std::pow(high / low, shapes::uniform(random));
+}
+
+/// A square of side 10 with slits from its lower side, down to 1e-9 wide.
+std::vector<Vec2> slits(std::mt19937_64& random) {
+  std::vector<Vec2> corners = {{0, 0}};
+  const int n = 1 + static_cast<int>(random() % 6);
+  for (int i = 0; i < n; ++i) {
+    const double x = 10 * (i + 0.2 + 0.6 * shapes::uniform(random)) / n, y = 9 * shapes::uniform(random);
+    const double half = log_uniform(random, 1e-9, 0.1);
+    for (const Vec2 p : {Vec2{x - half, 0}, Vec2{x - half, y}, Vec2{x + half, y}, Vec2{x + half, 0}})
+      corners.push_back(p);
+  }
+  corners.insert(corners.end(), {{10, 0}, {10, 10}, {0, 10}});
+  return corners;
+}
+
+/// A square of side 10 with needles into it and out of it, down to 1e-9 wide.
+std::vector<Vec2> needles(std::mt19937_64& random) {
+  std::vector<Vec2> corners = {{0, 0}};
+  const int n = 1 + static_cast<int>(random() % 6);
+  for (int i = 0; i < n; ++i) {
+    const double x = 10 * (i + 0.5) / n, half = log_uniform(random, 1e-9, 0.5);
+    const double tip = x + 4.0 / n * (shapes::uniform(random) - 0.5);
+    for (const Vec2 p : {Vec2{x - half, 0}, Vec2{tip, 16 * shapes::uniform(random) - 8}, Vec2{x + half, 0}})
+      corners.push_back(p);
+  }
+  corners.insert(corners.end(), {{10, 0}, {10, 10}, {0, 10}});
+  return corners;
+}
+
+/// A triangle or a quadrilateral down to 1e-6 thick.
+std::vector<Vec2> slivers(std::mt19937_64& random) {
+  const double thick = log_uniform(random, 1e-6, 1), x = 10 * shapes::uniform(random);
+  if (random() % 2 == 0) return {{0, 0}, {10, 0}, {x, thick}};
+  return {{0, 0}, {10, 0}, {10 - thick, thick}, {x / 2, thick / (1 + 4 * shapes::uniform(random))}};
+}
+
+/// Its sides cut into edges of about the size; some much longer or shorter. Even in number.
+PatchBoundary boundary_of(const std::vector<Vec2>& corners, double size, std::mt19937_64& random) {
+  std::vector<int> per_side;
+  int total = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double edge = random() % 4 == 0 ? log_uniform(random, size / 8, 8 * size) : size;
+    const double length = norm(corners[(i + 1) % corners.size()] - corners[i]);
+    per_side.push_back(std::max(1, static_cast<int>(std::lround(length / edge))));
+    total += per_side.back();
+  }
+  per_side.back() += total % 2;
+  PatchBoundary boundary;
+  shapes::add_polygon(boundary, corners, per_side);
+  return boundary;
+}
+
+/// Elements looked at per element of the raw mesh. Ordinary patches take some hundreds, those of which every
+/// quad is bad up to 22 000: each tries a dozen moves and is remeshed within its budget.
+constexpr double kMostLooks = 30000;
+
+void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const std::string& what) {
+  const double n = static_cast<double>(raw.quads.size()) + 20;
+  TreatmentSummary treatment;
+  const QuadPatch treated = treat_paper(raw, size, {}, &treatment);
+  EXPECT_LT(static_cast<double>(treatment.looks), kMostLooks * n) << what;
+  EXPECT_LT(static_cast<double>(treated.quads.size()), 6 * n) << what;
+  CleanupSummary cleanup;
+  const QuadPatch cleaned = clean_up(treated, size, {}, &cleanup);
+  EXPECT_LT(static_cast<double>(cleanup.looks), kMostLooks * n) << what;
+  EXPECT_LT(static_cast<double>(cleaned.quads.size()), 6 * n) << what;
+}
+
+void mesh_random_patches(const char* name, const std::function<std::vector<Vec2>(std::mt19937_64&)>& make) {
+  for (int seed = 0; seed < 24; ++seed) {
+    std::mt19937_64 random(seed);
+    const std::vector<Vec2> corners = make(random);
+    const double size = log_uniform(random, 0.2, 3);
+    const PatchBoundary boundary = boundary_of(corners, size, random);
+    const FunctionSize delta(size);
+    const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
+    expect_linear_work(
+        recombine(mesh_frontal(boundary, *placement, FunctionCross(0.3), delta), *make_lemon_solver()), delta,
+        std::string(name) + " " + std::to_string(seed));
+  }
+}
+
+TEST(Termination, Slits) { mesh_random_patches("slits", slits); }
+TEST(Termination, Needles) { mesh_random_patches("needles", needles); }
+TEST(Termination, Slivers) { mesh_random_patches("slivers", slivers); }
+
+TEST(Termination, TangledGrids) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const QuadPatch mesh = testing_support::jittered(
+        testing_support::scrambled(testing_support::grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
+    expect_linear_work(mesh, FunctionSize(1), "grid " + std::to_string(seed));
+  }
+}
+
+TEST(Termination, MovesTakeOffWhatTheyPromise) {
+  // On this the end of the queues of moves rests.
+  for (int seed = 0; seed < 20; ++seed) {
+    QuadTopology mesh(testing_support::scrambled(testing_support::grid_patch(8, 8), seed, 100));
+    const ValenceEnergy energy(mesh);
+    const auto sum = [&] {
+      int total = 0;
+      for (int v = 0; v < mesh.vertex_slots(); ++v)
+        if (mesh.vertex_alive(v)) total += energy.of(v);
+      return total;
+    };
+    const int before = sum();
+    const auto check = [&](const TreatmentMove& move) {
+      if (!is_legal(mesh, move)) return;
+      const int gain = energy.gain(move);
+      const auto start = mesh.mark();
+      apply(mesh, move);
+      EXPECT_EQ(before - sum(), gain) << "kind " << move.kind << " at " << move.at;
+      mesh.rollback(start);
+    };
+    for (int e = 0; e < mesh.element_slots(); ++e) {
+      for_each_move(mesh, e, check);
+      for_each_opening(mesh, e, check);
+    }
+    for (int v = 0; v < mesh.vertex_slots(); ++v) for_each_split(mesh, v, check);
+  }
+}
+
+}  // namespace
+}  // namespace delquad
