@@ -35,6 +35,13 @@ struct Box {
     for (const V& p : points) box = {lower(box.low, p), upper(box.high, p)};
     return box;
   }
+  /// Whether both share a point.
+  bool overlaps(const Box& other) const {
+    for (int k = 0; k < kAxes; ++k)
+      if (coordinate(low, k) > coordinate(other.high, k) || coordinate(other.low, k) > coordinate(high, k))
+        return false;
+    return true;
+  }
   /// Square of the distance to x, 0 inside.
   double distance2(const V& x) const {
     double sum = 0;

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "mesh/box_tree.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
@@ -224,20 +225,22 @@ class DomainBuilder {
 
   /// Pairs of edges that share a point other than a common end.
   static std::vector<std::pair<size_t, size_t>> crossing_edges(const PatchBoundary& boundary) {
-    std::vector<std::pair<size_t, size_t>> pairs;
     const auto& p = boundary.points;
+    std::vector<Box<Vec2>> boxes;
+    for (const auto& [a, b] : boundary.edges) boxes.push_back(Box<Vec2>::around({p[a], p[b]}));
+    const BoxTree<Vec2> tree(boxes);
+    std::vector<std::pair<size_t, size_t>> pairs;
     for (size_t i = 0; i < boundary.edges.size(); ++i) {
       const auto [a, b] = boundary.edges[i];
-      for (size_t j = 0; j < i; ++j) {
+      const auto gap = [&](const BoxTree<Vec2>::Node& node) { return boxes[i].overlaps(node.box) ? 0 : 1; };
+      tree.search(0.0, gap, [&](int item) {
+        const auto j = static_cast<size_t>(item);
         const auto [c, d] = boundary.edges[j];
-        if (a == c || a == d || b == c || b == d) continue;
-        if (std::max(p[a].x, p[b].x) < std::min(p[c].x, p[d].x) ||
-            std::max(p[c].x, p[d].x) < std::min(p[a].x, p[b].x))
-          continue;
+        if (j >= i || !boxes[i].overlaps(boxes[j]) || a == c || a == d || b == c || b == d) return;
         if (orient2d(p[a], p[b], p[c]) * orient2d(p[a], p[b], p[d]) <= 0 &&
             orient2d(p[c], p[d], p[a]) * orient2d(p[c], p[d], p[b]) <= 0)
           pairs.emplace_back(i, j);
-      }
+      });
     }
     return pairs;
   }

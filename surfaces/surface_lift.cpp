@@ -26,6 +26,10 @@ constexpr double kTurnedOver = 2;
 /// alone would let nodes run into each other.
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
+/// Places halfway between two neighbours are tried for so many (each is there twice), as their pairs grow
+/// with the square.
+constexpr std::size_t kMostPaired = 24;
+
 class SurfaceLift {
  public:
   SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta)
@@ -47,6 +51,7 @@ class SurfaceLift {
       for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
   }
 
+  /// Ends after max_sweeps; each tries every vertex of a bad quad once.
   int run(int max_sweeps) {
     outward_ = tracks_.normals();
     bool again = true;
@@ -179,7 +184,7 @@ class SurfaceLift {
     };
     std::vector<Vec3> neighbours;
     for_each_neighbour(v, [&](int w) { neighbours.push_back(places_[w]); });
-    for (std::size_t i = 0; i < neighbours.size(); ++i)
+    for (std::size_t i = 0; neighbours.size() <= kMostPaired && i < neighbours.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
     places_[v] = at.place;
     auto [along, across] = axes(v, free);

@@ -50,6 +50,8 @@ class FrontalMesher {
     for (int t = 0; t < static_cast<int>(states_.size()); ++t) classify_new(t);
   }
 
+  /// Ends: a point is at least a part of delta' away from the vertices around, so that sizes above 0 leave
+  /// room for finitely many; a side over which none may go is not tried again before its triangle changes.
   FrontalSummary run() {
     do {
       while (start_layer()) {

@@ -37,7 +37,8 @@ class Packer {
     }
   }
 
-  /// The vertices' own order is the queue: each is appended when it is inserted.
+  /// The vertices' own order is the queue: each is appended when it is inserted. Ends as the frontal mesher
+  /// does.
   FrontalSummary run() {
     for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
       const Frame frame = Frame::from_cross(vertices_[v].cross);

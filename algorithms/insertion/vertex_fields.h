@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "fields/cross_field.h"
 #include "fields/size_field.h"
+#include "mesh/error.h"
 
 namespace delquad {
 
@@ -15,7 +17,8 @@ struct VertexFields {
   int cross_hint = -1, size_hint = -1;
 };
 
-/// The fields at u, found from those of a point nearby.
+/// The fields at u, found from those of a point nearby. Throws InputError for a size that is not positive, on
+/// which insertion would not end.
 inline VertexFields sample_fields(const CrossField& cross, const ParametricSize& size, Vec2 u,
                                   const VertexFields& near) {
   VertexFields f = near;
@@ -23,6 +26,9 @@ inline VertexFields sample_fields(const CrossField& cross, const ParametricSize&
   const double length = std::sqrt(z.c * z.c + z.s * z.s);
   f.cross = length > 0 ? Cross{z.c / length, z.s / length} : Cross{};
   f.delta = size.at(u, f.size_hint);
+  if (!(f.delta > 0))
+    throw InputError("the size in the parameter plane is " + std::to_string(f.delta) + " at (" +
+                     std::to_string(u.x) + ", " + std::to_string(u.y) + "): expected a positive number");
   return f;
 }
 

@@ -195,7 +195,8 @@ class Improver {
     }
   }
 
-  // Edges around a new point are turned at once: halves of needles would be needles again.
+  // Edges around a new point are turned at once: halves of needles would be needles again. Ends: edges below
+  // the target, or the rule's least length, are not split, and each split halves one.
   void split_all() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
     while (!candidates_.empty()) {
