@@ -30,8 +30,10 @@ constexpr double kShortDivision = 0.5;
 /// Below this a cut to a tip is not worth it.
 constexpr double kMinTipRatio = 2;
 /// After so many rounds of cuts a map is taken when it is one-to-one: first whatever its angles, which cuts
-/// seldom improve, then whatever its areas.
-constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 30;
+/// seldom improve, then whatever its areas. The last number only ends what cuts that cannot be made would
+/// keep going: a cut joins two loops, opens a handle or parts a chart, and a face with many holes needs one
+/// for each.
+constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 200;
 
 struct Map {
   std::vector<Vec2> flat;
