@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "mesh/half_edges.h"
 #include "mesh/parallel.h"
@@ -42,10 +43,10 @@ void add_angles(const ElementShape<N>& shape, Histogram& angles, double& low, do
 }
 
 void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
-  const auto normal = common_normal(mesh);
+  const ElementSides sides(mesh);
   std::vector<ElementShape<4>> shapes(mesh.quads.size());
   parallel_ranges(shapes.size(), [&](size_t begin, size_t end) {
-    for (size_t q = begin; q < end; ++q) shapes[q] = quad_shape(mesh, static_cast<int>(q), normal);
+    for (size_t q = begin; q < end; ++q) shapes[q] = quad_shape(mesh, static_cast<int>(q), sides);
   });
   double &low = metrics.values["angle_min"], &high = metrics.values["angle_max"];
   std::vector<double> etas;
@@ -61,7 +62,7 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
     jacobian_sum += shape.scaled_jacobian;
   }
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const ElementShape<3> shape = triangle_shape(mesh, static_cast<int>(t), normal);
+    const ElementShape<3> shape = triangle_shape(mesh, static_cast<int>(t), sides);
     add_angles(shape, metrics.angle, low, high);
     inverted += shape.scaled_jacobian > 0 ? 0 : 1;
   }
@@ -76,6 +77,34 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
   metrics.values["eta_p50"] = nearest_rank(etas, 50);
   metrics.values["scaled_jacobian_min"] = worst_jacobian;
   metrics.values["scaled_jacobian_mean"] = jacobian_sum / n;
+}
+
+/// What eta, which is about angles alone, does not see.
+void measure_proportions(const Mesh& mesh, Values& values) {
+  if (mesh.quads.empty()) return;
+  std::vector<double> warps(mesh.quads.size()), aspects(mesh.quads.size());
+  parallel_ranges(warps.size(), [&](size_t begin, size_t end) {
+    for (size_t q = begin; q < end; ++q) {
+      const auto corners = corners_of(mesh, mesh.quads[q]);
+      warps[q] = quad_warp(corners);
+      aspects[q] = quad_aspect(corners);
+    }
+  });
+  const double n = static_cast<double>(warps.size()), degrees = 180 / std::numbers::pi;
+  values["n_folded"] = static_cast<double>(std::ranges::count_if(warps, [](double w) { return w > kFold; }));
+  values["warp_max"] = *std::ranges::max_element(warps) * degrees;
+  values["warp_mean"] = std::accumulate(warps.begin(), warps.end(), 0.0) / n * degrees;
+  values["aspect_max"] = *std::ranges::max_element(aspects);
+  values["aspect_mean"] = std::accumulate(aspects.begin(), aspects.end(), 0.0) / n;
+}
+
+void measure_lengths(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size,
+                     const SizeField* given, Values& values) {
+  const SizeFit fit = fit_to_size(mesh, sides, size);
+  values["tau"] = fit.tau;
+  values["edge_min"] = fit.shortest;
+  values["edge_max"] = fit.longest;
+  values["tau_given"] = given == nullptr ? fit.tau : fit_to_size(mesh, sides, *given).tau;
 }
 
 void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMetrics& metrics) {
@@ -115,7 +144,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
 
 }  // namespace
 
-MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size) {
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given) {
   MeshMetrics metrics;
   for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
   metrics.eta = {0, 1, std::vector<long long>(20, 0)};
@@ -130,8 +159,9 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size) {
 
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   measure_shapes(mesh, metrics);
+  measure_proportions(mesh, metrics.values);
   measure_topology(mesh, sides, metrics);
-  if (size != nullptr) metrics.values["tau"] = efficiency_index(mesh, sides, *size);
+  if (size != nullptr) measure_lengths(mesh, sides, *size, given, metrics.values);
   return metrics;
 }
 
@@ -145,11 +175,10 @@ double quad_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 }
 
 std::vector<double> quad_etas(const Mesh& mesh) {
-  const auto normal = common_normal(mesh);
+  const ElementSides sides(mesh);
   std::vector<double> etas(mesh.quads.size());
   parallel_ranges(etas.size(), [&](size_t begin, size_t end) {
-    for (size_t q = begin; q < end; ++q)
-      etas[q] = eta_of(quad_shape(mesh, static_cast<int>(q), normal).angle);
+    for (size_t q = begin; q < end; ++q) etas[q] = eta_of(quad_shape(mesh, static_cast<int>(q), sides).angle);
   });
   return etas;
 }

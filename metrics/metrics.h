@@ -37,10 +37,12 @@ struct MeshMetrics {
   std::map<int, long long> valences;  ///< interior vertices by number of incident elements
 };
 
-/// Measures of a mesh in space [paper, section 6]. `size` may be null: then tau is NaN.
+/// Measures of a mesh in space [paper, section 6]. `size` may be null: then tau and what else is measured
+/// against it are NaN. `given`: the size as it was asked for, where `size` is what was made of it; null: they
+/// are the same.
 /// Works on triangle meshes, quad meshes and mixtures; eta is over quads only, percent quads says what that
 /// leaves out.
-MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size);
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given = nullptr);
 
 /// eta of one quad in space, equation (4): 1 for a square, 0 with an angle <= 0 or >= 180 degrees. `normal`
 /// is the side from which the quad must run counterclockwise; a reflex or inverted corner gives 0.

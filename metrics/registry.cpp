@@ -33,6 +33,18 @@ std::span<const Metric> metric_registry() {
       {"eta_p1", "eta 1 %", "", kHigher, 0, "eta that 1 % of the quads do not exceed (nearest rank)"},
       {"eta_p5", "eta 5 %", "", kHigher, 0, "eta that 5 % of the quads do not exceed (nearest rank)"},
       {"eta_p50", "eta 50 %", "", kHigher, 0, "eta that half the quads do not exceed (nearest rank)"},
+      {"n_folded", "folded", "", kLower, kInfinite,
+       "quads whose halves turn by over 90 degrees along a diagonal"},
+      {"warp_max", "warp max", "deg", kLower, 180,
+       "larger angle between the normals of a quad's halves, along either diagonal [stimpson2007], greatest"},
+      {"warp_mean", "warp mean", "deg", kLower, 180, "the same, mean over quads"},
+      {"aspect_max", "aspect max", "", kLower, kInfinite,
+       "longest over shortest side of a quad [stimpson2007, edge ratio], greatest"},
+      {"aspect_mean", "aspect", "", kLower, kInfinite, "the same, mean over quads"},
+      {"edge_min", "edge min", "delta", kHigher, 0, "shortest edge over the size, by equation (5)"},
+      {"edge_max", "edge max", "delta", kLower, kInfinite, "longest edge over the size, by equation (5)"},
+      {"tau_given", "tau given", "%", kHigher, 0,
+       "tau against the size as given, before curvature and short curves made it smaller"},
   };
   return registry;
 }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -46,24 +46,81 @@ inline double eta_of(const std::array<double, 4>& angle) {
   return eta;
 }
 
-/// The side from which elements are looked at: +z when all z are equal, none (each element's own) otherwise.
-inline std::optional<Vec3> common_normal(const Mesh& mesh) {
-  for (const Vec3& p : mesh.points) {
-    if (p.z != mesh.points[0].z) return std::nullopt;
+template <size_t N>
+std::array<Vec3, N> corners_of(const Mesh& mesh, const std::array<int, N>& element) {
+  std::array<Vec3, N> corners;
+  for (size_t k = 0; k < N; ++k) corners[k] = mesh.points[element[k]];
+  return corners;
+}
+
+/// Twice the area vector of an element: its length the area, where the element is flat.
+inline Vec3 area_vector(const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); }
+inline Vec3 area_vector(const std::array<Vec3, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]); }
+
+/// The side from which each element of a mesh is looked at.
+///
+/// Where all points have the same z, it is +z or -z: the one from which more of the area of the element's
+/// region runs counterclockwise. So a flat face may look down, and an element that runs against most of its
+/// region is inverted. Elsewhere each element is seen from the tip of its own area vector.
+class ElementSides {
+ public:
+  explicit ElementSides(const Mesh& mesh);
+  /// Of a mesh that is seen from one side, whatever its elements do.
+  ElementSides(const Mesh& mesh, const Vec3& side) : mesh_(mesh), of_region_(1, side), one_for_all_(true) {}
+
+  Vec3 of_triangle(int t) const {
+    return of_region_.empty() ? area_vector(corners_of(mesh_, mesh_.triangles[t]))
+                              : of_region_[index(mesh_.triangle_region, t)];
   }
-  return Vec3{0, 0, 1};
+  Vec3 of_quad(int q) const {
+    return of_region_.empty() ? area_vector(corners_of(mesh_, mesh_.quads[q]))
+                              : of_region_[index(mesh_.quad_region, q)];
+  }
+
+ private:
+  /// Elements without a region count as of the first.
+  size_t index(const std::vector<int>& regions, int element) const {
+    return one_for_all_ || static_cast<size_t>(element) >= regions.size() ? 0 : regions[element];
+  }
+
+  const Mesh& mesh_;
+  std::vector<Vec3> of_region_;  ///< empty: each element has its own
+  bool one_for_all_ = false;
+};
+
+inline ElementShape<3> triangle_shape(const Mesh& mesh, int t, const ElementSides& sides) {
+  return element_shape(corners_of(mesh, mesh.triangles[t]), sides.of_triangle(t));
 }
 
-inline ElementShape<3> triangle_shape(const Mesh& mesh, int t, const std::optional<Vec3>& normal) {
-  const auto& v = mesh.triangles[t];
-  const std::array<Vec3, 3> p = {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
-  return element_shape(p, normal ? *normal : cross(p[1] - p[0], p[2] - p[0]));
+inline ElementShape<4> quad_shape(const Mesh& mesh, int q, const ElementSides& sides) {
+  return element_shape(corners_of(mesh, mesh.quads[q]), sides.of_quad(q));
 }
 
-inline ElementShape<4> quad_shape(const Mesh& mesh, int q, const std::optional<Vec3>& normal) {
-  const auto& v = mesh.quads[q];
-  const std::array<Vec3, 4> p = {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
-  return element_shape(p, normal ? *normal : cross(p[2] - p[0], p[3] - p[1]));
+/// How far a quad is from flat, in radians, [0, pi]: a diagonal cuts it into two triangles, whose normals
+/// form an angle; the larger one of the two diagonals'. It is the angle whose cosine is the least in
+/// Verdict's "warpage" [stimpson2007]. A corner of 180 degrees has no normal and counts as flat.
+inline double quad_warp(const std::array<Vec3, 4>& p) {
+  std::array<Vec3, 4> normal;  // of the triangle at each corner
+  for (size_t k = 0; k < 4; ++k) normal[k] = cross(p[(k + 1) % 4] - p[k], p[(k + 3) % 4] - p[k]);
+  const auto angle = [](const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); };
+  return std::max(angle(normal[0], normal[2]), angle(normal[1], normal[3]));
+}
+
+/// A quad is folded where quad_warp() is above this: cut along one of its diagonals, as solvers, pictures and
+/// other programs do along either, it turns back on itself. All quads of eta 0 that are seen from their own
+/// side are folded, but for corners of just 180 degrees; others are folded although all their angles are
+/// below 180. Above a right angle by what rounding makes of one: quads around a square tube have just that.
+inline constexpr double kFold = std::numbers::pi / 2 + 1e-6;  // radians
+
+/// Longest over shortest side, at least 1; infinite where a side has no length [stimpson2007, edge ratio].
+inline double quad_aspect(const std::array<Vec3, 4>& p) {
+  double shortest = norm(p[0] - p[3]), longest = shortest;
+  for (size_t k = 0; k < 3; ++k) {
+    const double side = norm(p[k + 1] - p[k]);
+    shortest = std::min(shortest, side);
+    longest = std::max(longest, side);
+  }
+  return longest / shortest;
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #include "metrics/size_efficiency.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -52,8 +53,9 @@ double adimensional_length(const Vec3& a, const Vec3& b, const SizeField& size) 
   return EdgeIntegral(a, b, size, hint).length(f0, f1);
 }
 
-double efficiency_index(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size) {
-  if (sides.empty()) return std::numeric_limits<double>::quiet_NaN();
+SizeFit fit_to_size(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (sides.empty()) return {kNone, kNone, kNone};
   std::vector<double> inverse_size(mesh.points.size());
   parallel_ranges(inverse_size.size(), [&](std::size_t begin, std::size_t end) {
     int hint = -1;
@@ -72,7 +74,8 @@ double efficiency_index(const Mesh& mesh, std::span<const HalfEdge> sides, const
   });
   double sum = 0;
   for (const double l : lengths) sum += l < 1 ? l - 1 : 1 / l - 1;
-  return 100 * std::exp(sum / static_cast<double>(edges.size()));
+  const auto [shortest, longest] = std::ranges::minmax_element(lengths);
+  return {100 * std::exp(sum / static_cast<double>(edges.size())), *shortest, *longest};
 }
 
 }  // namespace delquad

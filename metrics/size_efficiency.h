@@ -12,8 +12,12 @@ namespace delquad {
 /// 1e-3).
 double adimensional_length(const Vec3& a, const Vec3& b, const SizeField& size);
 
-/// Efficiency index in percent, equation (6), over the edges of sorted half-edges, each once; NaN without
-/// edges.
-double efficiency_index(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size);
+/// How the lengths of a mesh's edges fit a size. All NaN without edges.
+struct SizeFit {
+  double tau;                ///< efficiency index in percent, equation (6)
+  double shortest, longest;  ///< adimensional lengths
+};
+/// Over the edges of sorted half-edges, each once.
+SizeFit fit_to_size(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size);
 
 }  // namespace delquad
