@@ -14,7 +14,7 @@ namespace delquad {
 
 /// Exit codes of the program, besides kInterrupted.
 inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3,
-                     kFacesLeftOut = 4;
+                     kFacesLeftOut = 4, kUnsound = 5;
 
 struct RunArguments {
   std::filesystem::path experiment, folder;
@@ -56,6 +56,7 @@ struct MeshArguments {
   long long max_elements = 50'000'000;
   int threads = thread_count();
   bool allow_triangles = false;
+  bool allow_unsound = false;
   bool keep_going = false;  ///< leave faces out that cannot be meshed
 };
 int mesh_command(const MeshArguments& arguments);

@@ -14,6 +14,7 @@
 #include "mesh/error.h"
 #include "pipeline/case.h"
 #include "pipeline/interrupt.h"
+#include "pipeline/soundness.h"
 
 namespace delquad {
 namespace {
@@ -23,6 +24,8 @@ constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads t
 constexpr const char* kThreadsHelp =
     "threads, whatever their number the result is the same; default: all cores";
 constexpr int kMostThreads = 1024;
+constexpr const char* kUnsoundHelp =
+    "write meshes that are not sound (inverted or folded quads, lost parts, ...), marked in the record";
 constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
 
 /// A whole number, which may be written as 1e6.
@@ -60,6 +63,10 @@ const CLI::Validator kLength(
     },
     "");
 
+constexpr const char* kExitCodes =
+    "Exit codes: 0; 1 internal error, and for 'compare' and 'rerun' something got worse or is not the same; "
+    "2 bad input; 3 triangles are left; 4 faces were left out; 5 a mesh is not sound; 130 interrupted";
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment: every pipeline on every case, with tables and pictures");
@@ -75,6 +82,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
                   "threads of each process; default: all cores, shared out among the processes")
       ->check(CLI::Range(1, kMostThreads));
   run->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
+  run->add_flag("--allow-unsound", arguments.options.allow_unsound, kUnsoundHelp);
   SweepOptions& sweep = arguments.options;
   run->add_option("-j,--jobs", sweep.limits.jobs, "cells at a time, each in a process of its own")
       ->capture_default_str()
@@ -157,6 +165,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
   mesh->add_flag("--keep-going", arguments.keep_going,
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
+  mesh->add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
 }
 
 void add_metrics(CLI::App& app, MetricsArguments& arguments) {
@@ -200,6 +209,7 @@ void add_example(CLI::App& app, ExampleArguments& arguments) {
 int run_command_line(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(1);
+  app.footer(kExitCodes);
   RunArguments run;
   MeshArguments mesh;
   MetricsArguments metrics;
@@ -262,6 +272,9 @@ int run_program(int argc, char** argv) {
   } catch (const InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return kBadInput;
+  } catch (const UnsoundError& error) {
+    fmt::print(stderr, "error: {}: nothing was written (--allow-unsound writes it)\n", error.what());
+    return kUnsound;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "internal error: out of memory\n");
   } catch (const std::exception& error) {

@@ -76,7 +76,10 @@ int mesh_command(const MeshArguments& arguments) {
   const PreparedCase prepared = prepare_case(c);
   for (const std::string& warning : prepared.warnings) progress.message("warning: " + warning);
   RunResult result = run_word(c, prepared, word, progress);
+  if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
   for (const std::string& warning : result.warnings) progress.message("warning: " + warning);
+  for (const std::string& reason : result.soundness.reasons)
+    progress.message("warning: the mesh is not sound: " + reason);
   {
     const Uninterrupted whole;
     const Stopwatch writing;

@@ -26,6 +26,7 @@ std::vector<std::string> split(const std::string& list) {
 int exit_code(const Outcome& outcome, bool allow_triangles) {
   if (outcome.others_failed > 0) return kInternalError;
   if (outcome.bad_inputs > 0) return kBadInput;
+  if (outcome.unsound > 0) return kUnsound;
   if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
   fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
              outcome.leftover_triangles);

@@ -57,6 +57,12 @@ void read_optimisation(const TomlTable& table, OptimisationOptions& options) {
   table.finish(optimisation_keys());
 }
 
+void read_repair(const TomlTable& table, RepairOptions& options) {
+  options.part_twins = table.flag("part_twins", options.part_twins);
+  options.lift_bad_quads = table.flag("lift_bad_quads", options.lift_bad_quads);
+  table.finish(repair_keys());
+}
+
 SizeSource read_source(const TomlTable& table) {
   const Vec3 at = table.space_point("at");
   SizeSource source{at,
@@ -253,6 +259,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (const auto cleanup = table.optional_table("cleanup")) read_cleanup(*cleanup, target.options.cleanup);
   if (const auto optimisation = table.optional_table("optimisation"))
     read_optimisation(*optimisation, target.options.optimisation);
+  if (const auto repair = table.optional_table("repair")) read_repair(*repair, target.options.repair);
   if (const auto compare = table.optional_table("compare"))
     for (const std::string& word : compare->keys()) target.compare[word] = compare->text(word);
 }

@@ -193,6 +193,13 @@ const TomlKeys& optimisation_keys() {
   return keys;
 }
 
+const TomlKeys& repair_keys() {
+  static const TomlKeys keys = {
+      {"part_twins", "whether edges and quads that two faces have in common are parted", kFlag},
+      {"lift_bad_quads", "whether quads that are bad in space are lifted there", kFlag}};
+  return keys;
+}
+
 const TomlKeys& case_keys() {
   static const TomlKeys keys = {
       {"loop", "closed loops", "", &loop_keys(), true},
@@ -211,6 +218,7 @@ const TomlKeys& case_keys() {
       {"recombination", "options of B", "", &recombination_keys()},
       {"cleanup", "options of C", "", &cleanup_keys()},
       {"optimisation", "options of O", "", &optimisation_keys()},
+      {"repair", "of surfaces: what happens beside the stages", "", &repair_keys()},
       {"compare", "published row beside each pipeline", kWords}};
   return keys;
 }

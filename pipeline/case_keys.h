@@ -22,6 +22,7 @@ const TomlKeys& smoothing_keys();
 const TomlKeys& recombination_keys();
 const TomlKeys& cleanup_keys();
 const TomlKeys& optimisation_keys();
+const TomlKeys& repair_keys();
 
 /// Types of values, as JSON Schema.
 namespace toml_types {

@@ -12,6 +12,13 @@ namespace delquad {
 enum class Treatment { kNone, kPaper };
 enum class SmoothingMethod { kLpCvt, kLloyd };
 
+/// What surfaces get beside the stages of a pipeline.
+struct RepairOptions {
+  bool part_twins = true;  ///< after each stage: see part_twins()
+  /// At the end, after a treatment: quads that are bad in space slide over the surface.
+  bool lift_bad_quads = true;
+};
+
 /// What the stages of a pipeline can be told.
 struct MeshingOptions {
   FrontalOptions frontal;
@@ -22,6 +29,7 @@ struct MeshingOptions {
   SmoothingOptions smoothing_options;
   CleanupOptions cleanup;
   OptimisationOptions optimisation;
+  RepairOptions repair;
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;  ///< leave faces out that cannot be meshed, instead of refusing the model
 

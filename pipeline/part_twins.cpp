@@ -107,8 +107,9 @@ double worst_once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bo
   return worst;
 }
 
-void open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
-                 const ParametricSize& size) {
+/// Returns how many were opened.
+int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords, const ParametricSize& size) {
+  int opened = 0;
   QuadTopology mesh(patch);
   QuadRelocation relocation(mesh, size);
   relocation.keep_convex_corners();
@@ -126,10 +127,12 @@ void open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords
     }
     worst_once_open(mesh, relocation, chord, worst[1] > worst[0]);
     mesh.commit();
+    ++opened;
     for (const int v : {mesh.vertex_slots() - 2, mesh.vertex_slots() - 1}) relocation.activate(v);
   }
   relocation.relax(0.01, 30);
   patch = mesh.to_patch();
+  return opened;
 }
 
 /// The patches that are one quad each on nodes on which a patch before is one quad.
@@ -163,20 +166,27 @@ void put_ring_inside(QuadPatch& patch, const ParametricSize& size) {
 
 }  // namespace
 
-void part_twins(const AllPatches& in) {
+PartingSummary part_twins(const AllPatches& in) {
+  PartingSummary summary;
   for (const auto& [p, chords] : twin_chords(in)) {
     PatchMesh& patch = in.patches[p];
     patch.inside.clear();
+    const int all = static_cast<int>(chords.size());
+    int parted = all;
     if (patch.form == PatchForm::kQuads) {
-      open_chords(patch.quads, chords, *in.prepared.patches[p].size);
+      parted = open_chords(patch.quads, chords, *in.prepared.patches[p].size);
     } else {
       for (const auto& chord : chords) part_chord(patch.triangles, chord);
     }
+    summary.chords += parted;
+    summary.left += all - parted;
   }
   for (const int p : twin_quads(in)) {
     in.patches[p].inside.clear();
     put_ring_inside(in.patches[p].quads, *in.prepared.patches[p].size);
+    ++summary.rings;
   }
+  return summary;
 }
 
 }  // namespace delquad

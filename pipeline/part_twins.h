@@ -11,7 +11,7 @@ namespace delquad {
 /// curve: in space these are one edge, with three or four elements. All but one of them (all, beside an edge
 /// of a curve) are parted: of triangles by a point in the middle, of quads by an opening, see
 /// QuadTopology::open, and left where the quads beside do not allow it. Of two faces that are one quad each
-/// on the same nodes, one gets a ring of quads.
-void part_twins(const AllPatches& in);
+/// on the same nodes, one gets a ring of quads. Returns what was done, without the time.
+PartingSummary part_twins(const AllPatches& in);
 
 }  // namespace delquad

@@ -222,11 +222,11 @@ RunResult run_peer(const Peer& peer, const Case& c, const PreparedCase& prepared
   result.log.add_seconds("peer", run.cpu_seconds);
   result.seconds = run.seconds;
   result.peak_memory = run.peak_memory;
-  result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
+  result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get());
+  result.soundness = check_elements(prepared, result.mesh);
   const std::vector<double> etas = quad_etas(result.mesh);
   result.bad_elsewhere =
       static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
-  warn_of_bad_quads(label, result);
   return result;
 }
 

@@ -40,7 +40,7 @@ std::string peer_version(const Peer& peer);
 /// Lets the peer mesh a case. Planar cases: with the same boundary edges, and the size as a number or, for
 /// .geo, between the corners of an F mesh. Surfaces: with the model and a size that has to be uniform. Works
 /// in the folder `scratch`, made anew, where peer.log has what it printed. `label` as in finish_meshing().
-/// Throws PeerError.
+/// Throws PeerError. A mesh whose elements are not sound, see check_elements(), is a result that says so.
 RunResult run_peer(const Peer& peer, const Case& c, const PreparedCase& prepared, const std::string& label,
                    const std::filesystem::path& scratch);
 

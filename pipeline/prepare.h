@@ -46,6 +46,8 @@ struct PreparedCase {
   std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
   std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
+  std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
+  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", "curvature"
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
   std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
   /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of

@@ -153,6 +153,9 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   surface->cuts = flattening.cuts;
   surface->size = std::make_shared<SurfaceSize>(model, wanted);
   p.size = surface->size;
+  if (!wanted.curve_limit.empty()) p.size_adapted_to.push_back("short curves");
+  if (wanted.curvature) p.size_adapted_to.push_back("curvature");
+  if (!p.size_adapted_to.empty()) p.given_size = wanted.base;
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);
   const auto on_curves = c.seed == 0 ? p.size : jittered(p.size, c.seed, diagonal(model.fine));

@@ -11,6 +11,7 @@
 
 #include "build_info.h"
 #include "mesh/parallel.h"
+#include "pipeline/stage_counters.h"
 
 namespace delquad {
 namespace {
@@ -95,6 +96,7 @@ Json options_json(const Case& c) {
             {"iterations", o.optimisation.iterations},
             {"size", o.optimisation.size},
             {"alignment", o.optimisation.alignment}}},
+          {"repair", {{"part_twins", o.repair.part_twins}, {"lift_bad_quads", o.repair.lift_bad_quads}}},
           {"max_elements", o.max_elements}};
 }
 
@@ -103,6 +105,7 @@ Json domain_json(const PreparedCase& p) {
   for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
   Json json = {
       {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.expected_quads}};
+  json["size_adapted_to"] = p.size_adapted_to;
   if (p.background) json["background_triangles"] = p.background->triangles().triangles.size();
   return json;
 }
@@ -136,15 +139,21 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   json["valences"] = valences;
 }
 
-Json insertion_json(const FrontalSummary& s, double h_max) {
-  return {{"h_max", h_max},
-          {"termination", s.termination == FrontalTermination::kResolved ? "resolved" : "max_points"},
-          {"inserted", s.inserted},
-          {"packed", s.packed},
-          {"rejected", s.rejected},
-          {"unresolved", s.unresolved},
-          {"layers", s.layers},
-          {"seconds", s.seconds}};
+const char* name_of(FrontalTermination termination) {
+  return termination == FrontalTermination::kResolved ? "resolved" : "max_points";
+}
+
+/// Every counter of a step, see stage_counters.h.
+template <class Summary>
+Json counters_json(const Summary& summary) {
+  Json json = Json::object();
+  for_each_counter<Summary>([&](const auto& field) {
+    if constexpr (requires { name_of(summary.*field.member); })
+      json[field.key] = name_of(summary.*field.member);
+    else
+      json[field.key] = summary.*field.member;
+  });
+  return json;
 }
 
 const char* name_of(SmoothingTermination termination) {
@@ -199,24 +208,6 @@ Json smoothing_json(const std::vector<SmoothingSummary>& patches) {
           {"energy_by_evaluation", energies}};
 }
 
-Json adaptation_json(const AdaptationSummary& s) {
-  return {{"sweeps", s.sweeps}, {"splits", s.splits}, {"collapses", s.collapses},
-          {"swaps", s.swaps},   {"moves", s.moves},   {"seconds", s.seconds}};
-}
-
-Json recombination_json(const RecombineSummary& s) {
-  return {{"triangles", s.triangles},
-          {"extra_edges", s.extra_edges},
-          {"matched_extra", s.matched_extra},
-          {"pentagon_swaps", s.pentagon_swaps},
-          {"duplications", s.duplications},
-          {"leftover_triangles", s.leftover_triangles},
-          {"cost", s.cost},
-          {"graph_seconds", s.graph_seconds},
-          {"matching_seconds", s.matching_seconds},
-          {"merge_seconds", s.merge_seconds}};
-}
-
 /// Quads below kBadEta, and the corners of the model that forbid more.
 Json bad_quads_json(const PreparedCase& p, const RunResult& result) {
   Json corners = Json::array();
@@ -232,12 +223,6 @@ Json bad_quads_json(const PreparedCase& p, const RunResult& result) {
           {"sharp_corners", corners}};
 }
 
-Json treatment_json(const TreatmentSummary& s) {
-  return {{"rounds", s.rounds},       {"doublets", s.doublets}, {"diamonds", s.diamonds},
-          {"swaps", s.swaps},         {"openings", s.openings}, {"boundary_repairs", s.boundary_repairs},
-          {"relocated", s.relocated}, {"seconds", s.seconds}};
-}
-
 Json topology_json(const Topology& t) {
   return {{"euler_characteristic", t.euler_characteristic},
           {"watertight", t.watertight()},
@@ -246,7 +231,9 @@ Json topology_json(const Topology& t) {
           {"disagreeing_edges", t.disagreeing_edges}};
 }
 
-Json distances_json(const Distances& d) { return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}}; }
+Json distances_json(const Distances& d) {
+  return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}, {"max_in_sizes", d.max_in_sizes}};
+}
 
 Json maps_json(const PreparedCase& p) {
   const MapReport maps = report_maps(maps_of(*p.surface));
@@ -280,7 +267,8 @@ Json surface_json(const PreparedCase& p, const SurfaceReport& report) {
           {"cuts", cuts},
           {"topology", topology_json(report.mesh)},
           {"model_topology", topology_json(report.model)},
-          {"nonconforming_edges", report.nonconforming_edges},
+          {"nonconforming_edges", report.nonconforming_edges.count},
+          {"turned_elements", report.turned_elements.count},
           {"distances_in_diagonals",
            {{"mesh_to_surface", distances_json(report.mesh_to_surface)},
             {"surface_to_mesh", distances_json(report.surface_to_mesh)},
@@ -294,32 +282,6 @@ Json failures_json(const PreparedCase& p, const RunResult& result) {
   for (const FaceFailure& failure : result.failures)
     json.push_back({{"face", p.boundary.regions[failure.face].tag}, {"reason", failure.reason}});
   return json;
-}
-
-Json cleanup_json(const CleanupSummary& s) {
-  return {{"irregular_before", s.irregular_before},
-          {"irregular_after", s.irregular_after},
-          {"rotations", s.rotations},
-          {"diamonds", s.diamonds},
-          {"doublets", s.doublets},
-          {"splits", s.splits},
-          {"openings", s.openings},
-          {"tried", s.tried},
-          {"annealed", s.annealed},
-          {"relocated", s.relocated},
-          {"seconds", s.seconds}};
-}
-
-Json optimisation_json(const OptimisationSummary& s) {
-  return {{"untangled", s.untangled},
-          {"held", s.held},
-          {"iterations", s.iterations},
-          {"evaluations", s.evaluations},
-          {"energy_before", s.energy_before},
-          {"energy_after", s.energy_after},
-          {"worst_before", s.worst_before},
-          {"worst_after", s.worst_after},
-          {"seconds", s.seconds}};
 }
 
 Json versions_json() {
@@ -381,6 +343,8 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 std::string run_record(const Case& c, const PreparedCase& prepared, const Word& word, const RunResult& result,
                        const CellIdentity* cell) {
   Json json = start_record(c, word, "ok", cell);
+  json["sound"] = result.soundness.sound();
+  if (!result.soundness.sound()) json["unsound"] = result.soundness.reasons;
   json["options"] = options_json(c);
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);
@@ -389,14 +353,12 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   if (result.surface) json["surface"] = surface_json(prepared, *result.surface);
   if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
   const StageLog& log = result.log;
-  if (log.insertion) json["insertion"] = insertion_json(*log.insertion, log.h_max);
+  for_each_summary([&](const char* step, auto member) {
+    if (log.*member) json[step] = counters_json(*(log.*member));
+  });
+  if (log.insertion) json["insertion"]["h_max"] = log.h_max;
   if (!log.smoothing.empty()) json["smoothing"] = smoothing_json(log.smoothing);
-  if (log.adaptation) json["adaptation"] = adaptation_json(*log.adaptation);
-  if (log.recombination) json["recombination"] = recombination_json(*log.recombination);
-  if (log.treatment) json["treatment"] = treatment_json(*log.treatment);
   json["bad_quads"] = bad_quads_json(prepared, result);
-  if (log.cleanup) json["cleanup"] = cleanup_json(*log.cleanup);
-  if (log.optimisation) json["optimisation"] = optimisation_json(*log.optimisation);
   const bool is_peer = cell != nullptr && cell->peer != nullptr;
   auto seconds = is_peer ? StageLog{}.seconds : prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());

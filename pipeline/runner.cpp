@@ -13,12 +13,12 @@
 #include <tuple>
 
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/check_invariants.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/error.h"
 #include "mesh/half_edges.h"
 #include "mesh/parallel.h"
 #include "pipeline/part_twins.h"
+#include "pipeline/stage_counters.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_lift.h"
 
@@ -128,16 +128,6 @@ std::vector<char> collect_failures(const PreparedCase& prepared, const std::vect
   return left_out;
 }
 
-void check_sound(const Mesh& mesh, const PreparedCase& prepared) {
-  std::vector<char> branching;
-  if (prepared.surface)
-    for (const int n : elements_on_curves(prepared.surface->model.fine)) branching.push_back(n > 2);
-  const std::vector<std::string> violations = check_invariants(mesh, branching);
-  if (violations.empty()) return;
-  throw std::logic_error(
-      fmt::format("the mesh is not sound ({} violations): {}", violations.size(), violations[0]));
-}
-
 /// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge.
 constexpr double kPartOfBound = 0.9;
 
@@ -201,26 +191,19 @@ void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vect
         {&surface.domain.patches[i], prepared.patches[i].cross.get(), &patches[i].quads, &patches[i].inside});
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, nodes, std::move(lifted));
   std::vector<Vec3> places = tracks.points();
-  if (lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps) > 0) tracks.store(places);
-  log.add_seconds("projection", watch.work_seconds());
+  LiftingSummary summary;
+  summary.moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps);
+  if (summary.moved > 0) tracks.store(places);
+  summary.seconds = watch.work_seconds();
+  add_counters(log.lift_bad_quads, summary);
+  log.add_seconds("lifting", summary.seconds);
 }
 
 }  // namespace
 
-void warn_of_bad_quads(const std::string& label, RunResult& result) {
-  if (!(result.metrics.values.at("eta_worst") <= 0)) return;
-  const Mesh& mesh = result.mesh;
-  const std::vector<double> etas = quad_etas(mesh);
-  const auto is_bad = [](double eta) { return !(eta > 0); };
-  const auto first = std::find_if(etas.begin(), etas.end(), is_bad);
-  if (first == etas.end()) return;
-  Vec3 centre{0, 0, 0};
-  for (const int v : mesh.quads[static_cast<std::size_t>(first - etas.begin())])
-    centre = centre + 0.25 * mesh.points[v];
-  const auto n = std::count_if(first, etas.end(), is_bad);
-  result.warnings.push_back(
-      fmt::format("{}: {} inverted or flat (eta 0), the first at ({:.6g}, {:.6g}, {:.6g})", label,
-                  n == 1 ? "1 quad is" : fmt::format("{} quads are", n), centre.x, centre.y, centre.z));
+void require_sound(const std::string& label, const RunResult& result) {
+  if (!result.soundness.sound())
+    throw UnsoundError(label + ": the mesh is not sound: " + result.soundness.text());
 }
 
 int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 1; }
@@ -278,24 +261,30 @@ void check_insertion(const Case& c, const StageLog& log) {
                                  c.where, log.insertion->inserted, c.options.max_elements));
 }
 
-/// Metrics and, at the same time, the report of a surface.
+/// Metrics and, at the same time, the report of a surface; then what both say.
 void measure(const PreparedCase& prepared, const std::vector<char>& left_out, RunResult& result) {
   double metrics_seconds = 0, report_seconds = 0;
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
-        result.metrics = evaluate_metrics(result.mesh, prepared.size.get());
+        result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get());
         metrics_seconds = watch.work_seconds();
       },
       [&] {
         const Stopwatch watch;
         const PreparedSurface& surface = *prepared.surface;
-        result.surface = report_surface(surface.model, surface.cuts, left_out, result.mesh);
+        result.surface =
+            report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
         report_seconds = watch.work_seconds();
       }};
-  parallel_for(prepared.surface ? 2 : 1, [&](std::size_t i) { parts[i](); });
+  // A place that is not finite is nowhere near a surface.
+  const bool has_report = prepared.surface && has_finite_points(result.mesh);
+  parallel_for(has_report ? 2 : 1, [&](std::size_t i) { parts[i](); });
   result.log.add_seconds("metrics", metrics_seconds);
-  if (prepared.surface) result.log.add_seconds("surface report", report_seconds);
+  if (has_report) result.log.add_seconds("surface report", report_seconds);
+  const Stopwatch checking;
+  result.soundness = check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
+  result.log.add_seconds("soundness", checking.work_seconds());
 }
 
 }  // namespace
@@ -329,7 +318,13 @@ void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, 
   std::vector<char> left_out;
   for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
   const AllPatches all{prepared, c.options, patches, left_out, state.nodes};
-  if (prepared.surface) part_twins(all);
+  if (prepared.surface && c.options.repair.part_twins) {
+    const Stopwatch parting;
+    PartingSummary parted = part_twins(all);
+    parted.seconds = parting.seconds();
+    add_counters(state.log.part_twins, parted);
+    state.log.add_seconds("parting", parted.seconds);
+  }
   if (stage.finish) stage.finish(all, state.log);
   state.seconds += watch.seconds();
 }
@@ -340,15 +335,13 @@ RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std:
   RunResult result;
   result.log = std::move(state.log);
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
-  if (c.options.treatment == Treatment::kPaper)
+  if (c.options.treatment == Treatment::kPaper && c.options.repair.lift_bad_quads)
     lift_bad_quads(prepared, state.nodes, state.patches, left_out, result.log);
   result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();
-  check_sound(result.mesh, prepared);
   measure(prepared, left_out, result);
   result.peak_memory = peak_memory();
-  warn_of_bad_quads(label, result);
   count_bad_quads(label, prepared, result);
   return result;
 }

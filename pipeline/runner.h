@@ -6,6 +6,7 @@
 #include "metrics/metrics.h"
 #include "pipeline/prepare.h"
 #include "pipeline/progress.h"
+#include "pipeline/soundness.h"
 #include "pipeline/stages.h"
 #include "surfaces/surface_report.h"
 
@@ -15,6 +16,7 @@ namespace delquad {
 struct RunResult {
   Mesh mesh;
   MeshMetrics metrics;
+  Soundness soundness;
   StageLog log;
   std::vector<std::string> warnings;
   /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
@@ -39,16 +41,16 @@ struct MeshingState {
 MeshingState begin_meshing(const PreparedCase& prepared);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, MeshingState& state);
-/// Puts the patches together and measures the mesh. `label` names the case and pipeline in warnings. Throws
-/// std::logic_error when the mesh is not sound.
+/// Puts the patches together, measures the mesh and says whether it is sound. `label` names the case and
+/// pipeline in warnings.
 RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std::string& label,
                          MeshingState state);
 
-/// Adds a line to the warnings when quads are inverted or flat.
-void warn_of_bad_quads(const std::string& label, RunResult& result);
+/// Throws UnsoundError when the mesh is not sound, naming the case and pipeline by `label`.
+void require_sound(const std::string& label, const RunResult& result);
 
-/// Meshes every patch stage by stage, puts the patches together and measures the mesh.
-/// Throws InputError when the mesher had to stop, std::logic_error when the mesh is not sound.
+/// Meshes every patch stage by stage, puts the patches together, measures the mesh and says whether it is
+/// sound. Throws InputError when the mesher had to stop.
 RunResult run_word(const Case& c, const PreparedCase& prepared, const Word& word, Progress& progress);
 
 /// The patches as one mesh: boundary nodes, which are at `nodes`, stand once, the points inside each patch

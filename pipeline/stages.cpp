@@ -8,6 +8,7 @@
 #include "algorithms/recombination/greedy.h"
 #include "mesh/error.h"
 #include "pipeline/prepare.h"
+#include "pipeline/stage_counters.h"
 #include "pipeline/stopwatch.h"
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/optimisation/untangle_flat.h"
@@ -17,81 +18,6 @@
 namespace delquad {
 namespace {
 
-void add(std::optional<FrontalSummary>& sum, const FrontalSummary& s) {
-  if (!sum) sum.emplace();
-  if (s.termination != FrontalTermination::kResolved) sum->termination = s.termination;
-  sum->inserted += s.inserted;
-  sum->packed += s.packed;
-  sum->rejected += s.rejected;
-  sum->unresolved += s.unresolved;
-  sum->layers = std::max(sum->layers, s.layers);
-  sum->seconds += s.seconds;
-}
-
-void add(std::optional<AdaptationSummary>& sum, const AdaptationSummary& s) {
-  if (!sum) sum.emplace();
-  sum->sweeps = std::max(sum->sweeps, s.sweeps);
-  sum->splits += s.splits;
-  sum->collapses += s.collapses;
-  sum->swaps += s.swaps;
-  sum->moves += s.moves;
-  sum->seconds += s.seconds;
-}
-
-void add(std::optional<RecombineSummary>& sum, const RecombineSummary& s) {
-  if (!sum) sum.emplace();
-  sum->triangles += s.triangles;
-  sum->extra_edges += s.extra_edges;
-  sum->matched_extra += s.matched_extra;
-  sum->pentagon_swaps += s.pentagon_swaps;
-  sum->duplications += s.duplications;
-  sum->leftover_triangles += s.leftover_triangles;
-  sum->cost += s.cost;
-  sum->graph_seconds += s.graph_seconds;
-  sum->matching_seconds += s.matching_seconds;
-  sum->merge_seconds += s.merge_seconds;
-}
-
-void add(std::optional<TreatmentSummary>& sum, const TreatmentSummary& s) {
-  if (!sum) sum.emplace();
-  sum->rounds = std::max(sum->rounds, s.rounds);
-  sum->doublets += s.doublets;
-  sum->diamonds += s.diamonds;
-  sum->swaps += s.swaps;
-  sum->openings += s.openings;
-  sum->boundary_repairs += s.boundary_repairs;
-  sum->relocated += s.relocated;
-  sum->seconds += s.seconds;
-}
-
-void add(std::optional<CleanupSummary>& sum, const CleanupSummary& s) {
-  if (!sum) sum.emplace();
-  sum->irregular_before += s.irregular_before;
-  sum->irregular_after += s.irregular_after;
-  sum->rotations += s.rotations;
-  sum->diamonds += s.diamonds;
-  sum->doublets += s.doublets;
-  sum->splits += s.splits;
-  sum->openings += s.openings;
-  sum->tried += s.tried;
-  sum->annealed += s.annealed;
-  sum->relocated += s.relocated;
-  sum->seconds += s.seconds;
-}
-
-void add(std::optional<OptimisationSummary>& sum, const OptimisationSummary& s) {
-  if (!sum) sum.emplace();
-  sum->untangled += s.untangled;
-  sum->held += s.held;
-  sum->iterations += s.iterations;
-  sum->evaluations += s.evaluations;
-  sum->energy_before += s.energy_before;
-  sum->energy_after += s.energy_after;
-  sum->worst_before = std::min(sum->worst_before, s.worst_before);
-  sum->worst_after = std::min(sum->worst_after, s.worst_after);
-  sum->seconds += s.seconds;
-}
-
 /// `mesh`: mesh_frontal or mesh_packing.
 void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
                    PatchMesh& patch, StageLog& log) {
@@ -99,7 +25,7 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
   FrontalSummary summary;
   patch.triangles = mesh(in.boundary, placement, in.cross, in.size, in.options.insertion(), &summary);
   patch.form = PatchForm::kTriangles;
-  add(log.insertion, summary);
+  add_counters(log.insertion, summary);
   log.h_max = in.options.frontal.h_max > 0 ? in.options.frontal.h_max : placement.default_h_max();
   log.add_seconds("insertion", watch.seconds());
 }
@@ -137,20 +63,24 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.quads = recombine(patch.triangles, *make_lemon_solver(), &summary);
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
-  add(log.recombination, summary);
+  add_counters(log.recombination, summary);
   log.add_seconds("matching", recombination.seconds());
   if (in.options.treatment == Treatment::kNone) return;
 
   const Stopwatch treatment;
   TreatmentSummary treated;
   QuadPatch result = treat_paper(patch.quads, in.size, in.options.treatment_options, &treated);
-  if (closes_too_tightly(result, in.boundary.point_node)) {
+  const bool discarded = closes_too_tightly(result, in.boundary.point_node);
+  if (discarded) {
     TreatmentOptions relocation = in.options.treatment_options;
     relocation.max_rounds = 0;
+    const double in_vain = treated.seconds;
     result = treat_paper(patch.quads, in.size, relocation, &treated);
+    treated.seconds += in_vain;
   }
   patch.quads = std::move(result);
-  add(log.treatment, treated);
+  add_counters(log.discarded, {.treatments = discarded});
+  add_counters(log.treatment, treated);
   log.add_seconds("treatment", treatment.seconds());
 }
 
@@ -159,7 +89,7 @@ void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& option
   patch.quads = recombine_greedily(patch.triangles, options, &summary);
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
-  add(log.recombination, summary);
+  add_counters(log.recombination, summary);
   log.add_seconds("matching", summary.merge_seconds);
 }
 
@@ -168,7 +98,7 @@ void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   if (in.options.treatment == Treatment::kNone) return;
   TreatmentSummary treated;
   patch.quads = treat_by_degrees(patch.quads, in.size, in.options.treatment_options, &treated);
-  add(log.treatment, treated);
+  add_counters(log.treatment, treated);
   log.add_seconds("treatment", treated.seconds);
 }
 
@@ -177,7 +107,7 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
   options.max_points = in.options.insertion().max_points;
   AdaptationSummary summary;
   patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
-  add(log.adaptation, summary);
+  add_counters(log.adaptation, summary);
   log.add_seconds("adaptation", summary.seconds);
   constexpr double kGoodPair = 0.5;  // eta
   merge_greedily(patch, log, {kGoodPair, true, 0});
@@ -187,8 +117,17 @@ void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   CleanupSummary summary;
   QuadPatch cleaned = clean_up(patch.quads, in.size, in.options.cleanup, &summary);
-  if (!closes_too_tightly(cleaned, in.boundary.point_node)) patch.quads = std::move(cleaned);
-  add(log.cleanup, summary);
+  const bool discarded = closes_too_tightly(cleaned, in.boundary.point_node);
+  if (discarded) {
+    CleanupSummary nothing;
+    nothing.irregular_before = nothing.irregular_after = summary.irregular_before;
+    nothing.seconds = summary.seconds;
+    summary = nothing;
+  } else {
+    patch.quads = std::move(cleaned);
+  }
+  add_counters(log.cleanup, summary);
+  add_counters(log.discarded, {.cleanups = discarded});
   log.add_seconds("clean-up", watch.seconds());
 }
 
@@ -196,7 +135,7 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   OptimisationSummary summary;
   summary.untangled = untangle_flat(patch.quads, in.size);
-  add(log.optimisation, summary);
+  add_counters(log.optimisation, summary);
   log.add_seconds("optimisation", watch.seconds());
 }
 
@@ -242,7 +181,7 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
   const Stopwatch watch;
   OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
   summary.seconds = watch.work_seconds();
-  add(log.optimisation, summary);
+  add_counters(log.optimisation, summary);
   log.add_seconds("optimisation", watch.work_seconds());
 }
 
@@ -320,14 +259,11 @@ void StageLog::add_seconds(const std::string& step, double s) {
 
 void StageLog::add(const StageLog& other) {
   for (const auto& [step, s] : other.seconds) add_seconds(step, s);
-  if (other.insertion) delquad::add(insertion, *other.insertion);
   if (other.insertion) h_max = other.h_max;
-  if (other.adaptation) delquad::add(adaptation, *other.adaptation);
   smoothing.insert(smoothing.end(), other.smoothing.begin(), other.smoothing.end());
-  if (other.recombination) delquad::add(recombination, *other.recombination);
-  if (other.treatment) delquad::add(treatment, *other.treatment);
-  if (other.cleanup) delquad::add(cleanup, *other.cleanup);
-  if (other.optimisation) delquad::add(optimisation, *other.optimisation);
+  for_each_summary([&](const char*, auto member) {
+    if (other.*member) add_counters(this->*member, *(other.*member));
+  });
 }
 
 Stage insertion_stage(char letter, const std::string& name,

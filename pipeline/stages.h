@@ -33,7 +33,27 @@ struct StageInput {
   const MeshingOptions& options;
 };
 
-/// What the stages did: on one patch, or summed over patches.
+/// Edits of whole patches that were taken back, because they left two quads around a tube.
+struct DiscardSummary {
+  int treatments = 0;  ///< patches whose matching was relocated only
+  int cleanups = 0;    ///< patches that stayed as they were
+};
+
+/// What part_twins() did, over all stages.
+struct PartingSummary {
+  int chords = 0;  ///< parted
+  int left = 0;    ///< chords that the quads beside did not allow to part
+  int rings = 0;   ///< of quads, put inside of faces of one quad
+  double seconds = 0;
+};
+
+/// What became of quads that were bad in space, at the end.
+struct LiftingSummary {
+  int moved = 0;  ///< vertices
+  double seconds = 0;
+};
+
+/// What the stages did: on one patch, or summed over patches. stage_counters.h lists the summaries.
 struct StageLog {
   /// By step, in order of first use: the times of all threads added up, so that they can be compared whatever
   /// the number of threads.
@@ -46,6 +66,9 @@ struct StageLog {
   std::optional<TreatmentSummary> treatment;
   std::optional<CleanupSummary> cleanup;
   std::optional<OptimisationSummary> optimisation;
+  std::optional<DiscardSummary> discarded;  ///< there after treatment or clean-up
+  std::optional<PartingSummary> part_twins;
+  std::optional<LiftingSummary> lift_bad_quads;
   void add_seconds(const std::string& step, double s);
   /// Adds what was done on another patch.
   void add(const StageLog& other);

@@ -10,6 +10,8 @@
 #include "mesh/half_edges.h"
 #include "mesh/nearest_triangle.h"
 #include "mesh/parallel.h"
+#include "surfaces/face_normals.h"
+#include "surfaces/nearest_element.h"
 
 namespace delquad {
 
@@ -46,49 +48,6 @@ int region_of(const Mesh& mesh, int element) {
   return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
 }
 
-/// Finds the distance to the elements of a mesh, each quad being four triangles around its centre.
-class NearestElement {
- public:
-  explicit NearestElement(const Mesh& mesh) : mesh_(mesh) {
-    for_each_element(mesh, [&](int, const auto& v) {
-      auto& box = boxes_.emplace_back(Box<Vec3>::around({mesh.points[v[0]]}));
-      for (const int i : v) box = {lower(box.low, mesh.points[i]), upper(box.high, mesh.points[i])};
-    });
-    tree_ = BoxTree<Vec3>(boxes_);
-  }
-
-  /// Infinite where nothing is within `reach`.
-  double distance(const Vec3& x, double reach) const {
-    double best2 = reach * reach;
-    bool found = false;
-    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-      const auto w = nearest_weights(a, b, c, x);
-      const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;
-      if (dot(d, d) > best2) return;
-      best2 = dot(d, d);
-      found = true;
-    };
-    const int n_triangles = static_cast<int>(mesh_.triangles.size());
-    tree_.nearest(x, best2, [&](int element) {
-      if (boxes_[element].distance2(x) > best2) return;
-      const auto& p = mesh_.points;
-      if (element < n_triangles) {
-        const auto& [a, b, c] = mesh_.triangles[element];
-        return add(p[a], p[b], p[c]);
-      }
-      const auto& v = mesh_.quads[element - n_triangles];
-      const Vec3 centre = 0.25 * (p[v[0]] + p[v[1]] + p[v[2]] + p[v[3]]);
-      for (int k = 0; k < 4; ++k) add(p[v[k]], p[v[(k + 1) % 4]], centre);
-    });
-    return found ? std::sqrt(best2) : kInf;
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<Box<Vec3>> boxes_;
-  BoxTree<Vec3> tree_;
-};
-
 /// The model without the faces that were left out.
 Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   Mesh kept;
@@ -122,11 +81,24 @@ Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides) {
   return topology;
 }
 
+/// How many elements have each of the curves' edges as a side.
+std::vector<int> elements_on_curves(const Mesh& mesh) {
+  std::vector<int> elements(mesh.curves.size(), 0);
+  const LineIndex lines(mesh);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
+    const int curve = lines.curve_of(edge[0].lo, edge[0].hi);
+    if (curve >= 0) elements[curve] = static_cast<int>(edge.size());
+  });
+  return elements;
+}
+
 class Comparison {
  public:
   Comparison(const SurfaceModel& model, std::span<const SurfaceCut> cuts, const std::vector<char>& left_out,
-             const Mesh& mesh)
+             const Mesh& mesh, const SizeField* size)
       : projector_(model.projector.get()),
+        size_(size),
         fine_(without(model.fine, left_out)),
         mesh_(mesh),
         diagonal_(diagonal(model.fine)),
@@ -142,7 +114,7 @@ class Comparison {
     report_.mesh = topology_of(mesh_, sides_);
     std::optional<NearestElement> elements;
     const std::function<void()> parts[] = {[&] { elements.emplace(mesh_); }, [&] { measure_elements(); },
-                                           [&] { measure_nodes(); }};
+                                           [&] { measure_nodes(); }, [&] { find_turned_elements(); }};
     parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
     measure_surface(*elements);
     return report_;
@@ -170,16 +142,50 @@ class Comparison {
     return norm(projector_->to_curve(curve, x) - x) / diagonal_;
   }
 
+  /// In diagonals.
+  double size_at(const Vec3& x, int& hint) const { return size_ ? size_->at(x, hint) / diagonal_ : kInf; }
+
   void measure(const std::vector<Sample>& samples, Distances& distances) const {
-    std::vector<double> found(samples.size());
+    std::vector<double> found(samples.size()), sizes(samples.size());
     parallel_ranges(samples.size(), [&](std::size_t begin, std::size_t end) {
       double near = 0;
+      int hint = -1;
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [x, face, curve] = samples[i];
         found[i] = curve >= 0 ? to_curve(curve, x) : to_face(face, x, near);
+        sizes[i] = size_at(x, hint);
       }
     });
-    for (const double d : found) distances.add(d);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      distances.add(found[i], sizes[i], {samples[i].x, samples[i].face});
+  }
+
+  void find_turned_elements() {
+    const FaceNormals normals(fine_);
+    std::vector<Place> centres;
+    std::vector<char> turned;
+    for_each_element(mesh_, [&](int element, const auto& v) {
+      Vec3 centre;
+      for (const int i : v) centre = centre + (1.0 / static_cast<double>(v.size())) * mesh_.points[i];
+      centres.push_back({centre, region_of(mesh_, element)});
+    });
+    turned.resize(centres.size(), 0);
+    const std::size_t n_triangles = mesh_.triangles.size();
+    const auto is_turned = [&](const Place& centre, const auto& v) {
+      double reach = 0;
+      for (const int i : v) reach = std::max(reach, norm(mesh_.points[i] - centre.at));
+      const auto& p = mesh_.points;
+      const Vec3 normal = v.size() == 3 ? cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]])
+                                        : cross(p[v[2]] - p[v[0]], p[v.back()] - p[v[1]]);
+      return normals.all_point_away(centre, normal, reach);
+    };
+    parallel_ranges(centres.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e)
+        turned[e] = e < n_triangles ? is_turned(centres[e], mesh_.triangles[e])
+                                    : is_turned(centres[e], mesh_.quads[e - n_triangles]);
+    });
+    for (std::size_t e = 0; e < centres.size(); ++e)
+      if (turned[e]) report_.turned_elements.add(centres[e]);
   }
 
   void measure_elements() {
@@ -189,7 +195,9 @@ class Comparison {
       const auto& [lo, hi, element, forward] = edge[0];
       const int curve = lines_.curve_of(lo, hi);
       const int wanted = curve < 0 ? 2 : elements_on_curve[curve];
-      if (static_cast<int>(edge.size()) != wanted) ++report_.nonconforming_edges;
+      if (static_cast<int>(edge.size()) != wanted)
+        report_.nonconforming_edges.add(
+            {0.5 * (mesh_.points[lo] + mesh_.points[hi]), region_of(mesh_, element)});
       const bool on_true_curve = projector_ && curve >= 0 && !is_cut_[curve];
       samples.push_back({0.5 * (mesh_.points[lo] + mesh_.points[hi]), region_of(mesh_, element),
                          on_true_curve ? curve : -1});
@@ -233,10 +241,12 @@ class Comparison {
   }
 
   void measure_nodes_on_lines(const std::vector<Node>& nodes) {
-    std::vector<double> distances(nodes.size(), kInf);
+    std::vector<double> distances(nodes.size(), kInf), sizes(nodes.size());
     parallel_ranges(nodes.size(), [&](std::size_t begin, std::size_t end) {
       double near = 0;
+      int hint = -1;
       for (std::size_t v = begin; v < end; ++v) {
+        if (nodes[v].lines > 0) sizes[v] = size_at(mesh_.points[v], hint);
         for (const int c : nodes[v].curves)
           if (projector_ && !is_cut_[c]) distances[v] = std::min(distances[v], to_curve(c, mesh_.points[v]));
         for (const int f : nodes[v].faces)
@@ -246,44 +256,53 @@ class Comparison {
     for (std::size_t v = 0; v < nodes.size(); ++v) {
       if (nodes[v].lines == 0 || !std::isfinite(distances[v])) continue;
       const bool corner = nodes[v].curves.size() > 1 || nodes[v].lines != 2;
-      (corner ? report_.nodes_at_corners : report_.nodes_on_curves).add(distances[v]);
+      const int face = nodes[v].faces.empty() ? -1 : nodes[v].faces[0];
+      (corner ? report_.nodes_at_corners : report_.nodes_on_curves)
+          .add(distances[v], sizes[v], {mesh_.points[v], face});
     }
   }
 
-  std::vector<Vec3> places_on_surface() const {
+  std::vector<Place> places_on_surface() const {
     constexpr double kSpacing = 1.0 / 50;  // of the diagonal
-    std::vector<Vec3> places;
+    std::vector<Place> places;
     std::vector<char> seen(fine_.points.size(), 0);
-    for (const auto& v : fine_.triangles) {
+    for (std::size_t t = 0; t < fine_.triangles.size(); ++t) {
+      const auto& v = fine_.triangles[t];
+      const int face = fine_.triangle_region[t];
       for (const int i : v)
-        if (!std::exchange(seen[i], 1)) places.push_back(fine_.points[i]);
+        if (!std::exchange(seen[i], 1)) places.push_back({fine_.points[i], face});
       const Vec3 a = fine_.points[v[0]], ab = fine_.points[v[1]] - a, ac = fine_.points[v[2]] - a;
       const int n = static_cast<int>(std::sqrt(norm(cross(ab, ac))) / (kSpacing * diagonal_));
       if (n < 2) continue;
       for (int i = 0; i < n; ++i)
         for (int j = 0; i + j < n; ++j)
-          places.push_back(a + ((i + 1.0 / 3) / n) * ab + ((j + 1.0 / 3) / n) * ac);
+          places.push_back({a + ((i + 1.0 / 3) / n) * ab + ((j + 1.0 / 3) / n) * ac, face});
     }
     return places;
   }
 
   void measure_surface(const NearestElement& elements) {
-    const std::vector<Vec3> places = places_on_surface();
-    std::vector<double> distances(places.size());
+    const std::vector<Place> places = places_on_surface();
+    std::vector<double> distances(places.size()), sizes(places.size());
     parallel_ranges(places.size(), [&](std::size_t begin, std::size_t end) {
       double reach = kInf;
+      int hint = -1;
       for (std::size_t i = begin; i < end; ++i) {
-        distances[i] = elements.distance(places[i], reach);
+        distances[i] = elements.distance(places[i].at, reach);
+        sizes[i] = size_at(places[i].at, hint);
         if (i + 1 == end) break;
         // The distance changes by no more than the place moves.
         constexpr double kRounding = 1 + 1e-9;
-        reach = kRounding * (distances[i] + norm(places[i + 1] - places[i])) + kRounding * 1e-12 * diagonal_;
+        reach = kRounding * (distances[i] + norm(places[i + 1].at - places[i].at)) +
+                kRounding * 1e-12 * diagonal_;
       }
     });
-    for (const double d : distances) report_.surface_to_mesh.add(d / diagonal_);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      report_.surface_to_mesh.add(distances[i] / diagonal_, sizes[i], places[i]);
   }
 
   const SurfaceProjector* projector_;
+  const SizeField* size_;
   Mesh fine_;
   const Mesh& mesh_;
   double diagonal_;
@@ -302,17 +321,24 @@ void Distances::add(double distance) {
   mean += (distance - mean) / samples;
 }
 
+void Distances::add(double distance, double size, const Place& place) {
+  add(distance);
+  max_in_sizes = std::max(max_in_sizes, distance / size);
+  if (distance > kExplainedSizes * size) unexplained.add(place);
+}
+
 Topology topology_of(const Mesh& mesh) { return topology_of(mesh, sorted_half_edges(mesh)); }
 
-std::vector<int> elements_on_curves(const Mesh& mesh) {
-  std::vector<int> elements(mesh.curves.size(), 0);
-  const LineIndex lines(mesh);
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+std::vector<char> irregular_curves(const Mesh& fine) {
+  std::vector<char> irregular(fine.curves.size(), 0);
+  const LineIndex lines(fine);
+  const std::vector<HalfEdge> sides = sorted_half_edges(fine);
   for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
     const int curve = lines.curve_of(edge[0].lo, edge[0].hi);
-    if (curve >= 0) elements[curve] = static_cast<int>(edge.size());
+    if (curve >= 0 && (edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward)))
+      irregular[curve] = 1;
   });
-  return elements;
+  return irregular;
 }
 
 MapReport report_maps(std::span<const FlatPatch* const> maps) {
@@ -337,8 +363,8 @@ MapReport report_maps(std::span<const FlatPatch* const> maps) {
 }
 
 SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
-                             const std::vector<char>& left_out, const Mesh& mesh) {
-  return Comparison(model, cuts, left_out, mesh).run();
+                             const std::vector<char>& left_out, const Mesh& mesh, const SizeField* size) {
+  return Comparison(model, cuts, left_out, mesh, size).run();
 }
 
 }  // namespace delquad

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "fields/size_field.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
+#include "mesh/places.h"
 
 namespace delquad {
 
@@ -19,14 +21,23 @@ struct Topology {
 };
 Topology topology_of(const Mesh& mesh);
 
-/// How many elements have each of the curves' edges as a side.
-std::vector<int> elements_on_curves(const Mesh& mesh);
+/// By curve (index), whether more than two faces of a model meet there, or two that are turned against each
+/// other.
+std::vector<char> irregular_curves(const Mesh& fine);
+
+/// A mesh of edges of length h sags by h^2 / 8R on a radius of curvature R >= h / 2 and misses a feature that
+/// is narrower than h by about h: distances up to this many sizes are explained by the size at the place.
+inline constexpr double kExplainedSizes = 1;
 
 /// Distances at some samples, in diagonals of the model.
 struct Distances {
   int samples = 0;
   double max = 0, mean = 0;
+  double max_in_sizes = 0;  ///< of the size at the sample; 0 where no size was given
+  Places unexplained;       ///< above kExplainedSizes
   void add(double distance);
+  /// `size`: delta at the place, in the unit of the distance; infinite: not known.
+  void add(double distance, double size, const Place& place);
 };
 
 /// How far the maps of all patches are from conformal ones, see FlatQuality.
@@ -42,7 +53,9 @@ struct SurfaceReport {
   Topology model, mesh;
   /// Edges that are not in as many elements as they should: two inside a face, and on a curve as many as the
   /// model has faces there.
-  int nonconforming_edges = 0;
+  Places nonconforming_edges;
+  /// Elements whose normal points to the other side than all of their face nearby.
+  Places turned_elements;
   Distances nodes_in_faces;    ///< to the face
   Distances nodes_on_curves;   ///< to the nearest of the curve and the faces around
   Distances nodes_at_corners;  ///< the same
@@ -59,8 +72,9 @@ MapReport report_maps(std::span<const FlatPatch* const> maps);
 /// triangles so large that only plane faces have them, a 50th of the diagonal apart; against the elements, a
 /// quad being four triangles around its centre. `cuts`: curves that
 /// flatten() added, which belong to no true curve. `left_out`: faces, by index, that were not meshed; they do
-/// not count.
+/// not count. `size`: delta, that distances are compared with; may be null. Points must be finite.
 SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
-                             const std::vector<char>& left_out, const Mesh& mesh);
+                             const std::vector<char>& left_out, const Mesh& mesh,
+                             const SizeField* size = nullptr);
 
 }  // namespace delquad

@@ -273,6 +273,8 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_treatment", "treatment s", "treatment"},
                                               {"seconds_cleanup", "clean-up s", "clean-up"},
                                               {"seconds_optimisation", "optimisation s", "optimisation"},
+                                              {"seconds_parting", "parting s", "parting"},
+                                              {"seconds_lifting", "lifting s", "lifting"},
                                               {"seconds_projection", "projection s", "projection"},
                                               {"seconds_total", "total s", ""}};
   return times;

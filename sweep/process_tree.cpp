@@ -155,6 +155,8 @@ class Family {
       }
     } catch (const InputError& error) {
       fail("bad input", error.what());
+    } catch (const UnsoundError& error) {
+      fail("unsound", error.what());
     } catch (const PeerError& error) {
       fail("peer", error.what());
     } catch (const std::bad_alloc&) {

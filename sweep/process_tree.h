@@ -9,7 +9,7 @@ namespace delquad {
 
 /// What becomes of a process that did not get to its end.
 struct ProcessFailure {
-  std::string kind;    ///< "bad input", "peer", "internal error", "timeout", "memory" or "crash"
+  std::string kind;    ///< "bad input", "unsound", "peer", "internal error", "timeout", "memory" or "crash"
   std::string reason;  ///< for people
 };
 

@@ -54,6 +54,8 @@ CellRecord parse(const Json& json) {
   record.values["seconds"] = number(json.at("meshing_seconds"));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
+  if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
+  record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
   const Json size = json.value("/options/size"_json_pointer, Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
   if (as_number(base) && size.value("sources", Json::array()).empty()) record.uniform_size = base;

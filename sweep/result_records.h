@@ -21,8 +21,10 @@ struct CellRecord {
   bool skipped = false;                   ///< for that reason, and not failed
   bool quads_only = false;                ///< triangles that are left are an error
   std::vector<std::string> warnings = {};
-  std::string uniform_size = {};      ///< delta, where it is the same everywhere
-  std::filesystem::path folder = {};  ///< of the cell
+  std::vector<std::string> unsound = {};          ///< why its mesh is not sound; empty: it is
+  std::string uniform_size = {};                  ///< delta, where it was asked to be the same everywhere
+  std::vector<std::string> size_adapted_to = {};  ///< what made the size less than was asked for
+  std::filesystem::path folder = {};              ///< of the cell
 };
 
 /// The records of an experiment below a folder, by place and path. Throws InputError naming the file that is

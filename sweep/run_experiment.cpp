@@ -59,6 +59,7 @@ struct Work {
   fs::path folder;  ///< of the experiment
   std::vector<Cell> cells;
   SweepProgress* progress;
+  bool allow_unsound;
   std::optional<PreparedCase> prepared;
   MeshingState state;
 
@@ -82,6 +83,10 @@ struct Work {
                            ? run_peer(*cell.identity.peer, c, *prepared, name, scratch)
                            : finish_meshing(c, *prepared, name, std::move(state));
     for (const std::string& warning : result.warnings) say("warning: " + warning);
+    // What others make is shown as it is.
+    if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
+    if (!result.soundness.sound())
+      say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
     write_cell(cell.folder, [&](const fs::path& at) {
       if (fs::exists(scratch))
         for (const auto& entry : fs::directory_iterator(scratch))
@@ -241,6 +246,7 @@ class Sweep {
       work->c = experiment_.read_variant(i / experiment_.n_variants(), i % experiment_.n_variants());
       work->folder = folder_;
       work->progress = &progress_;
+      work->allow_unsound = options_.allow_unsound;
       const bool absent = work->c.may_be_absent && !fs::exists(model_path(work->c));
       add_cells(i, absent, *work);
       if (work->cells.empty()) continue;

@@ -17,7 +17,8 @@ struct Shard {
 struct SweepOptions {
   ProcessLimits limits;
   Shard shard;
-  bool force = false;  ///< run cells again that are done
+  bool force = false;          ///< run cells again that are done
+  bool allow_unsound = false;  ///< meshes that are not sound are results, marked as such
 };
 
 /// Runs every pipeline on every variant of every case, each in a process of its own: what crashes, hangs or

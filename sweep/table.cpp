@@ -81,7 +81,8 @@ Rendered render(const Table& table, const Style& style, std::string (*escape)(co
   for (const TableColumn& column : table.columns) result.lines.back().push_back(escape(column.title));
   bool compared = false, as_good = false, means = false;
   for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = {escape(row.group), escape(row.name)};
+    std::vector<std::string> line = {
+        escape(row.group), escape(row.name + (row.unsound.empty() ? "" : " (" + row.unsound + ")"))};
     for (const TableColumn& column : table.columns) {
       const bool first = line.size() == 2;
       const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
@@ -111,7 +112,8 @@ std::string csv_quoted(const std::string& text) {
 
 std::string status(const TableRow& row) {
   if (!row.failure.empty()) return "failed: " + row.failure;
-  return row.skipped.empty() ? "ok" : "skipped: " + row.skipped;
+  if (!row.skipped.empty()) return "skipped: " + row.skipped;
+  return row.unsound.empty() ? "ok" : row.unsound;
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
@@ -205,6 +207,7 @@ std::string to_json(const Table& table) {
       line["reason"] = row.failure.empty() ? row.skipped : row.failure;
     } else {
       line["status"] = "ok";
+      if (!row.unsound.empty()) line["unsound"] = row.unsound;
       line["values"] = object(row.values);
       if (!row.half_widths.empty()) line["half_widths"] = object(row.half_widths);
     }

@@ -28,6 +28,7 @@ struct TableRow {
   /// Of means over several runs: half the width of their 95 % confidence interval, by column key.
   std::map<std::string, double> half_widths = {};
   std::map<std::string, Mark> marks = {};  ///< by column key
+  std::string unsound = {};                ///< how many of the meshes are not sound; empty: all are
 };
 
 /// Results beside published ones.

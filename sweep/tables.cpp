@@ -23,10 +23,11 @@ constexpr double kSignificance = 0.05;
 constexpr std::size_t kFewestPairs = 6;
 
 constexpr const char* kSeconds = "seconds";
+constexpr const char* kTauGiven = "tau_given";
 /// What the paper's tables show, then the counts and the time.
 const std::vector<std::pair<const char*, int>> kColumns = {
-    {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0}, {"eta_worst", 3}, {"eta_mean", 3},
-    {"d4", 1},         {"d_min", 0},   {"d_max", 0},       {"tau", 1},       {"percent_quads", 1}};
+    {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0}, {"eta_worst", 3}, {"eta_mean", 3},     {"d4", 1},
+    {"d_min", 0},      {"d_max", 0},   {"tau", 1},         {kTauGiven, 1},   {"percent_quads", 1}};
 /// What pairs of pipelines are compared by.
 const std::vector<const char*> kCompared = {"eta_mean", "eta_worst", "d4", "tau", kSeconds};
 
@@ -36,11 +37,13 @@ const Metric* find_metric(const std::string& key) {
   return at == metrics.end() ? nullptr : &*at;
 }
 
-/// With a column for each step's time, or one for the stages of the pipeline.
-std::vector<TableColumn> table_columns(bool step_times) {
+/// With a column for each step's time, or one for the stages of the pipeline; and one for tau against the
+/// size as it was given, where that is another than what it was measured against.
+std::vector<TableColumn> table_columns(bool step_times, bool sizes_adapted) {
   std::vector<TableColumn> columns;
   for (const auto& [key, digits] : kColumns) {
     const Metric* metric = find_metric(key);
+    if (key == std::string(kTauGiven) && !sizes_adapted) continue;
     columns.push_back({key, metric == nullptr ? key : metric->title, digits});
   }
   if (!step_times) {
@@ -108,7 +111,7 @@ std::vector<double> differences(const std::vector<const CellRecord*>& a,
   return result;
 }
 
-/// Marks the best value of each measure among the rows of a group that make quads.
+/// Marks the best value of each measure among the rows of a group that make quads, and sound meshes.
 void mark_best(std::span<const Samples> samples, std::span<TableRow> rows) {
   for (const auto& [key, digits] : kColumns) {
     const Metric* metric = find_metric(key);
@@ -116,7 +119,8 @@ void mark_best(std::span<const Samples> samples, std::span<TableRow> rows) {
     const double sign = metric->better == Better::kHigher ? 1 : -1;
     std::vector<std::size_t> rivals;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].values.contains(key) && makes_quads(*samples[i].done[0])) rivals.push_back(i);
+      if (rows[i].values.contains(key) && rows[i].unsound.empty() && makes_quads(*samples[i].done[0]))
+        rivals.push_back(i);
     const auto score = [&](std::size_t i) { return sign * rows[i].values.at(key); };
     const auto [worst, best] = std::ranges::minmax_element(rivals, {}, score);
     if (rivals.empty() || score(*worst) == score(*best)) continue;
@@ -139,7 +143,10 @@ class Tabulation {
   Outcome run() {
     Table& table = outcome_.table;
     table.title = study_.title;
-    table.columns = table_columns(study_.step_times);
+    table.columns =
+        table_columns(study_.step_times, std::ranges::any_of(records_, [](const CellRecord& record) {
+                        return !record.size_adapted_to.empty();
+                      }));
     for (const PublishedRow& row : study_.published)
       table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
     const std::size_t first = table.rows.size();
@@ -155,7 +162,9 @@ class Tabulation {
   void add_row(const Samples& samples) {
     TableRow row{samples.group, samples.pipeline, {}, {}, "", ""};
     for (const CellRecord* failed : samples.failed)
-      ++(failed->kind == "bad input" ? outcome_.bad_inputs : outcome_.others_failed);
+      ++(failed->kind == "bad input" ? outcome_.bad_inputs
+         : failed->kind == "unsound" ? outcome_.unsound
+                                     : outcome_.others_failed);
     if (samples.done.empty()) {
       if (samples.failed.empty())
         row.skipped = samples.skipped[0]->kind;
@@ -163,6 +172,11 @@ class Tabulation {
         row.failure = samples.failed[0]->reason;
     } else {
       for (const TableColumn& column : outcome_.table.columns) add_value(samples, column.key, row);
+      const auto unsound = std::ranges::count_if(samples.done, [](auto* r) { return !r->unsound.empty(); });
+      if (unsound > 0)
+        row.unsound = samples.done.size() == 1
+                          ? "unsound"
+                          : fmt::format("{} of {} unsound", unsound, samples.done.size());
       if (!samples.failed.empty())
         outcome_.table.notes.push_back(fmt::format(
             "{} {}: {} of {} runs failed, the first: {}", samples.group, samples.pipeline,
@@ -214,14 +228,29 @@ class Tabulation {
     };
     for (const CellRecord& record : records_) {
       if (record.skipped) say(fmt::format("{}: {}", record.name, record.reason));
-      if (!record.uniform_size.empty() && record.variant.empty())
-        say(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
+      say_size(record, say);
+      for (const std::string& reason : record.unsound)
+        say(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
       for (const std::string& warning : record.warnings)
         if (warning.starts_with(record.name + " ")) say("warning: " + warning);
     }
     if (records_.size() < study_.cells)
       notes.push_back(
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
+  }
+
+  /// Against which size tau is measured.
+  template <class Say>
+  static void say_size(const CellRecord& record, const Say& say) {
+    const bool uniform = !record.uniform_size.empty() && record.variant.empty();
+    if (record.size_adapted_to.empty()) {
+      if (uniform) say(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
+      return;
+    }
+    say(fmt::format(
+        "{}: delta{} was made smaller for {}: tau is measured against that, tau given against "
+        "delta as it was given",
+        record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));
   }
 
   void note_ratio(const ExpectedRatio& ratio) {

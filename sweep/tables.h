@@ -16,8 +16,8 @@ struct Outcome {
   /// Pairs of pipelines over all cases and seeds that both ran on; no rows where there are too few to tell
   /// anything.
   Table pairs;
-  long long leftover_triangles = 0;  ///< in cells whose pipeline makes quads only
-  int bad_inputs = 0, others_failed = 0;
+  long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
+  int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
 };
 
 /// The records of an experiment's cells, and what it consists of.

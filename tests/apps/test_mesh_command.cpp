@@ -116,22 +116,65 @@ TEST(MeshCommand, OddBoundaryLeavesOneTriangleAndSaysWhere) {
   EXPECT_EQ(delquad({"mesh", model, "-o", folder / "out.msh", "--pipeline", "F"}).exit_code, 0);
 }
 
-TEST(MeshCommand, FlatQuadIsWarnedAbout) {
-  const TemporaryFolder folder;
-  // A node in the middle of a triangle's side: one quad, with an angle of 180 degrees.
+/// A node in the middle of a triangle's side: one quad, with an angle of 180 degrees.
+std::filesystem::path flat_quad(const TemporaryFolder& folder) {
   write_text(folder / "flat.msh", line_mesh({{0, 0}, {1, 0}, {2, 0}, {1, 1}}, "rim"));
-  const auto model = write_text(folder / "flat.toml",
-                                "mesh = \"flat.msh\"\nsize = 10\nrecombination = { treatment = \"none\" }\n");
-  const ProgramResult result =
-      delquad({"mesh", model, "-o", folder / "out.msh", "--pipeline", "DB", "--json", folder / "r.json"});
-  EXPECT_EQ(result.exit_code, 0);
-  const std::string warning = "flat DB: 1 quad is inverted or flat (eta 0), the first at (1, 0.25, 0)";
-  EXPECT_EQ(result.err, "warning: " + warning + "\n");
-  EXPECT_TRUE(contains(read_text(folder / "r.json"), warning));
+  return write_text(folder / "flat.toml",
+                    "mesh = \"flat.msh\"\nsize = 10\nrecombination = { treatment = \"none\" }\n");
+}
+
+const std::string kFlat = "1 quad is inverted or flat (eta 0): face 1 at (1, 0.25, 0)";
+
+TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
+  const TemporaryFolder folder;
+  const auto model = flat_quad(folder);
+  std::vector<std::string> arguments = {"mesh",       model, "-o",     folder / "out.msh",
+                                        "--pipeline", "DB",  "--json", folder / "r.json"};
+  const ProgramResult refused = delquad(arguments);
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_EQ(refused.err, "error: " + model.string() + ": the mesh is not sound: " + kFlat +
+                             ": nothing was written (--allow-unsound writes it)\n");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"flat.msh", "flat.toml"}));
+
+  arguments.push_back("--allow-unsound");
+  const ProgramResult allowed = delquad(arguments);
+  EXPECT_EQ(allowed.exit_code, 0);
+  EXPECT_EQ(allowed.err, "warning: the mesh is not sound: " + kFlat + "\n");
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 1u);
+  const std::string record = read_text(folder / "r.json");
+  EXPECT_TRUE(contains(record, "\"sound\": false")) << record;
+  EXPECT_TRUE(contains(record, kFlat));
+}
+
+TEST(MeshCommand, HelpHasTheExitCodes) {
+  const std::string help = delquad({"--help"}).out;
+  for (const char* code : {"3 triangles are left", "4 faces were left out", "5 a mesh is not sound"})
+    EXPECT_TRUE(contains(help, code)) << help;
+}
+
+TEST(RunCommand, ACellThatIsNotSoundHasFailed) {
+  const TemporaryFolder folder;
+  flat_quad(folder);
   const auto experiment = write_text(
       folder / "e.toml", "pipelines = [\"DB\"]\n[[case]]\nname = \"flat\"\nmodel = \"flat.toml\"\n");
-  EXPECT_EQ(delquad({"run", experiment, "-o", folder / "results"}).exit_code, 0);
-  EXPECT_TRUE(contains(read_text(folder / "results/table.md"), warning));
+  const auto cell = folder / "results" / "flat" / "DB";
+  EXPECT_EQ(delquad({"run", experiment, "-o", folder / "results"}).exit_code, 5);
+  EXPECT_FALSE(std::filesystem::exists(cell / "mesh.msh"));
+  const std::string failed = read_text(cell / "record.json");
+  EXPECT_TRUE(contains(failed, "\"kind\": \"unsound\"")) << failed;
+  EXPECT_TRUE(contains(failed, kFlat)) << failed;
+  EXPECT_TRUE(
+      contains(read_text(folder / "results/table.md"), "flat DB failed: flat DB: the mesh is not sound"));
+  EXPECT_EQ(delquad({"rerun", cell / "record.json"}).exit_code, 2);
+
+  EXPECT_EQ(delquad({"run", experiment, "-o", folder / "results", "--allow-unsound"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(cell / "record.json"), "\"sound\": false"));
+  const std::string table = read_text(folder / "results/table.md");
+  EXPECT_TRUE(contains(table, "| DB (unsound) ")) << table;
+  EXPECT_TRUE(contains(table, "flat DB is not sound: " + kFlat)) << table;
+  EXPECT_TRUE(contains(read_text(folder / "results/table.csv"), "flat,DB,unsound,"));
+  EXPECT_TRUE(contains(read_text(folder / "results/table.json"), "\"unsound\": \"unsound\""));
+  EXPECT_EQ(delquad({"rerun", cell / "record.json"}).exit_code, 0);
 }
 
 /// What the program wrote is a model again, with all of its names.

@@ -44,7 +44,7 @@ TEST(BranchingSurface, FacesShareTheirCurvesNodes) {
   EXPECT_EQ(result.mesh.quads.size(), 3u * 16);
   EXPECT_TRUE(result.mesh.triangles.empty());
   ASSERT_TRUE(result.surface);
-  EXPECT_EQ(result.surface->nonconforming_edges, 0);
+  EXPECT_EQ(result.surface->nonconforming_edges.count, 0);
   EXPECT_EQ(result.surface->mesh.branching_edges, 4);
   EXPECT_EQ(result.surface->mesh.euler_characteristic, result.surface->model.euler_characteristic);
 }

@@ -49,7 +49,7 @@ TEST_F(KeepGoing, NothingIsLeftOutOfASoundModel) {
   EXPECT_EQ(result.mesh.quads.size(), 96u);
   ASSERT_TRUE(result.surface);
   EXPECT_TRUE(result.surface->mesh.watertight());
-  EXPECT_EQ(result.surface->nonconforming_edges, 0);
+  EXPECT_EQ(result.surface->nonconforming_edges.count, 0);
 }
 
 TEST_F(KeepGoing, WithoutItTheFaceIsNamed) {
@@ -68,7 +68,7 @@ TEST_F(KeepGoing, TheRestIsMeshed) {
   EXPECT_EQ(std::count(result.mesh.quad_region.begin(), result.mesh.quad_region.end(), 2), 0);
   EXPECT_EQ(result.mesh.lines.size(), 12u * 4);  // all of them still bound another face
   EXPECT_EQ(result.surface->mesh.free_edges, 16);
-  EXPECT_EQ(result.surface->nonconforming_edges, 0) << "free where the model without the face is";
+  EXPECT_EQ(result.surface->nonconforming_edges.count, 0) << "free where the model without the face is";
 }
 
 TEST_F(KeepGoing, LinesAndPointsOfMissingFacesGo) {

@@ -22,12 +22,14 @@ PreparedCase prepared_surface(SurfaceModel model, double size) {
   return prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
 }
 
-/// run_word() throws where an element meets itself or two have the same vertices.
+/// Elements do not meet themselves, and no two have the same vertices.
 RunResult mesh_of(const PreparedCase& prepared, const char* word) {
   Case c;
   c.name = c.where = "tube";
   Progress progress;
-  return run_word(c, prepared, parse_word(word), progress);
+  RunResult result = run_word(c, prepared, parse_word(word), progress);
+  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
+  return result;
 }
 
 RunResult mesh_of(SurfaceModel model, double size, const char* word) {

@@ -44,7 +44,7 @@ TEST_F(SurfaceReports, AMeshThatFits) {
   EXPECT_EQ(report.model.euler_characteristic, 2);
   EXPECT_TRUE(report.mesh.watertight());
   EXPECT_EQ(report.mesh.disagreeing_edges, 0);
-  EXPECT_EQ(report.nonconforming_edges, 0);
+  EXPECT_EQ(report.nonconforming_edges.count, 0);
   EXPECT_EQ(report.mesh_to_surface.samples, 96 + 192);
   EXPECT_LT(report.mesh_to_surface.max, 1e-15);
   EXPECT_LT(report.surface_to_mesh.max, 1e-15);
@@ -61,7 +61,7 @@ TEST_F(SurfaceReports, AHoleATwistAndABranch) {
   const SurfaceReport hole = report_surface(model_, {}, none_, holed);
   EXPECT_FALSE(hole.mesh.watertight());
   EXPECT_EQ(hole.mesh.free_edges, 4);
-  EXPECT_EQ(hole.nonconforming_edges, 4);
+  EXPECT_EQ(hole.nonconforming_edges.count, 4);
   EXPECT_EQ(hole.mesh.euler_characteristic, 1);
 
   Mesh twisted = quad_cube(model_, 4);
@@ -74,7 +74,7 @@ TEST_F(SurfaceReports, AHoleATwistAndABranch) {
   branched.triangle_region.push_back(0);
   const SurfaceReport branch = report_surface(model_, {}, none_, branched);
   EXPECT_EQ(branch.mesh.branching_edges, 1);
-  EXPECT_EQ(branch.nonconforming_edges, 3);
+  EXPECT_EQ(branch.nonconforming_edges.count, 3);
 }
 
 TEST_F(SurfaceReports, DistancesAreInDiagonals) {
@@ -143,7 +143,7 @@ TEST(SurfaceReportsOfCad, ChordsAreMeasuredAgainstTheTrueSurface) {
   EXPECT_NEAR(report.nodes_in_faces.max, 0, 1e-15);
   // The middle of an edge to the pole lies deepest below the sphere.
   EXPECT_NEAR(report.mesh_to_surface.max, (1 - std::sqrt(0.5)) / diagonal, 1e-9);
-  EXPECT_EQ(report.nonconforming_edges, 0);  // the outline's edges are free in the model, too
+  EXPECT_EQ(report.nonconforming_edges.count, 0);  // the outline's edges are free in the model, too
 }
 
 TEST(MapReports, TheWorstFaceIsNamed) {

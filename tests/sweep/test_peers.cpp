@@ -17,6 +17,7 @@
 #include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
@@ -132,6 +133,57 @@ TEST_F(Peers, FailAlone) {
     EXPECT_EQ(record.kind, "peer") << name;
     EXPECT_NE(record.reason.find(reasons.at(name)), std::string::npos) << name << ": " << record.reason;
   }
+}
+
+/// What others make is shown as it is, and said to be what it is.
+TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
+  const std::string good = good_mesh();
+  Mesh inverted = read_msh(good);
+  const auto middle = std::ranges::find_if(inverted.points, [](const Vec3& p) {
+    return norm(p - Vec3{0.5, 0.5, 0}) < 1e-9;
+  });
+  ASSERT_NE(middle, inverted.points.end());
+  *middle = {0.9, 0.9, 0};
+  write_msh(folder_ / "inverted.msh", inverted);
+  const std::string text = peer("bad", "cp '" + (folder_ / "inverted.msh").string() + "' $2") +
+                           peer("good", "cp '" + good + "' $2") + kSquare;
+  const Outcome outcome = run_experiment(experiment("[\"DB\", \"bad\", \"good\"]", text), out());
+  EXPECT_EQ(outcome.others_failed + outcome.bad_inputs + outcome.unsound, 0);
+  const auto cells = records();
+  EXPECT_TRUE(cells.at("DB").unsound.empty());
+  EXPECT_TRUE(cells.at("good").unsound.empty());
+  ASSERT_FALSE(cells.at("bad").unsound.empty());
+  EXPECT_NE(cells.at("bad").unsound[0].find("inverted or flat"), std::string::npos);
+  EXPECT_EQ(cells.at("bad").values.at("eta_worst"), 0);
+  ASSERT_EQ(outcome.table.rows.size(), 3u);
+  EXPECT_EQ(outcome.table.rows[1].unsound, "unsound");
+  EXPECT_TRUE(outcome.table.rows[1].marks.empty()) << "nothing of it is best";
+  EXPECT_NE(to_markdown(outcome.table).find("| bad (unsound) "), std::string::npos);
+  EXPECT_NE(to_markdown(outcome.table).find("square bad is not sound: "), std::string::npos);
+  EXPECT_TRUE(rerun_record(fs::path(out()) / "square" / "bad" / "record.json").same_mesh);
+}
+
+/// Two tables of the size: the one that was given, and what became of it.
+TEST(Sizes, TablesSayAgainstWhichTauIs) {
+  const testing_support::TemporaryFolder folder;
+  write_msh(folder / "lens.msh", testing_support::lens(64, 12, 0.45));
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"DB\"]\n"
+                               "[[case]]\nname = \"plain\"\nmodel = \"lens.msh\"\nsize = 0.3\n"
+                               "[[case]]\nname = \"bent\"\nmodel = \"lens.msh\"\n"
+                               "size = { base = 0.5, curvature = 24 }\n");
+  const Outcome outcome = run_experiment(Experiment::read(file), folder / "out");
+  ASSERT_EQ(outcome.table.rows.size(), 2u);
+  const auto& plain = outcome.table.rows[0].values;
+  const auto& bent = outcome.table.rows[1].values;
+  EXPECT_EQ(plain.at("tau"), plain.at("tau_given"));
+  EXPECT_GT(bent.at("tau"), bent.at("tau_given") + 5);
+  const std::string text = to_markdown(outcome.table);
+  EXPECT_NE(text.find("- plain: uniform delta = 0.3\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("- bent: delta = 0.5 was made smaller for curvature: tau is measured against that"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| tau given |"), std::string::npos) << text;
 }
 
 /// A mesh whose elements run the other way round is a good mesh.
