@@ -94,6 +94,9 @@ int mesh_command(const MeshArguments& arguments) {
              result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
              result.seconds);
   print_metrics(result.metrics);
+  if (!prepared.size_adapted_to.empty())
+    fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
+               fmt::join(prepared.size_adapted_to, " and "));
   print_seconds(prepared, result.log);
   if (result.surface) print_surface_report(prepared, *result.surface);
   for (const FaceFailure& failure : result.failures)
