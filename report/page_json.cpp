@@ -57,7 +57,7 @@ Json table_json(const Table& table) {
     Json marks = Json::object();
     for (const auto& [key, mark] : row.marks) marks[key] = mark == Mark::kBest ? "best" : "as good";
     json["rows"].push_back({{"group", row.group},
-                            {"name", row.name},
+                            {"name", shown_name(row)},
                             {"values", values_json(row.values)},
                             {"published", values_json(row.published)},
                             {"half_widths", values_json(row.half_widths)},

@@ -81,8 +81,7 @@ Rendered render(const Table& table, const Style& style, std::string (*escape)(co
   for (const TableColumn& column : table.columns) result.lines.back().push_back(escape(column.title));
   bool compared = false, as_good = false, means = false;
   for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = {
-        escape(row.group), escape(row.name + (row.unsound.empty() ? "" : " (" + row.unsound + ")"))};
+    std::vector<std::string> line = {escape(row.group), escape(shown_name(row))};
     for (const TableColumn& column : table.columns) {
       const bool first = line.size() == 2;
       const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
@@ -124,6 +123,10 @@ const std::vector<TableFormat>& table_formats() {
   static const std::vector<TableFormat> formats = {
       {".md", to_markdown}, {".csv", to_csv}, {".tex", to_tex}, {".json", to_json}};
   return formats;
+}
+
+std::string shown_name(const TableRow& row) {
+  return row.unsound.empty() ? row.name : row.name + " (" + row.unsound + ")";
 }
 
 std::string to_markdown(const Table& table) {

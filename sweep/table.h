@@ -31,6 +31,9 @@ struct TableRow {
   std::string unsound = {};                ///< how many of the meshes are not sound; empty: all are
 };
 
+/// The second column, where it says so when meshes are not sound.
+std::string shown_name(const TableRow& row);
+
 /// Results beside published ones.
 struct Table {
   std::string title;
