@@ -82,6 +82,7 @@ struct Counters<TreatmentSummary> {
                                          counter("boundary_repairs", &S::boundary_repairs),
                                          counter("ring_quads", &S::ring_quads),
                                          counter("relocated", &S::relocated),
+                                         counter("looks", &S::looks),
                                          counter("seconds", &S::seconds)};
 };
 
@@ -98,6 +99,7 @@ struct Counters<CleanupSummary> {
                                          counter("tried", &S::tried),
                                          counter("annealed", &S::annealed),
                                          counter("relocated", &S::relocated),
+                                         counter("looks", &S::looks),
                                          counter("seconds", &S::seconds)};
 };
 

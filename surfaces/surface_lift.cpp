@@ -79,21 +79,28 @@ class SurfaceLift {
   }
 
   /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
-  /// the corner `skipped` (none: -1).
+  /// the corner `skipped` (none: -1). Or 1 - warp / 90 degrees where that is less: 0 for a folded quad.
   double quality(int q, int skipped = -1) const {
     const auto& v = quads_[q];
     const Vec3& outward = outward_[q];
     Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
     const bool turned_over = !(dot(normal, outward) > 0);
     if (turned_over) normal = outward;
+    std::array<Vec3, 4> corner_normal;
     double least = 1;
     for (int k = 0; k < 4; ++k) {
-      if (k == skipped) continue;
       const Vec3& at = places_[v[k]];
       const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
+      corner_normal[k] = c;
+      if (k == skipped) continue;
       double angle = std::atan2(norm(c), dot(out, in));
       if (dot(c, normal) < 0) angle = 2 * std::numbers::pi - angle;
       least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
+    }
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
+      const double warp = std::atan2(norm(cross(m, n)), dot(m, n));
+      least = std::min(least, 1 - warp * (2 / std::numbers::pi));
     }
     return turned_over ? least - kTurnedOver : least;
   }
@@ -104,11 +111,19 @@ class SurfaceLift {
     const auto& v = quads_[q];
     const Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
     if (!(dot(normal, outward_[q]) > 0)) return false;
+    std::array<Vec3, 4> corner_normal;
     for (int k = 0; k < 4; ++k) {
       const Vec3& at = places_[v[k]];
       const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
       const double cosine = dot(out, in);  // both times the lengths of the sides
       if (!(dot(c, normal) > 0 && cosine * cosine < kMargin * steepest2_ * dot(c, c))) return false;
+      corner_normal[k] = c;
+    }
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
+      const Vec3 turn = cross(m, n);
+      const double along = dot(m, n);
+      if (!(along > 0 && dot(turn, turn) < kMargin * steepest2_ * along * along)) return false;
     }
     return true;
   }

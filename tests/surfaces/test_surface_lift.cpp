@@ -8,6 +8,7 @@
 #include "algorithms/recombination/recombine.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "metrics/metrics.h"
+#include "metrics/shape.h"
 #include "surfaces/places_inside.h"
 #include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"
@@ -111,6 +112,32 @@ TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
       EXPECT_LT(norm(m.nodes.points[node.node] -
                      place_on_curve(m.model, m.domain.chains[c], m.domain.cut_face, node.s)),
                 1e-12);
+}
+
+int folded(const Meshed& m) {
+  return static_cast<int>(std::ranges::count_if(m.tracks->quads(), [&](const auto& q) {
+    return quad_warp({m.places[q[0]], m.places[q[1]], m.places[q[2]], m.places[q[3]]}) > kFold;
+  }));
+}
+
+TEST(SurfaceLift, FoldedQuadsAreUnfolded) {
+  // A roof whose slopes turn by 143 degrees; its ridge is no curve and runs askew to the rows of quads.
+  int before = 0, after = 0;
+  for (const double skew : {0.1, 0.2, 0.3, 0.4, 0.5})
+    for (const double h : {0.11, 0.13, 0.17}) {
+      Meshed m(surfaces::grid_surface(
+                   {40, 40},
+                   [&](double u, double v) {
+                     const double x = 2 * u - 1;
+                     return Vec3{x + skew * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
+                   }),
+               h);
+      before += folded(m);
+      lift_worst_on_surface(*m.tracks, m.places, 0.3, 20);
+      after += folded(m);
+    }
+  EXPECT_GT(before, 10);
+  EXPECT_EQ(after, 0);
 }
 
 TEST(SurfaceLift, WhatIsGoodStays) {
