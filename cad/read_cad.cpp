@@ -3,7 +3,6 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "cad/agree_faces.h"
@@ -14,8 +13,8 @@
 #include "cad/shape_projector.h"
 #include "cad/tessellate.h"
 #include "cad/weld_faces.h"
+#include "geometry/surface/report_edges.h"
 #include "mesh/error.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 
@@ -57,41 +56,6 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   if (const int n = turn_outwards(model.fine, groups); n > 0) {
     model.warnings.push_back(fmt::format("{} bodies were inside out and were turned over", n));
   }
-}
-
-std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
-  constexpr int kMostNamed = 10;
-  std::string text;
-  int n = 0;
-  for (std::size_t c = 0; c < listed.size(); ++c) {
-    if (!listed[c]) continue;
-    if (++n <= kMostNamed) text += fmt::format("{}{}", n > 1 ? ", " : "", mesh.curves[c].tag);
-  }
-  if (n > kMostNamed) text += ", ...";
-  return fmt::format("{} ({})", n, text);
-}
-
-void report_edges(SurfaceModel& model) {
-  const Mesh& mesh = model.fine;
-  std::vector<std::pair<std::array<int, 2>, int>> curve_of;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const auto& [a, b] = mesh.lines[l];
-    curve_of.push_back({{std::min(a, b), std::max(a, b)}, mesh.line_curve[l]});
-  }
-  std::ranges::sort(curve_of);
-  std::vector<char> free(mesh.curves.size(), 0), crowded(mesh.curves.size(), 0);
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 2) return;
-    const std::array<int, 2> ends{edge[0].lo, edge[0].hi};
-    const auto at = std::ranges::lower_bound(curve_of, std::pair(ends, 0));
-    if (at == curve_of.end() || at->first != ends) return;
-    (edge.size() == 1 ? free : crowded)[at->second] = 1;
-  });
-  if (std::ranges::count(free, 1) > 0)
-    model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free));
-  if (std::ranges::count(crowded, 1) > 0)
-    model.warnings.push_back("more than two faces meet on curves: " + list_curves(mesh, crowded));
 }
 
 SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {

@@ -177,7 +177,7 @@ std::string info_record(const ModelInfo& info, double size) {
     json["smaller_than_size"] = {{"curves", tags(mesh.curves, small.curves)},
                                  {"faces", tags(mesh.regions, small.faces)}};
   }
-  json["warnings"] = info.model.warnings;
+  json["warnings"] = texts(info.model.warnings);
   // A name need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -10,6 +10,7 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
 #include "pipeline/perturb.h"
@@ -137,10 +138,12 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   PreparedCase p;
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   const Stopwatch sizes;
+  const DoingStage measuring("sizes");
   const WantedSize wanted = wanted_size(c.size, model, std::move(size));
   const double size_seconds = sizes.work_seconds();
 
   const Stopwatch maps;
+  const DoingStage flattening_faces("maps");
   improve_triangulation(model);
   refine_for_size(model, wanted);
   Flattening flattening = flatten(model);
@@ -149,6 +152,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.seconds.emplace_back("maps", maps.work_seconds());
 
   const Stopwatch curves;
+  const DoingStage meshing_curves("boundary");
   auto surface = std::make_shared<PreparedSurface>();
   surface->cuts = flattening.cuts;
   surface->size = std::make_shared<SurfaceSize>(model, wanted);
@@ -169,11 +173,13 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
 
   const std::vector<SurfacePatch>& patches = surface->domain.patches;
   const Stopwatch fields;
+  const DoingStage making_fields("fields");
   p.patches.resize(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         const SurfacePatch& patch = patches[i];
+        const DoingFace face(surface->model.fine.regions[patch.map.face].tag);
         p.patches[i] = {
             patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
             std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),

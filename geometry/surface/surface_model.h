@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/warning.h"
 
 namespace delquad {
 
@@ -40,7 +41,7 @@ struct SurfaceModel {
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;
-  std::vector<std::string> warnings;  ///< what was repaired or looks suspicious
+  std::vector<Warning> warnings;  ///< what was repaired or looks suspicious
 };
 
 }  // namespace delquad
