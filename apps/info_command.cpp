@@ -11,6 +11,7 @@
 #include "pipeline/case_file.h"
 #include "pipeline/model_info.h"
 #include "pipeline/progress.h"
+#include "pipeline/size_warnings.h"
 
 namespace delquad {
 namespace {
@@ -130,7 +131,8 @@ int info_command(const InfoArguments& arguments) {
   const Case c = read_model_case(arguments.model);
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
-  const ModelInfo info = model_info(c);
+  ModelInfo info = model_info(c);
+  if (size > 0) warn_of_large_size(*make_constant_size(size), info.model.fine, info.model.warnings);
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, [&](std::ostream& out) { out << info_record(info, size); });
   print_overview(info);

@@ -37,6 +37,7 @@ struct CadShape {
   double diagonal = 0;  ///< of the bounding box
   std::string unit;     ///< of lengths; empty: unknown
   std::vector<Warning> warnings;
+  std::vector<int> late_faces;  ///< numbers of the faces for which the kernel takes too long, ascending
 };
 
 }  // namespace delquad::cad

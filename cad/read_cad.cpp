@@ -58,19 +58,50 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   }
 }
 
+/// Welds the faces; without those whose triangles turn out to be no use, which get the reason.
+WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
+                        std::vector<std::string>& why_not) {
+  for (;;) {
+    WeldedFaces welded = weld_faces(meshes, edges, gap);
+    if (welded.bad_faces.empty()) return welded;
+    for (const int f : welded.bad_faces) {
+      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
+      meshes[f].triangles.clear();
+    }
+  }
+}
+
+/// Names the faces that cannot be used, those with the same reason together.
+[[noreturn]] void refuse(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                         const std::vector<std::string>& why_not) {
+  std::vector<std::pair<std::string, std::string>> lists;
+  for (int f = 0; f < faces.Extent(); ++f) {
+    if (why_not[f].empty()) continue;
+    const std::string title = face_title(f + 1, cad.names.of(faces(f + 1)));
+    const auto at = std::ranges::find(lists, why_not[f], &std::pair<std::string, std::string>::first);
+    if (at == lists.end())
+      lists.emplace_back(why_not[f], title);
+    else
+      at->second += ", " + title;
+  }
+  std::string text;
+  for (const auto& [reason, list] : lists) text += (text.empty() ? "" : "; ") + reason + ": " + list;
+  throw InputError(text);
+}
+
 SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
                                    edges = parts(cad.shape, TopAbs_EDGE);
-  std::vector<FaceMesh> meshes = face_meshes(cad, faces);
-  WeldedFaces welded = weld_faces(meshes, edges, options.deflection * cad.diagonal);
-  if (!welded.bad_faces.empty()) {
-    std::string list;
-    for (const int f : welded.bad_faces)
-      list += (list.empty() ? "" : ", ") + face_title(f + 1, cad.names.of(faces(f + 1)));
-    throw InputError("cannot be triangulated up to the boundary (does it cross itself?): " + list);
-  }
-
   SurfaceModel model;
+  std::vector<std::string> why_not;
+  std::vector<FaceMesh> meshes = face_meshes(cad, faces, why_not);
+  WeldedFaces welded = weld_usable(meshes, edges, options.deflection * cad.diagonal, why_not);
+  for (int f = 0; f < faces.Extent(); ++f)
+    if (!why_not[f].empty())
+      model.left_out.push_back({f, face_title(f + 1, cad.names.of(faces(f + 1))) + ": " + why_not[f]});
+  if (!model.left_out.empty() && (!options.keep_going || welded.mesh.triangles.empty()))
+    refuse(cad, faces, why_not);
+
   model.source = source;
   model.unit = cad.unit;
   model.warnings = std::move(cad.warnings);

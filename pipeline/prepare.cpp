@@ -14,6 +14,7 @@
 #include "pipeline/perturb.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/size_aware.h"
+#include "pipeline/size_warnings.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
@@ -253,6 +254,8 @@ PreparedCase prepare_case(const Case& c) {
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
   check_holes(c.holes, domain);
+  warn_of_large_size(*p.size, domain.boundary, p.warnings);
+  if (c.model) warn_of_coarse_turns(*c.model, domain.boundary, p.warnings);
   if (c.seed != 0) turn(c, domain, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);

@@ -15,6 +15,7 @@
 #include "pipeline/located.h"
 #include "pipeline/perturb.h"
 #include "pipeline/size_aware.h"
+#include "pipeline/size_warnings.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_domain.h"
 
@@ -119,7 +120,12 @@ SurfaceModel read_surface(const Case& c) {
     if (c.example.empty() && !kCadFiles.count(path.extension().string()))
       return make_model(c.surface, read_mesh(path), path.string());
     check_for_cad(c.surface);
-    return make_compounds(c.surface, c.example.empty() ? read_cad(path) : read_example(c.example));
+    CadOptions options;
+    options.keep_going = c.options.keep_going;
+    SurfaceModel model = c.example.empty() ? read_cad(path, options) : read_example(c.example, options);
+    if (!model.left_out.empty() && !c.surface.where.empty())
+      throw InputError(model.left_out[0].reason + "; compounds need all faces");
+    return make_compounds(c.surface, std::move(model));
   });
 }
 
@@ -148,6 +154,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   refine_for_size(model, wanted);
   Flattening flattening = flatten(model);
   Failures failures(c);
+  for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
   add_unflattened(flattening, model, failures);
   p.seconds.emplace_back("maps", maps.work_seconds());
 
@@ -167,6 +174,8 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.surface = surface;
   p.warnings = surface->model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
+  warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
+  warn_of_coarse_turns(wanted, *surface, p.warnings);
   p.boundary = surface->domain.boundary;
   p.sharp_corners = surface->domain.sharp_corners;
   p.seconds.emplace_back("curves", curves.work_seconds());
