@@ -94,8 +94,8 @@ void add_time_limit(CLI::App& command, CommonArguments& common) {
 
 /// Keeps an empty text apart from none.
 CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help) {
-  return command.add_option_function<std::string>("--size", [&size](const std::string& text) { size = text; },
-                                                  help);
+  return command.add_option_function<std::string>(
+      "--size", [&size](const std::string& text) { size = text; }, help);
 }
 
 void add_run(CLI::App& app, RunArguments& arguments) {
@@ -239,20 +239,21 @@ void add_example(CLI::App& app, ExampleArguments& arguments, CommonArguments& co
   add_time_limit(*example, common);
 }
 
-int print_help(const CLI::App& app, const std::vector<std::string>& command) {
-  if (command.empty()) {
-    fmt::print("{}", app.help());
-    return kDone;
-  }
+int run_command_line(int argc, char** argv);
+
+/// As the program and its commands explain themselves.
+int print_help(const CLI::App& app, char* program, std::vector<std::string> command) {
   std::string known;
+  bool found = command.empty();
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (sub->get_name() == command[0]) {
-      fmt::print("{}", sub->help());
-      return kDone;
-    }
+    found = found || sub->get_name() == command[0];
     known += (known.empty() ? "" : ", ") + sub->get_name();
   }
-  throw InputError("help: there is no command '" + command[0] + "'; known: " + known);
+  if (!found) throw InputError("help: there is no command '" + command[0] + "'; known: " + known);
+  command.emplace_back("--help");
+  std::vector<char*> words = {program};
+  for (std::string& word : command) words.push_back(word.data());
+  return run_command_line(static_cast<int>(words.size()), words.data());
 }
 
 /// The standard output goes nowhere, except from commands that do nothing but print.
@@ -295,7 +296,7 @@ int run_command_line(int argc, char** argv) {
     print_version(common.all);
     return kDone;
   }
-  if (app.got_subcommand("help")) return print_help(app, common.help_of);
+  if (app.got_subcommand("help")) return print_help(app, argv[0], common.help_of);
   if (app.get_subcommands().empty()) {
     fmt::print(stderr, "error: expected a command; 'delquad help' lists them\n");
     return kBadInput;

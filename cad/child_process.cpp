@@ -55,8 +55,8 @@ std::string read_all(int from) {
 
 }  // namespace
 
-std::optional<std::string> run_apart(const std::function<std::string(const Answer&)>& work,
-                                     unsigned seconds, std::vector<FaceAtWork>* left) {
+std::optional<std::string> run_apart(const std::function<std::string(const Answer&)>& work, unsigned seconds,
+                                     std::vector<FaceAtWork>* left) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to a process that reads the file");
   const pid_t parent = getpid(), child = fork();

@@ -136,7 +136,8 @@ std::string answer(const std::function<CadShape()>& make, const CadOptions& opti
   KernelWatch watch(
       {options.face_seconds, options.healing_seconds},
       [&](const std::vector<int>& late) {
-        now(kLateFaces + std::string(reinterpret_cast<const char*>(late.data()), late.size() * sizeof late[0]));
+        now(kLateFaces +
+            std::string(reinterpret_cast<const char*>(late.data()), late.size() * sizeof late[0]));
       },
       [&] { now({kLateHealing}); });
   try {
@@ -163,7 +164,8 @@ std::vector<int> numbers_in(const std::string& bytes) {
 std::string last_seen(const std::vector<FaceAtWork>& faces) {
   std::string text;
   for (const FaceAtWork& face : faces)
-    text += fmt::format("{}{} {}", text.empty() ? ": at the " + face.stage + " of " : ", ", face.kind, face.tag);
+    text +=
+        fmt::format("{}{} {}", text.empty() ? ": at the " + face.stage + " of " : ", ", face.kind, face.tag);
   return text;
 }
 
@@ -192,8 +194,9 @@ CadShape prepare_apart(const std::function<CadShape()>& make, const CadOptions& 
         return cad;
     }
   }
-  throw InputError(fmt::format("cannot be triangulated: faces {}, ... take the CAD kernel longer than {:g} s each",
-                               fmt::join(trial.late_faces, ", "), options.face_seconds));
+  throw InputError(
+      fmt::format("cannot be triangulated: faces {}, ... take the CAD kernel longer than {:g} s each",
+                  fmt::join(trial.late_faces, ", "), options.face_seconds));
 }
 
 }  // namespace

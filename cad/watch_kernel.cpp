@@ -16,7 +16,7 @@ namespace delquad::cad {
 
 namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(50);
+constexpr auto kPause = std::chrono::milliseconds(10);
 constexpr double kNotNow = -1;
 
 double processor_seconds() {

@@ -59,7 +59,10 @@ double distance(const Part& p, const Part& q) {
 /// strays the most, which stray half as much at most, until both stray by less than the tolerance.
 std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
   if (distance(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;
-  if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvings) return 0.5 * (p.a + p.b);
+  if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvings) {
+    const Part& shorter = norm(p.b - p.a) < norm(q.b - q.a) ? p : q;
+    return 0.5 * (shorter.a + shorter.b);
+  }
   const bool first = p.bulge >= q.bulge;
   const auto [left, right] = (first ? p : q).halves();
   for (const Part& half : {left, right})
@@ -103,7 +106,7 @@ void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& 
           const auto at = meeting(parts[i], parts[static_cast<std::size_t>(j)], tolerance);
           if (!at) return;
           throw InputError(fmt::format(
-              "{}{}the loops of {} and {} touch at ({:.6g}, {:.6g}): expected them more than {:.3g} apart",
+              "{}{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected them more than {:.3g} apart",
               names.source, names.source.empty() ? "" : ": ", names.curve(e.curve), names.curve(f.curve),
               at->x, at->y, tolerance));
         });

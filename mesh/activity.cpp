@@ -46,8 +46,7 @@ struct Registry {
 
 /// In memory that children share. Texts have the same addresses there.
 Registry* new_registry() {
-  void* memory =
-      mmap(nullptr, sizeof(Registry), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* memory = mmap(nullptr, sizeof(Registry), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   return new (memory) Registry;
 }
@@ -105,7 +104,8 @@ class Text {
     std::size_t k = sizeof digits;
     digits[--k] = 0;
     const bool negative = number < 0;
-    std::uint64_t rest = negative ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
+    std::uint64_t rest =
+        negative ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
     do digits[--k] = static_cast<char>('0' + rest % 10);
     while ((rest /= 10) > 0);
     if (negative) digits[--k] = '-';

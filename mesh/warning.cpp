@@ -26,9 +26,9 @@ std::vector<std::string> summaries(const std::vector<Warning>& warnings) {
   }
   std::vector<std::string> lines;
   for (const Kind& kind : kinds)
-    lines.push_back(kind.n == 1 ? kind.worst->text
-                                : fmt::format("{} {}; the worst: {}", kind.n, kind.worst->kind,
-                                              kind.worst->text));
+    lines.push_back(kind.n == 1
+                        ? kind.worst->text
+                        : fmt::format("{} {}; the worst: {}", kind.n, kind.worst->kind, kind.worst->text));
   return lines;
 }
 

@@ -62,9 +62,9 @@ struct TimeLimit::Watch {
 
 TimeLimit::TimeLimit(double seconds) : watch_(std::make_unique<Watch>()) {
   constexpr double kLongest = 1e9;  // seconds, 30 years: the clock counts nanoseconds
-  const auto end = std::chrono::steady_clock::now() +
-                   std::chrono::duration_cast<std::chrono::nanoseconds>(
-                       std::chrono::duration<double>(std::min(seconds, kLongest)));
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                             std::chrono::duration<double>(std::min(seconds, kLongest)));
   watch_->thread = std::thread([watch = watch_.get(), end, seconds] {
     std::unique_lock lock(watch->mutex);
     if (watch->over.wait_until(lock, end, [&] { return watch->is_over; })) return;

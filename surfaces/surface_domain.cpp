@@ -142,10 +142,9 @@ class DomainBuilder {
   void warn_of_short_curves() {
     for (size_t c = 0; c < chains_.size(); ++c)
       if (const double length = lengths_[c]; length < kShort)
-        warnings_.push_back(
-            {fmt::format("curves shorter than {:g} times the size", kShort), 1 / length,
-             fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
-                         fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum)});
+        warnings_.push_back({fmt::format("curves shorter than {:g} times the size", kShort), 1 / length,
+                             fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
+                                         fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum)});
   }
 
   void set_minima() {

@@ -278,9 +278,8 @@ class Flattener {
              fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
                          mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95)});
     for (int f : result.failed)
-      model_.warnings.push_back(
-          {"faces that could not be flattened", 0,
-           fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
+      model_.warnings.push_back({"faces that could not be flattened", 0,
+                                 fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
   }
 
   SurfaceModel& model_;

@@ -190,7 +190,8 @@ TopoDS_Face polygon(const std::vector<gp_Pnt>& points) {
 }
 
 bool mentions(const SurfaceModel& model, const std::string& text) {
-  return std::ranges::any_of(model.warnings, [&](const Warning& w) { return w.text.find(text) != w.text.npos; });
+  return std::ranges::any_of(model.warnings,
+                             [&](const Warning& w) { return w.text.find(text) != w.text.npos; });
 }
 
 TEST(ReadCad, SewsFacesThatWereNeverJoined) {
