@@ -14,6 +14,7 @@
 #include "cad/tessellate.h"
 #include "cad/weld_faces.h"
 #include "geometry/surface/report_edges.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
 
 namespace delquad {
@@ -135,6 +136,7 @@ CadShape make_product(const std::string& name) {
 }  // namespace cad
 
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
+  const DoingStage stage("reading");
   try {
     return cad::make_model(path.string(), cad::prepare_shape(path, options), options);
   } catch (const InputError& error) {
@@ -146,6 +148,7 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 
 SurfaceModel read_example(const std::string& name, const CadOptions& options) {
   check_example(name);
+  const DoingStage stage("reading");
   return cad::make_model(name, cad::prepare_shape([&] { return cad::make_product(name); }, options), options);
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/surface/curve_chains.h"
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "mesh/box_tree.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
@@ -66,6 +67,7 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 }
 
 SurfaceModel load(const Case& c) {
+  const DoingStage stage("reading");
   if (!c.surface_file.empty() || !c.example.empty()) return read_surface(c);
   if (c.model) {
     const double edge = kPlanarEdge * diagonal_of(*c.model);

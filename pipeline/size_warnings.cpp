@@ -27,12 +27,12 @@ struct CoarseTurns {
   std::string worst;                                        ///< "curve 5"
   double needed = std::numeric_limits<double>::infinity();  ///< least size that gives enough
 
-  /// `angle`: by which an edge of this length turns.
-  void add(int& count, double angle, double length, const std::string& name) {
+  /// `angle`: by which an edge turns; `radius`: of the curvature there.
+  void add(int& count, double angle, double radius, const std::string& name) {
     const double per_turn = kTurn / angle;
     if (!(per_turn < kRounding * kFewPerTurn)) return;
     ++count;
-    needed = std::min(needed, length * per_turn / kFewPerTurn);
+    needed = std::min(needed, radius * kTurn / kFewPerTurn);
     if (!(per_turn < fewest)) return;
     fewest = per_turn;
     worst = name;
@@ -44,8 +44,8 @@ struct CoarseTurns {
     };
     name(curves, "curve");
     name(faces, "face");
-    return fmt::format("{} {} fewer than {:g} edges to a full turn, {} {:.2g}", what,
-                       curves + faces == 1 ? "gets" : "get", kFewPerTurn, worst, fewest);
+    return fmt::format("{} {} fewer than {:g} edges to a full turn, the fewest {:.2g} ({})", what,
+                       curves + faces == 1 ? "gets" : "get", kFewPerTurn, fewest, worst);
   }
 };
 
@@ -88,7 +88,7 @@ void add_curves(const PreparedSurface& surface, CoarseTurns& turns) {
     if (domain.cut_face[curve] >= 0 || domain.nodes.on_curve[c].size() < 2) continue;
     const auto [angle, length] = turning(domain.chains[c], surface.model.fine);
     const double edges = static_cast<double>(domain.nodes.on_curve[c].size() - 1);
-    turns.add(turns.curves, angle / edges, length / edges,
+    turns.add(turns.curves, angle / edges, length / angle,
               fmt::format("curve {}", surface.model.fine.curves[curve].tag));
   }
 }
@@ -118,8 +118,9 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
   for (std::size_t f = 0; f < triangles_of.size(); ++f) {
     const std::vector<int>& triangles = triangles_of[f];
     // A face that turns by less than an element may is well served by one.
-    if (triangles.empty() || 2 * spread_of_normals(fine, triangles) < kTurn / kFewPerTurn) continue;
-    double angle = 0, size_there = 1;
+    const double all = triangles.empty() ? 0 : 2 * spread_of_normals(fine, triangles);
+    if (all < kTurn / kFewPerTurn) continue;
+    double angle = 0, radius = 0;
     for (std::size_t k = 0; k < triangles.size();
          k += std::max<std::size_t>(1, triangles.size() / kSamples)) {
       const auto& v = fine.triangles[triangles[k]];
@@ -129,9 +130,10 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
       const double size = surface.size->at(x, hint);
       if (!(curvature * size > angle)) continue;
       angle = curvature * size;
-      size_there = size;
+      radius = 1 / curvature;
     }
-    if (angle > 0) turns.add(turns.faces, angle, size_there, fmt::format("face {}", fine.regions[f].tag));
+    if (angle > 0)
+      turns.add(turns.faces, std::min(angle, all), radius, fmt::format("face {}", fine.regions[f].tag));
   }
 }
 
@@ -157,7 +159,7 @@ void warn_of_coarse_turns(const PlanarModel& model, const Mesh& boundary, std::v
     if (edges[c] == 0) continue;
     const auto [angle, length] = turning(*model.curves[c].shape, edges[c]);
     const std::string& name = model.curves[c].name;
-    turns.add(turns.curves, angle / edges[c], length / edges[c],
+    turns.add(turns.curves, angle / edges[c], length / angle,
               name.empty() ? fmt::format("curve {}", c + 1) : "'" + name + "'");
   }
   if (turns.curves > 0)

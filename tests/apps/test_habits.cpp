@@ -134,7 +134,8 @@ TEST(Habits, CirclesWithFewEdgesAreTold) {
   const auto mesh = [&](const char* size) {
     return delquad({"mesh", model, "-o", folder / "out.msh", "--size", size}).err;
   };
-  EXPECT_TRUE(contains(mesh("0.1"), "2 curves get fewer than 12 edges to a full turn, 'small' 6"))
+  EXPECT_TRUE(
+      contains(mesh("0.1"), "2 curves get fewer than 12 edges to a full turn, the fewest 6 ('small')"))
       << mesh("0.1");
   EXPECT_TRUE(contains(mesh("0.1"), "a size of 0.052")) << mesh("0.1");
   EXPECT_EQ(lines_in(mesh("0.1")), 1) << mesh("0.1");
