@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// Exit codes of the program, besides kInterrupted.
+/// Exit codes of the program, besides those in interrupt.h.
 inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3,
                      kFacesLeftOut = 4, kUnsound = 5;
 
@@ -47,8 +47,8 @@ int rerun_command(const RerunArguments& arguments);
 
 struct MeshArguments {
   std::filesystem::path model, output, json;
-  std::string size, cross;  ///< empty: as the model says
-  std::string compound;     ///< empty: as the model says
+  std::optional<std::string> size;  ///< else as the model says
+  std::string cross, compound;      ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string quality = kDefaultQuality;
@@ -63,12 +63,12 @@ int mesh_command(const MeshArguments& arguments);
 
 struct MetricsArguments {
   std::filesystem::path mesh, json;
-  std::string size;  ///< empty: none
+  std::optional<std::string> size;
 };
 int metrics_command(const MetricsArguments& arguments);
 
 struct CompareArguments {
-  std::filesystem::path before, after;  ///< folders of results
+  std::filesystem::path before, after;  ///< folders of results, or meshes
   std::vector<std::string> metrics = {"eta_mean", "eta_worst", "d4", "tau", "percent_quads"};
   double tolerance = 0.01;  ///< part of a value by which it may change
 };
@@ -76,7 +76,7 @@ int compare_command(const CompareArguments& arguments);
 
 struct InfoArguments {
   std::filesystem::path model, json;
-  std::string size;  ///< empty: none
+  std::optional<std::string> size;
 };
 int info_command(const InfoArguments& arguments);
 
@@ -86,5 +86,8 @@ struct ExampleArguments {
   bool list = false;
 };
 int example_command(const ExampleArguments& arguments);
+
+/// Version, commit and compiler; with `all` the libraries, too.
+void print_version(bool all);
 
 }  // namespace delquad

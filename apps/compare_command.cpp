@@ -1,12 +1,26 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "io/mesh_io.h"
+#include "metrics/metrics.h"
 #include "sweep/comparison.h"
 
 namespace delquad {
+namespace {
+
+/// The results in a folder, or the metrics of a mesh.
+std::vector<CellRecord> records_of(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return read_records(path);
+  CellRecord record;
+  record.group = "mesh";
+  record.values = evaluate_metrics(read_mesh(path), nullptr).values;
+  return {record};
+}
+
+}  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  const Comparison comparison = compare_records(read_records(arguments.before), read_records(arguments.after),
+  const Comparison comparison = compare_records(records_of(arguments.before), records_of(arguments.after),
                                                 arguments.metrics, arguments.tolerance);
   fmt::print("{}", to_text(comparison));
   return comparison.regressed() ? kRegression : kDone;

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include "apps/commands.h"
 #include "mesh/error.h"
 #include "pipeline/case.h"
 #include "pipeline/interrupt.h"
+#include "pipeline/progress.h"
 #include "pipeline/soundness.h"
 
 namespace delquad {
@@ -23,6 +25,12 @@ constexpr const char* kSizeHelp = "wanted edge length: a number, an expression i
 constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads than this";
 constexpr const char* kThreadsHelp =
     "threads, whatever their number the result is the same; default: all cores";
+constexpr const char* kTimeLimitHelp =
+    "seconds after which the program ends with exit code 1, saying at what, and without a file";
+constexpr const char* kExitCodes =
+    "Exit codes: 0: done. 1: internal error, or time is up (--time-limit), or something got worse (compare,\n"
+    "rerun). 2: bad input. 3: triangles are left among the quads. 4: faces were left out (--keep-going).\n"
+    "5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: terminated.";
 constexpr int kMostThreads = 1024;
 constexpr const char* kUnsoundHelp =
     "write meshes that are not sound (inverted or folded quads, lost parts, ...), marked in the record";
@@ -63,9 +71,35 @@ const CLI::Validator kLength(
     },
     "");
 
-constexpr const char* kExitCodes =
-    "Exit codes: 0; 1 internal error, and for 'compare' and 'rerun' something got worse or is not the same; "
-    "2 bad input; 3 triangles are left; 4 faces were left out; 5 a mesh is not sound; 130 interrupted";
+/// What all commands have in common.
+struct CommonArguments {
+  bool quiet = false, all = false, version = false;
+  double time_limit = 0;             ///< seconds; 0: none
+  std::vector<std::string> help_of;  ///< command to explain
+};
+
+void add_common(CLI::App& app, CommonArguments& common) {
+  // These may stand behind the command, too.
+  app.fallthrough();
+  CLI::Option* quiet = app.add_flag("-q,--quiet", common.quiet, "print nothing but errors");
+  app.add_flag("-v,--verbose", common.all, "print all warnings, not the worst of each kind")->excludes(quiet);
+  app.add_flag("--version", common.version, "print version, commit and compiler; with -v libraries, too");
+  app.add_subcommand("help", "Explain the program or a command")
+      ->add_option("command", common.help_of, "which one")
+      ->expected(0, 1);
+  app.footer(kExitCodes);
+}
+
+void add_time_limit(CLI::App& command, CommonArguments& common) {
+  command.add_option("--time-limit", common.time_limit, kTimeLimitHelp)->check(kLength);
+  command.footer(kExitCodes);
+}
+
+/// Keeps an empty text apart from none.
+CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help) {
+  return command.add_option_function<std::string>(
+      "--size", [&size](const std::string& text) { size = text; }, help);
+}
 
 void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run =
@@ -122,7 +156,7 @@ void add_schema(CLI::App& app) {
   app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
 }
 
-void add_mesh(CLI::App& app, MeshArguments& arguments) {
+void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option("model", arguments.model,
                    "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off) or CAD "
@@ -130,7 +164,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
       ->required();
   mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp or .mesh)")
       ->required();
-  mesh->add_option("--size", arguments.size, kSizeHelp);
+  add_size(*mesh, arguments.size, kSizeHelp);
   mesh->add_option("--curvature", arguments.curvature,
                    "of surfaces: elements per full turn of a curved face or curve")
       ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));
@@ -166,20 +200,22 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
   mesh->add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
+  add_time_limit(*mesh, common);
 }
 
-void add_metrics(CLI::App& app, MetricsArguments& arguments) {
+void add_metrics(CLI::App& app, MetricsArguments& arguments, CommonArguments& common) {
   CLI::App* metrics = app.add_subcommand("metrics", "Measure a mesh");
   metrics->add_option("mesh", arguments.mesh, "mesh file")->required();
-  metrics->add_option("--size", arguments.size, kSizeHelp);
+  add_size(*metrics, arguments.size, kSizeHelp);
   metrics->add_option("--json", arguments.json, "record to write");
+  add_time_limit(*metrics, common);
 }
 
 void add_compare(CLI::App& app, CompareArguments& arguments) {
   CLI::App* compare =
       app.add_subcommand("compare", "Compare the results of two runs; exit code 1 when something got worse");
-  compare->add_option("before", arguments.before, "folder of results")->required();
-  compare->add_option("after", arguments.after, "folder of results to judge")->required();
+  compare->add_option("before", arguments.before, "folder of results, or a mesh")->required();
+  compare->add_option("after", arguments.after, "folder of results, or mesh, to judge")->required();
   compare->add_option("--metrics", arguments.metrics, "keys of records, or 'seconds'")
       ->delimiter(',')
       ->capture_default_str();
@@ -188,28 +224,55 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
       ->capture_default_str();
 }
 
-void add_info(CLI::App& app, InfoArguments& arguments) {
+void add_info(CLI::App& app, InfoArguments& arguments, CommonArguments& common) {
   CLI::App* info = app.add_subcommand("info", "Tell what a model consists of and what is hard to mesh in it");
   info->add_option(
           "model", arguments.model,
           "CAD (.step, .stp, .brep), triangles (.stl, .obj, .off, .msh) or a planar model (.toml, .msh)")
       ->required();
-  info->add_option("--size", arguments.size, "wanted edge length, a number: name what is smaller");
+  add_size(*info, arguments.size, "wanted edge length, a number: name what is smaller");
   info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
+  add_time_limit(*info, common);
 }
 
-void add_example(CLI::App& app, ExampleArguments& arguments) {
+void add_example(CLI::App& app, ExampleArguments& arguments, CommonArguments& common) {
   CLI::App* example = app.add_subcommand("example", "Write a CAD model that the program makes itself");
   CLI::Option* list = example->add_flag("--list", arguments.list, "names of the examples");
   example->add_option("name", arguments.name, "which one")->excludes(list);
   example->add_option("-o,--output", arguments.output, "CAD file to write (.step, .stp or .brep)")
       ->excludes(list);
+  add_time_limit(*example, common);
+}
+
+int run_command_line(int argc, char** argv);
+
+/// As the program and its commands explain themselves.
+int print_help(const CLI::App& app, char* program, std::vector<std::string> command) {
+  std::string known;
+  bool found = command.empty();
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    found = found || sub->get_name() == command[0];
+    known += (known.empty() ? "" : ", ") + sub->get_name();
+  }
+  if (!found) throw InputError("help: there is no command '" + command[0] + "'; known: " + known);
+  command.emplace_back("--help");
+  std::vector<char*> words = {program};
+  for (std::string& word : command) words.push_back(word.data());
+  return run_command_line(static_cast<int>(words.size()), words.data());
+}
+
+/// The standard output goes nowhere, except from commands that do nothing but print.
+void be_quiet(const CLI::App& app, bool only_prints) {
+  set_verbosity(Verbosity::kQuiet);
+  if (only_prints || app.got_subcommand("schema")) return;
+  if (std::freopen("/dev/null", "w", stdout) == nullptr)
+    throw InputError("-q: /dev/null cannot be opened: " + std::generic_category().message(errno));
 }
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
-  app.require_subcommand(1);
-  app.footer(kExitCodes);
+  app.require_subcommand(0, 1);
+  CommonArguments common;
   RunArguments run;
   MeshArguments mesh;
   MetricsArguments metrics;
@@ -219,20 +282,34 @@ int run_command_line(int argc, char** argv) {
   TablesArguments tables;
   RerunArguments rerun;
   ReportArguments report;
+  add_common(app, common);
   add_run(app, run);
   add_records(app, tables, rerun);
   add_report(app, report);
   add_schema(app);
-  add_mesh(app, mesh);
-  add_metrics(app, metrics);
+  add_mesh(app, mesh, common);
+  add_metrics(app, metrics, common);
   add_compare(app, compare);
-  add_info(app, info);
-  add_example(app, example);
+  add_info(app, info, common);
+  add_example(app, example, common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
+  if (common.version) {
+    print_version(common.all);
+    return kDone;
+  }
+  if (app.got_subcommand("help")) return print_help(app, argv[0], common.help_of);
+  if (app.get_subcommands().empty()) {
+    fmt::print(stderr, "error: expected a command; 'delquad help' lists them\n");
+    return kBadInput;
+  }
+  if (common.all) set_verbosity(Verbosity::kAll);
+  if (common.quiet) be_quiet(app, example.list || run.dry_run);
+  std::optional<TimeLimit> limit;
+  if (common.time_limit > 0) limit.emplace(common.time_limit);
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("tables")) return tables_command(tables);
   if (app.got_subcommand("report")) return report_command(report);

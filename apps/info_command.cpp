@@ -10,6 +10,8 @@
 #include "mesh/error.h"
 #include "pipeline/case_file.h"
 #include "pipeline/model_info.h"
+#include "pipeline/progress.h"
+#include "pipeline/size_warnings.h"
 
 namespace delquad {
 namespace {
@@ -17,11 +19,11 @@ namespace {
 /// Rows of a list, and numbers in a row, that fit a terminal.
 constexpr std::size_t kMostRows = 20, kMostTags = 8;
 
-double read_size(const std::string& text) {
-  if (text.empty()) return 0;
-  const auto size = as_number(text);
+double read_size(const std::optional<std::string>& text) {
+  if (!text) return 0;
+  const auto size = as_number(*text);
   if (!size || !(*size > 0) || !std::isfinite(*size))
-    throw InputError("--size " + text + ": expected a finite number > 0");
+    throw InputError("--size " + (text->empty() ? "''" : *text) + ": expected a finite number > 0");
   return *size;
 }
 
@@ -117,9 +119,9 @@ void print_difficulties(const ModelInfo& info, double size) {
                mesh.regions[corner.face].tag, mesh.curves[corner.curves[0]].tag,
                mesh.curves[corner.curves[1]].tag, show_point(corner.at));
   });
-  if (!info.model.warnings.empty()) fmt::print("\nrepaired or suspicious\n");
-  print_rows(info.model.warnings.size(),
-             [&](std::size_t i) { fmt::print("  {}\n", info.model.warnings[i]); });
+  const std::vector<std::string> lines = lines_of(info.model.warnings);
+  if (!lines.empty()) fmt::print("\nrepaired or suspicious\n");
+  for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
 
 }  // namespace
@@ -129,7 +131,8 @@ int info_command(const InfoArguments& arguments) {
   const Case c = read_model_case(arguments.model);
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
-  const ModelInfo info = model_info(c);
+  ModelInfo info = model_info(c);
+  if (size > 0) warn_of_large_size(*make_constant_size(size), info.model.fine, info.model.warnings);
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, [&](std::ostream& out) { out << info_record(info, size); });
   print_overview(info);

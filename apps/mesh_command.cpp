@@ -8,6 +8,7 @@
 #include "apps/print_metrics.h"
 #include "apps/print_surface_report.h"
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
 #include "pipeline/case_file.h"
 #include "pipeline/interrupt.h"
@@ -32,9 +33,11 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
 
 /// The model's sizes, with what the command line says in their place.
 SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
-  if (!arguments.size.empty()) {
+  if (arguments.size) {
+    if (arguments.size->empty())
+      throw InputError("--size: the size is empty: expected a number, an expression or 'boundary'");
     size = {};
-    size.base = arguments.size;
+    size.base = *arguments.size;
     size.where = "--size";
   }
   const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
@@ -74,13 +77,15 @@ int mesh_command(const MeshArguments& arguments) {
   Progress progress(1 + run_steps(word));
   progress.step(c.name + ": boundary and fields");
   const PreparedCase prepared = prepare_case(c);
-  for (const std::string& warning : prepared.warnings) progress.message("warning: " + warning);
+  progress.warn(prepared.warnings);
   RunResult result = run_word(c, prepared, word, progress);
   if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
-  for (const std::string& warning : result.warnings) progress.message("warning: " + warning);
+  std::vector<Warning> warnings = result.warnings;
   for (const std::string& reason : result.soundness.reasons)
-    progress.message("warning: the mesh is not sound: " + reason);
+    warnings.push_back("the mesh is not sound: " + reason);
+  progress.warn(warnings);
   {
+    const DoingStage writing_files("writing");
     const Uninterrupted whole;
     const Stopwatch writing;
     write_mesh(arguments.output, result.mesh);

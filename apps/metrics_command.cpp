@@ -18,11 +18,11 @@ int metrics_command(const MetricsArguments& arguments) {
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");
   std::shared_ptr<const SizeField> size;
-  if (!arguments.size.empty()) size = size_of_mesh(mesh, arguments.size);
+  if (arguments.size) size = size_of_mesh(mesh, *arguments.size);
   const MeshMetrics metrics = evaluate_metrics(mesh, size.get());
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, [&](std::ostream& out) {
-      out << metrics_record(arguments.mesh.string(), arguments.size, metrics);
+      out << metrics_record(arguments.mesh.string(), arguments.size.value_or(""), metrics);
     });
   fmt::print("{}\n", arguments.mesh.string());
   print_metrics(metrics);

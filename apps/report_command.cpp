@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "pipeline/progress.h"
 
 namespace delquad {
 
 int report_command(const ReportArguments& arguments) {
-  for (const std::string& problem : write_report(arguments.folder, arguments.output))
-    fmt::print(stderr, "warning: {}\n", problem);
+  const auto problems = write_report(arguments.folder, arguments.output);
+  if (verbosity() != Verbosity::kQuiet)
+    for (const std::string& problem : problems) fmt::print(stderr, "warning: {}\n", problem);
   fmt::print("report: {}\n", arguments.output.string());
   return kDone;
 }

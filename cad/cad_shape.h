@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/warning.h"
+
 namespace delquad::cad {
 
 /// Names of faces; all instances of a face, wherever they are placed, share them.
@@ -34,7 +36,8 @@ struct CadShape {
   FaceNames names;
   double diagonal = 0;  ///< of the bounding box
   std::string unit;     ///< of lengths; empty: unknown
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
+  std::vector<int> late_faces;  ///< numbers of the faces for which the kernel takes too long, ascending
 };
 
 }  // namespace delquad::cad

@@ -15,7 +15,9 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -25,6 +27,8 @@
 #include "cad/shape_file.h"
 #include "cad/tessellate.h"
 #include "cad/unwind_faces.h"
+#include "cad/watch_kernel.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 
@@ -37,8 +41,11 @@ constexpr double kSewing = 1e-6;
 /// Processor time granted: a hundred times what files need.
 constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
 
-/// First byte of the child's answer.
-constexpr char kShape = 'S', kMessage = 'M';
+/// First byte of the child's answer: what follows it is the shape, a message, or the bytes of the numbers of
+/// the faces that take too long.
+constexpr char kShape = 'S', kMessage = 'M', kLateFaces = 'F', kLateHealing = 'H';
+/// So many times the child begins anew, without what took too long.
+constexpr int kMostTrials = 4;
 
 TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   TopTools_IndexedMapOfShape map;
@@ -87,15 +94,34 @@ void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape&
   }
 }
 
-CadShape prepare(CadShape cad, const CadOptions& options) {
-  check_faces(cad, parts(cad.shape, TopAbs_FACE));
-  cad.diagonal = diagonal_of(cad.shape);
+/// What the child leaves out, having taken too long for it before.
+struct Trial {
+  bool heals = true;
+  std::vector<int> late_faces;  ///< ascending
+};
+
+void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& watch) {
+  if (!heals) {
+    cad.warnings.push_back(
+        fmt::format("checking and healing the shape takes longer than {:g} s: it is taken as it is",
+                    options.healing_seconds));
+    return;
+  }
+  const DoingStage stage(kHealing);
+  const KernelWatch::Healing limited(watch);
   heal_shape(cad, kSewing * cad.diagonal);
   unwind_faces(cad);
+}
+
+CadShape prepare(CadShape cad, const CadOptions& options, const Trial& trial, KernelWatch& watch) {
+  check_faces(cad, parts(cad.shape, TopAbs_FACE));
+  cad.diagonal = diagonal_of(cad.shape);
+  cad.late_faces = trial.late_faces;
+  heal(cad, options, trial.heals, watch);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
-  triangulate(cad.shape, faces, options.deflection * cad.diagonal, options.angle);
+  triangulate(cad, faces, options.deflection * cad.diagonal, options.angle);
   return cad;
 }
 
@@ -105,10 +131,18 @@ void set_kernel_threads() {
   OSD_ThreadPool::DefaultPool()->Init(thread_count());
 }
 
-std::string answer(const std::function<CadShape()>& make, const CadOptions& options) {
+std::string answer(const std::function<CadShape()>& make, const CadOptions& options, const Trial& trial,
+                   const Answer& now) {
+  KernelWatch watch(
+      {options.face_seconds, options.healing_seconds},
+      [&](const std::vector<int>& late) {
+        now(kLateFaces +
+            std::string(reinterpret_cast<const char*>(late.data()), late.size() * sizeof late[0]));
+      },
+      [&] { now({kLateHealing}); });
   try {
     set_kernel_threads();
-    return kShape + to_bytes(prepare(make(), options));
+    return kShape + to_bytes(prepare(make(), options, trial, watch));
   } catch (const Standard_Failure& failure) {
     return kMessage + fmt::format("damaged: the CAD kernel gave up: {} {}", failure.DynamicType()->Name(),
                                   failure.GetMessageString());
@@ -119,11 +153,50 @@ std::string answer(const std::function<CadShape()>& make, const CadOptions& opti
   }
 }
 
+/// The numbers that follow the first byte.
+std::vector<int> numbers_in(const std::string& bytes) {
+  std::vector<int> numbers((bytes.size() - 1) / sizeof(int));
+  std::memcpy(numbers.data(), bytes.data() + 1, numbers.size() * sizeof(int));
+  return numbers;
+}
+
+/// What the child was at when it ended without an answer.
+std::string last_seen(const std::vector<FaceAtWork>& faces) {
+  std::string text;
+  for (const FaceAtWork& face : faces)
+    text +=
+        fmt::format("{}{} {}", text.empty() ? ": at the " + face.stage + " of " : ", ", face.kind, face.tag);
+  return text;
+}
+
 CadShape prepare_apart(const std::function<CadShape()>& make, const CadOptions& options, unsigned seconds) {
-  const auto bytes = run_apart([&] { return answer(make, options); }, seconds);
-  if (!bytes || bytes->empty()) throw InputError("damaged: the CAD kernel crashes or finds no end");
-  if (bytes->front() == kMessage) throw InputError(bytes->substr(1));
-  return from_bytes(bytes->substr(1));
+  Trial trial;
+  for (int n = 0; n < kMostTrials; ++n) {
+    std::vector<FaceAtWork> faces;
+    const auto bytes =
+        run_apart([&](const Answer& now) { return answer(make, options, trial, now); }, seconds, &faces);
+    if (!bytes || bytes->empty())
+      throw InputError("damaged: the CAD kernel crashes or finds no end" + last_seen(faces));
+    const std::vector<int> late = bytes->front() == kLateFaces ? numbers_in(*bytes) : std::vector<int>{};
+    switch (bytes->front()) {
+      case kMessage:
+        throw InputError(bytes->substr(1));
+      case kLateHealing:
+        trial.heals = false;
+        break;
+      case kLateFaces:
+        trial.late_faces.insert(trial.late_faces.end(), late.begin(), late.end());
+        std::ranges::sort(trial.late_faces);
+        break;
+      default:
+        CadShape cad = from_bytes(bytes->substr(1));
+        cad.late_faces = trial.late_faces;
+        return cad;
+    }
+  }
+  throw InputError(
+      fmt::format("cannot be triangulated: faces {}, ... take the CAD kernel longer than {:g} s each",
+                  fmt::join(trial.late_faces, ", "), options.face_seconds));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "cad/agree_faces.h"
@@ -14,8 +13,9 @@
 #include "cad/shape_projector.h"
 #include "cad/tessellate.h"
 #include "cad/weld_faces.h"
+#include "geometry/surface/report_edges.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 
@@ -59,54 +59,50 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   }
 }
 
-std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
-  constexpr int kMostNamed = 10;
-  std::string text;
-  int n = 0;
-  for (std::size_t c = 0; c < listed.size(); ++c) {
-    if (!listed[c]) continue;
-    if (++n <= kMostNamed) text += fmt::format("{}{}", n > 1 ? ", " : "", mesh.curves[c].tag);
+/// Welds the faces; without those whose triangles turn out to be no use, which get the reason.
+WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
+                        std::vector<std::string>& why_not) {
+  for (;;) {
+    WeldedFaces welded = weld_faces(meshes, edges, gap);
+    if (welded.bad_faces.empty()) return welded;
+    for (const int f : welded.bad_faces) {
+      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
+      meshes[f].triangles.clear();
+    }
   }
-  if (n > kMostNamed) text += ", ...";
-  return fmt::format("{} ({})", n, text);
 }
 
-void report_edges(SurfaceModel& model) {
-  const Mesh& mesh = model.fine;
-  std::vector<std::pair<std::array<int, 2>, int>> curve_of;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const auto& [a, b] = mesh.lines[l];
-    curve_of.push_back({{std::min(a, b), std::max(a, b)}, mesh.line_curve[l]});
+/// Names the faces that cannot be used, those with the same reason together.
+[[noreturn]] void refuse(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                         const std::vector<std::string>& why_not) {
+  std::vector<std::pair<std::string, std::string>> lists;
+  for (int f = 0; f < faces.Extent(); ++f) {
+    if (why_not[f].empty()) continue;
+    const std::string title = face_title(f + 1, cad.names.of(faces(f + 1)));
+    const auto at = std::ranges::find(lists, why_not[f], &std::pair<std::string, std::string>::first);
+    if (at == lists.end())
+      lists.emplace_back(why_not[f], title);
+    else
+      at->second += ", " + title;
   }
-  std::ranges::sort(curve_of);
-  std::vector<char> free(mesh.curves.size(), 0), crowded(mesh.curves.size(), 0);
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 2) return;
-    const std::array<int, 2> ends{edge[0].lo, edge[0].hi};
-    const auto at = std::ranges::lower_bound(curve_of, std::pair(ends, 0));
-    if (at == curve_of.end() || at->first != ends) return;
-    (edge.size() == 1 ? free : crowded)[at->second] = 1;
-  });
-  if (std::ranges::count(free, 1) > 0)
-    model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free));
-  if (std::ranges::count(crowded, 1) > 0)
-    model.warnings.push_back("more than two faces meet on curves: " + list_curves(mesh, crowded));
+  std::string text;
+  for (const auto& [reason, list] : lists) text += (text.empty() ? "" : "; ") + reason + ": " + list;
+  throw InputError(text);
 }
 
 SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
                                    edges = parts(cad.shape, TopAbs_EDGE);
-  std::vector<FaceMesh> meshes = face_meshes(cad, faces);
-  WeldedFaces welded = weld_faces(meshes, edges, options.deflection * cad.diagonal);
-  if (!welded.bad_faces.empty()) {
-    std::string list;
-    for (const int f : welded.bad_faces)
-      list += (list.empty() ? "" : ", ") + face_title(f + 1, cad.names.of(faces(f + 1)));
-    throw InputError("cannot be triangulated up to the boundary (does it cross itself?): " + list);
-  }
-
   SurfaceModel model;
+  std::vector<std::string> why_not;
+  std::vector<FaceMesh> meshes = face_meshes(cad, faces, why_not);
+  WeldedFaces welded = weld_usable(meshes, edges, options.deflection * cad.diagonal, why_not);
+  for (int f = 0; f < faces.Extent(); ++f)
+    if (!why_not[f].empty())
+      model.left_out.push_back({f, face_title(f + 1, cad.names.of(faces(f + 1))) + ": " + why_not[f]});
+  if (!model.left_out.empty() && (!options.keep_going || welded.mesh.triangles.empty()))
+    refuse(cad, faces, why_not);
+
   model.source = source;
   model.unit = cad.unit;
   model.warnings = std::move(cad.warnings);
@@ -140,6 +136,7 @@ CadShape make_product(const std::string& name) {
 }  // namespace cad
 
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
+  const DoingStage stage("reading");
   try {
     return cad::make_model(path.string(), cad::prepare_shape(path, options), options);
   } catch (const InputError& error) {
@@ -151,6 +148,7 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 
 SurfaceModel read_example(const std::string& name, const CadOptions& options) {
   check_example(name);
+  const DoingStage stage("reading");
   return cad::make_model(name, cad::prepare_shape([&] { return cad::make_product(name); }, options), options);
 }
 

@@ -4,6 +4,7 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <sstream>
+#include <utility>
 
 namespace delquad::cad {
 
@@ -47,7 +48,7 @@ TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
 std::string to_bytes(const CadShape& cad) {
   std::ostringstream out;
   put(out, cad.diagonal);
-  put(out, cad.warnings);
+  put(out, texts(cad.warnings));
   put(out, std::vector<std::string>{cad.unit});
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
@@ -67,7 +68,7 @@ CadShape from_bytes(const std::string& bytes) {
   std::istringstream shape(bytes.substr(sizeof n_before + n_before));
   BinTools::Read(cad.shape, shape);
   cad.diagonal = get<double>(in);
-  cad.warnings = get_texts(in);
+  for (std::string& text : get_texts(in)) cad.warnings.emplace_back(std::move(text));
   cad.unit = get_texts(in).at(0);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f)

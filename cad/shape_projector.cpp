@@ -63,7 +63,7 @@ class FaceProjector {
     while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface_))
       surface_ = trimmed->BasisSurface();
     elementary_ = as_elementary(surface_);
-    if (elementary_) return;
+    if (elementary_ || face.triangles.empty()) return;
     uv_ = std::move(face.uv);
     triangles_.emplace(std::move(face.points), std::move(face.triangles));
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <IMeshTools_Parameters.hxx>
@@ -12,7 +11,9 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/error.h"
+#include "cad/face_mesher.h"
+#include "cad/watch_kernel.h"
+#include "mesh/activity.h"
 #include "mesh/parallel.h"
 
 namespace delquad::cad {
@@ -45,13 +46,14 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
   return mesh;
 }
 
-bool is_whole(const TopTools_IndexedMapOfShape& faces, int& n_triangles) {
+/// But for the faces in `skipped`.
+bool is_whole(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped, int& n_triangles) {
   n_triangles = 0;
   bool whole = true;
   for (int f = 1; f <= faces.Extent(); ++f) {
     TopLoc_Location place;
     const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place);
-    whole = whole && !triangulation.IsNull();
+    whole = whole && (!triangulation.IsNull() || std::ranges::binary_search(skipped, f));
     if (!triangulation.IsNull()) n_triangles += triangulation->NbTriangles();
   }
   return whole;
@@ -64,50 +66,51 @@ double area(const FaceMesh& mesh) {
   return sum;
 }
 
-void append(std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; }
-
 }  // namespace
 
 std::string face_title(int number, const std::vector<std::string>& names) {
   return names.empty() ? fmt::format("face {}", number) : fmt::format("face {} ({})", number, names.front());
 }
 
-void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
+void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle) {
+  const DoingStage stage(kTriangulation);
   // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
   // may not. Where curves lie on each other no fineness helps, and each trial takes twice the triangles.
   constexpr int kMostTrials = 6, kMostTriangles = 100000, kMostTimes = 8;
   constexpr double kFiner = 0.7;
   int n_triangles = 0, most = kMostTriangles;
   for (int trial = 0; trial < kMostTrials && n_triangles < most; ++trial) {
-    if (trial > 0) BRepTools::Clean(shape);
+    if (trial > 0) BRepTools::Clean(cad.shape);
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
     parameters.Angle = angle * std::pow(kFiner, trial);
     // The smallest sides follow the deflection, or a small edge's own length.
     parameters.AdjustMinSize = true;
     parameters.InParallel = thread_count() > 1;
-    BRepMesh_IncrementalMesh(shape, parameters);
-    if (is_whole(faces, n_triangles)) return;
+    mesh_faces(cad.shape, faces, parameters, cad.late_faces);
+    if (is_whole(faces, cad.late_faces, n_triangles)) return;
     // A large model begins with many.
     if (trial == 0) most = std::max(most, kMostTimes * n_triangles);
   }
 }
 
-std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                  std::vector<std::string>& why_not) {
   std::vector<FaceMesh> meshes;
-  std::string unmeshed, flat;
+  why_not.assign(static_cast<std::size_t>(faces.Extent()), "");
   for (int f = 1; f <= faces.Extent(); ++f) {
-    meshes.push_back(take_triangulation(TopoDS::Face(faces(f))));
-    const std::string title = face_title(f, cad.names.of(faces(f)));
-    if (meshes.back().triangles.empty()) {
-      append(unmeshed, title);
-    } else if (!(area(meshes.back()) > kNoArea * cad.diagonal * cad.diagonal)) {
-      append(flat, title);
-    }
+    FaceMesh mesh = take_triangulation(TopoDS::Face(faces(f)));
+    std::string& reason = why_not[static_cast<std::size_t>(f) - 1];
+    if (std::ranges::binary_search(cad.late_faces, f))
+      reason = "cannot be triangulated in the time that a face may take";
+    else if (mesh.triangles.empty())
+      reason = "cannot be triangulated";
+    else if (!(area(mesh) > kNoArea * cad.diagonal * cad.diagonal))
+      reason = "without area";
+    if (!reason.empty()) mesh.triangles.clear();
+    meshes.push_back(std::move(mesh));
   }
-  if (!unmeshed.empty()) throw InputError("cannot be triangulated: " + unmeshed);
-  if (!flat.empty()) throw InputError("without area: " + flat);
   return meshes;
 }
 

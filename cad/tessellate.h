@@ -24,13 +24,14 @@ struct FaceMesh {
 /// "face 12 (lid)", by its number and first name.
 std::string face_title(int number, const std::vector<std::string>& names);
 
-/// Triangulates the faces of a shape; the kernel keeps the triangulation in the shape. Neighbours have the
-/// same nodes along their edges. `deflection` is a length, `angle` in radians.
-void triangulate(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, double deflection,
+/// Triangulates the faces of a shape, but the late ones; the kernel keeps the triangulation in the shape.
+/// Neighbours have the same nodes along their edges. `deflection` is a length, `angle` in radians.
+void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle);
 
-/// The triangulations of the faces, in the map's order. Throws InputError naming the faces that have none, or
-/// no area.
-std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces);
+/// The triangulations of the faces, in the map's order. `why_not` receives for each why it cannot be used,
+/// having none, or no area; else an empty text. Those that cannot be used have no triangles.
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                  std::vector<std::string>& why_not);
 
 }  // namespace delquad::cad

@@ -138,6 +138,7 @@ class Welder {
   void add_face(int f) {
     const FaceMesh& mesh = faces_[f];
     std::vector<int>& node_of = node_of_.emplace_back(mesh.points.size(), -1);
+    if (mesh.triangles.empty()) return;
     for (TopExp_Explorer edge(mesh.face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); edge.More(); edge.Next()) {
       if (edge.Current().Orientation() != TopAbs_EXTERNAL) add_edge(f, TopoDS::Edge(edge.Current()), node_of);
     }

@@ -27,7 +27,8 @@ struct WeldedFaces {
 
 /// Makes one node of those of all faces that stand for the same point: of an edge by their order along it
 /// (both sides of a seam too), of a vertex, of a degenerate edge. Edges that are degenerate, or seams of one
-/// face, are no curves. `gap`: a length, see repair_face().
+/// face, are no curves. Faces without triangles have none afterwards, and edges of no others are no curves.
+/// `gap`: a length, see repair_face().
 WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
                        double gap);
 

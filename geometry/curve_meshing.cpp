@@ -7,6 +7,7 @@
 
 #include "geometry/arc_measure.h"
 #include "geometry/domain_builder.h"
+#include "geometry/loops_apart.h"
 #include "geometry/model_chain.h"
 #include "geometry/planar_model.h"
 #include "mesh/error.h"
@@ -82,6 +83,29 @@ class CurveMesher {
       if (!loop.region.empty())
         regions.emplace_back(chain_.curve_ends[static_cast<std::size_t>(loop.curves[0])][0], loop.region);
     return regions;
+  }
+
+  /// All edges, each with the loop that its curve is on.
+  std::vector<LoopEdge> loop_edges() const {
+    std::vector<int> loop_of(model_.curves.size(), -1);
+    for (std::size_t l = 0; l < chain_.loops.size(); ++l)
+      for (const int c : chain_.loops[l].curves) loop_of[static_cast<std::size_t>(c)] = static_cast<int>(l);
+    std::vector<LoopEdge> edges;
+    for (const Piece& piece : pieces_) {
+      const auto c = static_cast<std::size_t>(piece.curve);
+      const Curve* shape = model_.curves[c].shape.get();
+      double t = piece.from;
+      Vec2 p = chain_.nodes[static_cast<std::size_t>(piece.ends[0])];
+      for (std::size_t i = 0; i <= piece.interior.size(); ++i) {
+        const bool is_last = i == piece.interior.size();
+        const double next = is_last ? piece.to : piece.interior[i];
+        const Vec2 q = is_last ? chain_.nodes[static_cast<std::size_t>(piece.ends[1])] : shape->point(next);
+        edges.push_back({shape, t, next, p, q, loop_of[c], piece.curve});
+        t = next;
+        p = q;
+      }
+    }
+    return edges;
   }
 
   BoundaryNames names() const {
@@ -203,6 +227,7 @@ PlanarDomain make_domain(const PlanarModel& model, const SizeFunction& size,
                          const CurveMeshOptions& options) {
   const CurveMesher mesher(model, size, options);
   PlanarDomain domain = build_domain(mesher.mesh(), mesher.loop_regions(), mesher.names());
+  check_loops_apart(mesher.loop_edges(), mesher.names());
   domain.places = mesher.places();
   return domain;
 }

@@ -90,7 +90,8 @@ struct DomainOptions {
 /// three nodes, non-finite coordinates, z not constant.
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options = {});
 
-/// The two steps at once: curves meshed, then told apart by nesting, regions named as in the model.
+/// The two steps at once: curves meshed, then told apart by nesting, regions named as in the model. Throws
+/// InputError as both do, and for loops whose curves touch although their edges do not (see loops_apart.h).
 PlanarDomain make_domain(const PlanarModel& model, const SizeFunction& size,
                          const CurveMeshOptions& options = {});
 

@@ -1,9 +1,15 @@
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <cstring>
 #include <fstream>
+#include <mutex>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "io/mesh_io.h"
 #include "mesh/error.h"
@@ -34,16 +40,61 @@ void write_stream(const fs::path& path, const fs::path& shown,
   }
 }
 
+/// Paths of the files that are being written, where a signal handler finds them: no memory that moves.
+struct UnfinishedFile {
+  std::atomic<bool> taken{false}, filled{false};
+  char path[PATH_MAX];
+};
+std::array<UnfinishedFile, 8> unfinished_files;  // some threads may write at a time
+
+/// Held while a file gets its place, and by who ends the process for good.
+std::mutex placing;
+bool any_placed = false;
+
 /// Removes the file unless it has been moved away.
-struct TemporaryFile {
-  fs::path path;
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
+    for (UnfinishedFile& file : unfinished_files) {
+      if (path_.native().size() >= sizeof file.path || file.taken.exchange(true)) continue;
+      std::strcpy(file.path, path_.c_str());
+      file.filled = true;
+      listed_ = &file;
+      break;
+    }
+  }
   ~TemporaryFile() {
     std::error_code ignored;
-    fs::remove(path, ignored);
+    fs::remove(path_, ignored);
+    if (listed_ == nullptr) return;
+    listed_->filled = false;
+    listed_->taken = false;
   }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+  UnfinishedFile* listed_ = nullptr;
 };
 
 }  // namespace
+
+void remove_unfinished_files() noexcept {
+  for (const UnfinishedFile& file : unfinished_files)
+    if (file.filled) unlink(file.path);
+}
+
+bool abandon_files() {
+  placing.lock();
+  if (any_placed) {
+    placing.unlock();
+    return false;
+  }
+  remove_unfinished_files();
+  return true;
+}
 
 fs::path behind_links(fs::path path) {
   constexpr int kMostLinks = 40;  // as in the kernel
@@ -67,11 +118,13 @@ void write_file_atomically(const fs::path& path, const std::function<void(std::o
   const fs::path target = behind_links(path);
   constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
   const std::string stem = target.filename().string().substr(0, kLongestStem);
-  const TemporaryFile temporary{target.parent_path() /
-                                ("." + stem + "." + std::to_string(getpid()) + ".tmp")};
-  write_stream(temporary.path, path, write);
-  fs::rename(temporary.path, target, error);
+  const TemporaryFile temporary(target.parent_path() /
+                                ("." + stem + "." + std::to_string(getpid()) + ".tmp"));
+  write_stream(temporary.path(), path, write);
+  const std::lock_guard lock(placing);
+  fs::rename(temporary.path(), target, error);
   if (error) fail(path, error.value());
+  any_placed = true;
 }
 
 }  // namespace delquad

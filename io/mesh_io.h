@@ -24,6 +24,13 @@ std::filesystem::path behind_links(std::filesystem::path path);
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
+/// Removes the temporary files of write_file_atomically(), for a process that is about to end; safe in signal
+/// handlers.
+void remove_unfinished_files() noexcept;
+/// The same, and keeps every file from getting its place from now on: the process must end next. False, and
+/// nothing happens, once a file got its place.
+bool abandon_files();
+
 /// What an MSH file says of surfaces, whether it has elements on them or not.
 struct MshSurfaces {
   std::vector<std::string> group_names;  ///< of the named groups of dimension 2

@@ -7,6 +7,7 @@
 
 #include "geometry/surface/curve_chains.h"
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "mesh/box_tree.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
@@ -66,6 +67,7 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 }
 
 SurfaceModel load(const Case& c) {
+  const DoingStage stage("reading");
   if (!c.surface_file.empty() || !c.example.empty()) return read_surface(c);
   if (c.model) {
     const double edge = kPlanarEdge * diagonal_of(*c.model);
@@ -177,7 +179,7 @@ std::string info_record(const ModelInfo& info, double size) {
     json["smaller_than_size"] = {{"curves", tags(mesh.curves, small.curves)},
                                  {"faces", tags(mesh.regions, small.faces)}};
   }
-  json["warnings"] = info.model.warnings;
+  json["warnings"] = texts(info.model.warnings);
   // A name need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -7,12 +7,14 @@
 #include <limits>
 
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "pipeline/boundary_report.h"
 #include "pipeline/located_fields.h"
 #include "pipeline/named_domain.h"
 #include "pipeline/perturb.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/size_aware.h"
+#include "pipeline/size_warnings.h"
 #include "pipeline/stopwatch.h"
 
 namespace delquad {
@@ -43,6 +45,7 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
 
 /// A number or an expression as a field; `where` goes in front of messages.
 std::shared_ptr<const SizeField> make_base(const std::string& text, const std::string& where) {
+  if (text.empty()) throw InputError(where + ": the size is empty: expected a number or an expression");
   if (const auto number = as_number(text)) {
     if (!(*number > 0) || *number > std::numeric_limits<double>::max())
       throw InputError(where + ": size " + text + ": expected a finite number > 0");
@@ -168,7 +171,8 @@ PlanarDomain prepare_mesh(const Case& c, const Mesh& mesh, const MshSurfaces& su
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = make_size(spec, [&] { return make_boundary_size(p.background, domain.boundary); });
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
-  for (const std::string& warning : odd_boundaries(domain)) p.warnings.push_back(warning);
+  for (const std::string& line : odd_boundaries(domain))
+    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   return domain;
 }
 
@@ -226,6 +230,7 @@ PreparedCase prepare_surface_case(const Case& c, SurfaceModel model, const Stopw
 
 PreparedCase prepare_case(const Case& c) {
   const Stopwatch reading;
+  const DoingStage stage("reading");
   if (!c.surface_file.empty() || !c.example.empty()) return prepare_surface_case(c, read_surface(c), reading);
   Mesh mesh;
   MshSurfaces surfaces;
@@ -244,16 +249,20 @@ PreparedCase prepare_case(const Case& c) {
     throw InputError((c.size.where.empty() ? c.where : c.size.where) +
                      ": sizes by curvature are for surfaces, and this is a planar domain");
   const Stopwatch watch;
+  const DoingStage meshing_curves("boundary");
   PlanarDomain domain = c.model ? prepare_model(c, p) : prepare_mesh(c, mesh, surfaces, p);
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, c);
   check_holes(c.holes, domain);
+  warn_of_large_size(*p.size, domain.boundary, p.warnings);
+  if (c.model) warn_of_coarse_turns(*c.model, domain.boundary, p.warnings);
   if (c.seed != 0) turn(c, domain, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);
   p.seconds.emplace_back("curves", watch.seconds());
 
   const Stopwatch fields;
+  const DoingStage making_fields("fields");
   const auto cross = make_cross(c, p);
   const double z = p.boundary.points[0].z;
   const auto size = std::make_shared<PlanarSize>(p.size, z);

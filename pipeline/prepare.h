@@ -9,6 +9,8 @@
 
 #include "fields/fields.h"
 #include "geometry/planar_model.h"
+#include "mesh/activity.h"
+#include "mesh/warning.h"
 #include "pipeline/case.h"
 #include "surfaces/surface_domain.h"
 
@@ -60,10 +62,16 @@ struct PreparedCase {
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
   std::vector<FaceFailure> failures;               ///< by face; empty unless options.keep_going
   double expected_quads = 0;                       ///< integral of dA/delta^2
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.
   std::vector<std::pair<std::string, double>> seconds;
 };
+
+/// Tells that this thread works on a patch.
+inline DoingFace doing_patch(const PreparedCase& prepared, std::size_t patch) {
+  return DoingFace(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
+                   prepared.surface ? "face" : "region");
+}
 
 /// Boundary, background mesh and fields of a case. Throws InputError for models and fields that cannot be
 /// meshed, and for a size that would need more than options.max_elements, with the estimate, before that work

@@ -10,10 +10,12 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "io/mesh_io.h"
+#include "mesh/activity.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
 #include "pipeline/perturb.h"
 #include "pipeline/size_aware.h"
+#include "pipeline/size_warnings.h"
 #include "pipeline/stopwatch.h"
 #include "surfaces/surface_domain.h"
 
@@ -118,7 +120,12 @@ SurfaceModel read_surface(const Case& c) {
     if (c.example.empty() && !kCadFiles.count(path.extension().string()))
       return make_model(c.surface, read_mesh(path), path.string());
     check_for_cad(c.surface);
-    return make_compounds(c.surface, c.example.empty() ? read_cad(path) : read_example(c.example));
+    CadOptions options;
+    options.keep_going = c.options.keep_going;
+    SurfaceModel model = c.example.empty() ? read_cad(path, options) : read_example(c.example, options);
+    if (!model.left_out.empty() && !c.surface.where.empty())
+      throw InputError(model.left_out[0].reason + "; compounds need all faces");
+    return make_compounds(c.surface, std::move(model));
   });
 }
 
@@ -137,18 +144,22 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   PreparedCase p;
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   const Stopwatch sizes;
+  const DoingStage measuring("sizes");
   const WantedSize wanted = wanted_size(c.size, model, std::move(size));
   const double size_seconds = sizes.work_seconds();
 
   const Stopwatch maps;
+  const DoingStage flattening_faces("maps");
   improve_triangulation(model);
   refine_for_size(model, wanted);
   Flattening flattening = flatten(model);
   Failures failures(c);
+  for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
   add_unflattened(flattening, model, failures);
   p.seconds.emplace_back("maps", maps.work_seconds());
 
   const Stopwatch curves;
+  const DoingStage meshing_curves("boundary");
   auto surface = std::make_shared<PreparedSurface>();
   surface->cuts = flattening.cuts;
   surface->size = std::make_shared<SurfaceSize>(model, wanted);
@@ -166,17 +177,21 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   p.surface = surface;
   p.warnings = surface->model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
+  warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
+  warn_of_coarse_turns(wanted, *surface, p.warnings);
   p.boundary = surface->domain.boundary;
   p.sharp_corners = surface->domain.sharp_corners;
   p.seconds.emplace_back("curves", curves.work_seconds());
 
   const std::vector<SurfacePatch>& patches = surface->domain.patches;
   const Stopwatch fields;
+  const DoingStage making_fields("fields");
   p.patches.resize(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         const SurfacePatch& patch = patches[i];
+        const DoingFace face(surface->model.fine.regions[patch.map.face].tag);
         p.patches[i] = {
             patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
             std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),

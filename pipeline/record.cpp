@@ -9,9 +9,9 @@
 #include <numbers>
 #include <thread>
 
-#include "build_info.h"
 #include "mesh/parallel.h"
 #include "pipeline/stage_counters.h"
+#include "pipeline/versions.h"
 
 namespace delquad {
 namespace {
@@ -285,10 +285,9 @@ Json failures_json(const PreparedCase& p, const RunResult& result) {
 }
 
 Json versions_json() {
-  return {{"delquad", kVersion},          {"commit", kCommit},     {"build", kBuildType},
-          {"compiler", kCompiler},        {"cgal", kCgalVersion},  {"eigen", kEigenVersion},
-          {"lemon", kLemonVersion},       {"fmt", kFmtVersion},    {"nlohmann_json", kJsonVersion},
-          {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}};
+  Json json = Json::object();
+  for (const auto& [name, version] : versions()) json[name] = version;
+  return json;
 }
 
 void add_origin(Json& json) {
@@ -348,8 +347,8 @@ std::string run_record(const Case& c, const PreparedCase& prepared, const Word& 
   json["options"] = options_json(c);
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);
-  json["warnings"] = prepared.warnings;
-  for (const std::string& warning : result.warnings) json["warnings"].push_back(warning);
+  json["warnings"] = texts(prepared.warnings);
+  for (const Warning& warning : result.warnings) json["warnings"].push_back(warning.text);
   if (result.surface) json["surface"] = surface_json(prepared, *result.surface);
   if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
   const StageLog& log = result.log;

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "geometry/surface/triangle_sides.h"
+#include "mesh/activity.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/error.h"
 #include "mesh/half_edges.h"
@@ -174,6 +175,7 @@ void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vect
                     const std::vector<char>& left_out, StageLog& log) {
   if (!prepared.surface) return;
   const Stopwatch watch;
+  const DoingStage lifting("lifting");
   std::vector<SurfaceTracks::Patch> lifted;
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < patches.size(); ++i)
@@ -183,6 +185,7 @@ void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vect
       which.size(),
       [&](std::size_t k) {
         PatchMesh& patch = patches[which[k]];
+        const DoingFace face = doing_patch(prepared, which[k]);
         if (patch.inside.empty()) patch.inside = places_inside(prepared, which[k], patch, nodes.points);
       },
       [&](std::size_t k) { return static_cast<double>(patches[which[k]].quads.points.size()); });
@@ -211,11 +214,13 @@ int run_steps(const Word& word) { return static_cast<int>(word.stages.size()) + 
 Mesh assemble(const PreparedCase& prepared, const std::vector<Vec3>& nodes,
               const std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog* log) {
   const Stopwatch projection;
+  const DoingStage projecting("projection");
   std::vector<std::vector<Vec3>> inside(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         if (left_out[prepared.patches[i].region]) return;
+        const DoingFace face = doing_patch(prepared, i);
         inside[i] =
             patches[i].inside.empty() ? places_inside(prepared, i, patches[i], nodes) : patches[i].inside;
       },
@@ -263,6 +268,7 @@ void check_insertion(const Case& c, const StageLog& log) {
 
 /// Metrics and, at the same time, the report of a surface; then what both say.
 void measure(const PreparedCase& prepared, const std::vector<char>& left_out, RunResult& result) {
+  const DoingStage measuring("report");
   double metrics_seconds = 0, report_seconds = 0;
   const std::function<void()> parts[] = {
       [&] {
@@ -300,12 +306,14 @@ MeshingState begin_meshing(const PreparedCase& prepared) {
 
 void run_stage(const Stage& stage, const Case& c, const PreparedCase& prepared, MeshingState& state) {
   const Stopwatch watch;
+  const DoingStage running(stage.name.c_str());
   std::vector<PatchMesh>& patches = state.patches;
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         std::string& reason = state.reasons[i];
+        const DoingFace face = doing_patch(prepared, i);
         patches[i].inside.clear();
         if (reason.empty()) reason = run_on_patch(stage, c, prepared, i, patches[i], logs[i]);
       },

@@ -18,7 +18,7 @@ struct RunResult {
   MeshMetrics metrics;
   Soundness soundness;
   StageLog log;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
   int bad_in_corners = 0, bad_elsewhere = 0;
   std::vector<FaceFailure> failures;     ///< by face; empty unless options.keep_going

@@ -8,6 +8,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/point_placement.h"
 #include "fields/size_aware_cross_field.h"
+#include "mesh/activity.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/parallel.h"
 
@@ -86,6 +87,7 @@ void make_crosses_size_aware(PreparedCase& prepared) {
       made.size(),
       [&](std::size_t i) {
         const PreparedPatch& patch = prepared.patches[i];
+        const DoingFace face = doing_patch(prepared, i);
         const auto background = resolve_size(patch);
         const auto field = std::make_shared<SizeAwareCrossField>(background, *patch.size, patch.cross);
         made[i] = {field, expected_dislocations(*background, *patch.cross, *patch.size),

@@ -6,6 +6,7 @@
 
 #include "algorithms/insertion/packing.h"
 #include "algorithms/recombination/greedy.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
 #include "pipeline/prepare.h"
 #include "pipeline/stage_counters.h"
@@ -59,6 +60,7 @@ bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_nod
 
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch recombination;
+  const DoingStage matching("matching");
   RecombineSummary summary;
   patch.quads = recombine(patch.triangles, *make_lemon_solver(), &summary);
   patch.triangles = {};
@@ -68,6 +70,7 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   if (in.options.treatment == Treatment::kNone) return;
 
   const Stopwatch treatment;
+  const DoingStage treating("treatment");
   TreatmentSummary treated;
   QuadPatch result = treat_paper(patch.quads, in.size, in.options.treatment_options, &treated);
   const bool discarded = closes_too_tightly(result, in.boundary.point_node);
@@ -96,6 +99,7 @@ void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& option
 void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   merge_greedily(patch, log, {});
   if (in.options.treatment == Treatment::kNone) return;
+  const DoingStage treating("treatment");
   TreatmentSummary treated;
   patch.quads = treat_by_degrees(patch.quads, in.size, in.options.treatment_options, &treated);
   add_counters(log.treatment, treated);

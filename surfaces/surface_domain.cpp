@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "mesh/activity.h"
 #include "mesh/box_tree.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/error.h"
@@ -72,7 +73,8 @@ class DomainBuilder {
                         face_name(maps_[crossing_])));
     }
     for (const int p : odd)
-      warnings_.push_back(face_name(maps_[p]) + " has an odd boundary that no curve can make even");
+      warnings_.push_back({"faces with an odd boundary that no curve can make even", 0,
+                           face_name(maps_[p]) + " has an odd boundary that no curve can make even"});
     return collect();
   }
 
@@ -83,8 +85,13 @@ class DomainBuilder {
 
   /// Calls work(patch), in parallel.
   void for_each_patch(const std::function<void(size_t)>& work) const {
-    parallel_for(maps_.size(), work,
-                 [&](size_t p) { return static_cast<double>(maps_[p].flat.points.size()); });
+    parallel_for(
+        maps_.size(),
+        [&](size_t p) {
+          const DoingFace face(fine_.regions[maps_[p].face].tag);
+          work(p);
+        },
+        [&](size_t p) { return static_cast<double>(maps_[p].flat.points.size()); });
   }
 
   void measure_curves() {
@@ -136,8 +143,9 @@ class DomainBuilder {
   void warn_of_short_curves() {
     for (size_t c = 0; c < chains_.size(); ++c)
       if (const double length = lengths_[c]; length < kShort)
-        warnings_.push_back(fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
-                                        fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum));
+        warnings_.push_back({fmt::format("curves shorter than {:g} times the size", kShort), 1 / length,
+                             fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
+                                         fine_.curves[chains_[c].curve].tag, length, demands_[c].minimum)});
   }
 
   void set_minima() {
@@ -256,6 +264,7 @@ class DomainBuilder {
       domain.patches.push_back({std::move(maps_[p]), std::move(outlines_[p]), std::move(boundaries_[p]),
                                 std::move(backgrounds[p]), std::move(tube_sizes_[p])});
       SurfacePatch& patch = domain.patches[p];
+      const DoingFace face(fine_.regions[patch.map.face].tag);
       try {
         cap_patch(static_cast<int>(p), domain);
         seed_narrow_places(patch.boundary);
@@ -334,7 +343,7 @@ class DomainBuilder {
   SurfaceNodes nodes_;
   std::vector<PatchBoundary> boundaries_;
   size_t crossing_ = 0;  ///< the last map whose boundary crossed itself
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ struct SurfaceDomain {
   SurfaceNodes nodes;                      ///< those of `boundary`
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even

@@ -168,10 +168,13 @@ bool varies(const Mesh& fine, const SizeField& base) {
 
 }  // namespace
 
+double WantedSize::least_by_curvature(double base_size) const {
+  return min > 0 ? min : kLeastPart * base_size;
+}
+
 double WantedSize::by_curvature(double k, double base_size) const {
-  const double least = min > 0 ? min : kLeastPart * base_size;
   if (!(k > 0)) return base_size;
-  return std::min(base_size, std::max(least, 2 * std::numbers::pi / (k * per_turn)));
+  return std::min(base_size, std::max(least_by_curvature(base_size), 2 * std::numbers::pi / (k * per_turn)));
 }
 
 double WantedSize::in_face(int face, const Vec3& x) const {

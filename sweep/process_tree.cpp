@@ -19,6 +19,7 @@
 #include <system_error>
 #include <utility>
 
+#include "mesh/activity.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "pipeline/peer.h"
@@ -89,6 +90,30 @@ std::string bytes_text(long long bytes) {
   return fmt::format("{:.3g} GiB", static_cast<double>(bytes) / (1LL << 30));
 }
 
+/// What the handler of a process whose time is up must know.
+struct TimeIsUp {
+  int report = -1;
+  char text[200] = {};  ///< "timeout", a line break and what to say
+} time_is_up;
+
+/// Says where the process is, and ends it.
+extern "C" void report_timeout(int) {
+  char text[600];
+  std::size_t n = std::strlen(std::strcpy(text, time_is_up.text));
+  n += describe_doing(text + n, sizeof text - n);
+  [[maybe_unused]] const ssize_t written = write(time_is_up.report, text, n);
+  _exit(1);
+}
+
+/// From now on SIGALRM is report_timeout().
+void report_timeouts(double seconds, int report) {
+  time_is_up.report = report;
+  const auto end = fmt::format_to_n(time_is_up.text, sizeof time_is_up.text - 1,
+                                    "timeout\nnot done after {:g} s (--timeout): ", seconds);
+  *end.out = 0;
+  signal(SIGALRM, report_timeout);
+}
+
 /// The processes that one process has started.
 class Family {
  public:
@@ -132,6 +157,8 @@ class Family {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
     for (const int signal_number : {SIGINT, SIGTERM}) signal(signal_number, SIG_DFL);
+    start_own_activities();
+    if (limits_.seconds > 0) report_timeouts(limits_.seconds, report);
     if (limits_.bytes > 0) {
       const rlimit limit = {static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};
       setrlimit(RLIMIT_DATA, &limit);
@@ -202,8 +229,6 @@ class Family {
       return {report.substr(0, line), report.substr(line + 1)};
     if (!WIFSIGNALED(status)) return {"crash", fmt::format("ended with exit code {}", WEXITSTATUS(status))};
     const int number = WTERMSIG(status);
-    if (number == SIGALRM)
-      return {"timeout", fmt::format("not done after {:g} s (--timeout)", limits_.seconds)};
     return {"crash", fmt::format("ended by signal {} ({}){}", number, strsignal(number),
                                  number == SIGKILL ? ": perhaps the machine ran out of memory" : "")};
   }

@@ -15,8 +15,10 @@
 #include "io/digest.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesh/activity.h"
 #include "mesh/error.h"
 #include "pipeline/case_pictures.h"
+#include "pipeline/progress.h"
 #include "pipeline/runner.h"
 #include "pipeline/stopwatch.h"
 #include "sweep/cell_folder.h"
@@ -64,8 +66,9 @@ struct Work {
   MeshingState state;
 
   void prepare() {
+    const DoingStage preparing("fields");
     prepared = prepare_case(c);
-    for (const std::string& warning : prepared->warnings) say("warning: " + warning);
+    for (const std::string& line : lines_of(prepared->warnings)) say("warning: " + line);
     state = begin_meshing(*prepared);
     try {
       prepare_folder(folder / c.folder);
@@ -76,13 +79,14 @@ struct Work {
   }
 
   void finish(const Cell& cell) {
+    const DoingStage finishing("writing");
     const std::string label = c.folder + " " + cell.word->text;
     const fs::path scratch = peer_scratch(cell.folder);
     const std::string name = c.name + " " + cell.word->text;
     RunResult result = cell.identity.peer != nullptr
                            ? run_peer(*cell.identity.peer, c, *prepared, name, scratch)
                            : finish_meshing(c, *prepared, name, std::move(state));
-    for (const std::string& warning : result.warnings) say("warning: " + warning);
+    for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
     // What others make is shown as it is.
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
     if (!result.soundness.sound())

@@ -9,6 +9,8 @@
 #include <new>
 #include <string>
 
+#include "pipeline/progress.h"
+
 namespace delquad {
 namespace {
 
@@ -20,7 +22,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-SweepProgress::SweepProgress(std::size_t cells) : cells_(cells), shown_(isatty(STDERR_FILENO) != 0) {
+SweepProgress::SweepProgress(std::size_t cells)
+    : cells_(cells), shown_(isatty(STDERR_FILENO) != 0 && verbosity() != Verbosity::kQuiet) {
   void* memory = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   counts_ = new (memory) Counts;

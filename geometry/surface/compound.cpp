@@ -258,7 +258,7 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
 
 /// What became of curves shorter than `length`. `members`: the former curves of each curve.
 void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
-                         const Groups& members, std::vector<std::string>& warnings) {
+                         const Groups& members, std::vector<Warning>& warnings) {
   for (const auto& curves : members) {
     for (const int curve : curves) {
       if (!(lengths[curve] < length)) continue;
@@ -267,8 +267,12 @@ void report_short_curves(const std::vector<Entity>& old, const std::vector<doubl
         if (other != curve) others += fmt::format("{}{}", others.empty() ? "" : ", ", old[other].tag);
       }
       const std::string name = fmt::format("curve {}, {:.3g} long,", old[curve].tag, lengths[curve]);
-      warnings.push_back(others.empty() ? name + " is a short one, but continues no other smoothly"
-                                        : name + " became one with curve " + others);
+      if (others.empty())
+        warnings.push_back({"short curves that continue no other smoothly", 1 / lengths[curve],
+                            name + " is a short one, but continues no other smoothly"});
+      else
+        warnings.push_back({"short curves that became one with others", 1 / lengths[curve],
+                            name + " became one with curve " + others});
     }
   }
 }

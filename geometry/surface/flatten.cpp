@@ -13,6 +13,7 @@
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
+#include "mesh/activity.h"
 #include "mesh/parallel.h"
 
 namespace delquad {
@@ -177,7 +178,10 @@ class Flattener {
     std::vector<Outcome> outcomes(charts.size());
     parallel_for(
         charts.size(),
-        [&](std::size_t i) { outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, round).run(); },
+        [&](std::size_t i) {
+          const DoingFace face(mesh_.regions[charts[i].face].tag);
+          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, round).run();
+        },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
       Chart& chart = charts[i];
@@ -265,16 +269,19 @@ class Flattener {
 
   void report(const Flattening& result) {
     for (const SurfaceCut& c : result.cuts)
-      model_.warnings.push_back(fmt::format("face {}: {} along a new curve {} of length {:.4g}",
-                                            mesh_.regions[c.face].tag, c.divides ? "divided" : "cut open",
-                                            mesh_.curves[c.curve].tag, c.length));
+      model_.warnings.push_back(
+          {"new curves that divide faces or cut them open", c.length,
+           fmt::format("face {}: {} along a new curve {} of length {:.4g}", mesh_.regions[c.face].tag,
+                       c.divides ? "divided" : "cut open", mesh_.curves[c.curve].tag, c.length)});
     for (const FlatPatch& p : result.patches)
       if (p.quality.area_ratio > options_.max_area_ratio || p.quality.sigma_95 > options_.max_sigma)
         model_.warnings.push_back(
-            fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
-                        mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95));
+            {"maps of faces that distort", p.quality.area_ratio * p.quality.sigma_95,
+             fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
+                         mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95)});
     for (int f : result.failed)
-      model_.warnings.push_back(fmt::format("face {}: could not be flattened", mesh_.regions[f].tag));
+      model_.warnings.push_back({"faces that could not be flattened", 0,
+                                 fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
   }
 
   SurfaceModel& model_;

@@ -78,7 +78,7 @@ void turn_over(const Component& component, std::vector<signed char>& turn) {
 
 }  // namespace
 
-void orient_triangles(Mesh& mesh, const std::string& source, std::vector<std::string>& warnings) {
+void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
   const std::vector<int> twin = side_twins(mesh);
   std::vector<signed char> turn(mesh.triangles.size(), -1);
   std::vector<Component> closed;

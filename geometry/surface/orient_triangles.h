@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/warning.h"
 
 namespace delquad {
 
 /// Turns triangles so that neighbours agree, each component as most of its triangles run, closed ones
 /// outwards; see repair_triangles. Each edge must be in one or two triangles.
-void orient_triangles(Mesh& mesh, const std::string& source, std::vector<std::string>& warnings);
+void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/warning.h"
 
 namespace delquad {
 
@@ -26,6 +27,12 @@ class SurfaceProjector {
   }
 };
 
+/// A face that is missing from a model because it cannot be used.
+struct LeftOutFace {
+  int face;            ///< index into SurfaceModel::fine.regions, which has no triangles
+  std::string reason;  ///< names the face
+};
+
 /// A model made of faces that share curves, as a fine conforming triangulation.
 struct SurfaceModel {
   std::string source;  ///< file it was read from, for messages
@@ -40,7 +47,8 @@ struct SurfaceModel {
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;
-  std::vector<std::string> warnings;  ///< what was repaired or looks suspicious
+  std::vector<LeftOutFace> left_out;
+  std::vector<Warning> warnings;  ///< what was repaired or looks suspicious
 };
 
 }  // namespace delquad

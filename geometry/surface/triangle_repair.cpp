@@ -112,7 +112,7 @@ int cut_beside_flat_triangles(Mesh& mesh, const std::vector<int>& flat) {
   return cuts;
 }
 
-void take_out_flat_triangles(Mesh& mesh, std::vector<std::string>& warnings) {
+void take_out_flat_triangles(Mesh& mesh, std::vector<Warning>& warnings) {
   Dropped dropped = keep_triangles(mesh, [&](size_t t) { return !repeats_vertex(mesh.triangles[t]); });
   const auto flat_triangles = [&] {
     std::vector<int> flat;
@@ -134,7 +134,7 @@ void take_out_flat_triangles(Mesh& mesh, std::vector<std::string>& warnings) {
                                  counted(dropped.count + n_flat, "triangle"), show_point(dropped.first)));
 }
 
-void take_out_twins(Mesh& mesh, std::vector<std::string>& warnings) {
+void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<Triangle> keys;
@@ -168,7 +168,7 @@ void check_edges(const Mesh& mesh, const std::string& source) {
 
 /// For each line the number of a side along it. Lines that are no edges go, and those on the edge of an
 /// earlier one.
-std::vector<int> settle_lines(Mesh& mesh, std::vector<std::string>& warnings) {
+std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<int> side_of_line;
   std::vector<char> taken(3 * mesh.triangles.size(), 0);
@@ -197,7 +197,7 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<std::string>& warnings) {
 }
 
 /// Gives each fan at a vertex a vertex of its own.
-void split_vertices(Mesh& mesh, std::vector<std::string>& warnings) {
+void split_vertices(Mesh& mesh, std::vector<Warning>& warnings) {
   const int n_corners = 3 * static_cast<int>(mesh.triangles.size());
   const std::vector<int> twin = side_twins(mesh);
   // Corner 3 t + k is that at the start of side 3 t + k; corners that share a side at their vertex are of one
@@ -241,7 +241,7 @@ void split_vertices(Mesh& mesh, std::vector<std::string>& warnings) {
   }
 }
 
-void close_gaps(Mesh& mesh, double tolerance, std::vector<std::string>& warnings) {
+void close_gaps(Mesh& mesh, double tolerance, std::vector<Warning>& warnings) {
   const PointNames names = names_at_open_edges(mesh, tolerance);
   int welded = 0;
   Vec3 first;
@@ -256,7 +256,7 @@ void close_gaps(Mesh& mesh, double tolerance, std::vector<std::string>& warnings
 }
 
 /// Tells of open edges that nearly meet others.
-void report_gaps(const Mesh& mesh, std::vector<std::string>& warnings) {
+void report_gaps(const Mesh& mesh, std::vector<Warning>& warnings) {
   constexpr double kGap = 1e-5;  // of the diagonal: closer than any element will be small
   const double width = kGap * diagonal(mesh.points);
   const PointNames names = names_at_open_edges(mesh, width);
@@ -302,7 +302,7 @@ double diagonal(const std::vector<Vec3>& points) {
 }
 
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
-                      std::vector<std::string>& warnings) {
+                      std::vector<Warning>& warnings) {
   check_contents(mesh, source);
   close_gaps(mesh, weld_tolerance, warnings);
   take_out_flat_triangles(mesh, warnings);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/warning.h"
 
 namespace delquad {
 
@@ -28,6 +29,6 @@ double diagonal(const std::vector<Vec3>& points);
 /// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles, an
 /// edge in three triangles or more, a surface that cannot be oriented.
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
-                      std::vector<std::string>& warnings);
+                      std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/surface/curve_chains.h"
+#include "geometry/surface/report_edges.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangle_sides.h"
@@ -154,6 +155,7 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   }
   model.fine.regions = entities_of_pieces(model.fine.regions, number_faces(model.fine, twin, cut));
   make_curves(model, twin, cut, angle);
+  report_edges(model);
   return model;
 }
 

@@ -87,6 +87,27 @@ TEST(ExampleCommand, RefusesMistakes) {
   refused({"bracket", "--list"}, "--list");
 }
 
+TEST(ExampleCommand, FewEdgesToATurnAreToldWithWhatHelps) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(delquad({"example", "torus", "-o", folder / "torus.brep"}).exit_code, 0);
+  std::vector<std::string> words = {"mesh", folder / "torus.brep", "-o", folder / "m.msh", "--size", "8"};
+  EXPECT_TRUE(contains(delquad(words).err, "1 face gets fewer than 12 edges to a full turn, the fewest "))
+      << delquad(words).err;
+  EXPECT_TRUE(contains(delquad(words).err, "(face 1): --curvature 12 would help\n")) << delquad(words).err;
+  words.insert(words.end(), {"--curvature", "12"});
+  EXPECT_FALSE(contains(delquad(words).err, "full turn")) << delquad(words).err;
+}
+
+/// The kernel works in a child process, and is seen there.
+TEST(ExampleCommand, TimeLimitEndsTheKernelToo) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(delquad({"example", "wing_body", "-o", folder / "w.brep"}).exit_code, 0);
+  const auto run = delquad({"info", folder / "w.brep", "--time-limit", "0.02"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_TRUE(contains(run.err, "(--time-limit): ")) << run.err;
+  EXPECT_FALSE(contains(run.err, "starting")) << run.err;
+}
+
 TEST(ExampleCommand, ExperimentsTakeExamples) {
   const TemporaryFolder folder;
   std::ofstream(folder / "e.toml")

@@ -148,7 +148,7 @@ TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
 
 TEST(MeshCommand, HelpHasTheExitCodes) {
   const std::string help = delquad({"--help"}).out;
-  for (const char* code : {"3 triangles are left", "4 faces were left out", "5 a mesh is not sound"})
+  for (const char* code : {"3: triangles are left", "4: faces were left out", "5: the mesh is not sound"})
     EXPECT_TRUE(contains(help, code)) << help;
 }
 

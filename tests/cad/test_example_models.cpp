@@ -71,7 +71,7 @@ void expect_topology(const SurfaceModel& model, const Topology& expected) {
   EXPECT_EQ(n.free_sides == 0, expected.free_curves == 0);
   // Nothing had to be healed or turned; open ones are said to be open.
   EXPECT_EQ(model.warnings.size(), expected.free_curves > 0 ? 1u : 0u);
-  for (const std::string& warning : model.warnings) EXPECT_EQ(warning.find("the surface is open"), 0u);
+  for (const Warning& warning : model.warnings) EXPECT_EQ(warning.text.find("the surface is open"), 0u);
   if (expected.free_curves == 0) {
     EXPECT_GT(n.volume, 0);
   }

@@ -25,8 +25,9 @@ struct ProgramResult {
 struct ProgramOptions {
   std::vector<std::string> arguments;
   long long file_size_limit = 0;  ///< bytes; 0: none
-  /// Asked every 10 ms; Ctrl-C is sent once, when it says yes.
+  /// Asked every 10 ms; the signal, Ctrl-C unless it says otherwise, is sent once, when it says yes.
   std::function<bool()> interrupt_when;
+  int interrupt_by = SIGINT;
 };
 
 /// Runs a program; stdout and stderr are kept in `folder` meanwhile.
@@ -60,7 +61,7 @@ inline ProgramResult run_program(const std::string& program, const ProgramOption
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (options.interrupt_when && !interrupted && options.interrupt_when()) {
       interrupted = true;
-      kill(child, SIGINT);
+      kill(child, options.interrupt_by);
     }
     if (std::chrono::steady_clock::now() - start < kPatience) continue;
     kill(child, SIGKILL);

@@ -32,7 +32,7 @@ SurfaceModel model_of(const Mesh& mesh, double feature_angle = 40) {
 
 bool has_warning(const SurfaceModel& model, const std::string& part) {
   return std::any_of(model.warnings.begin(), model.warnings.end(),
-                     [&](const std::string& w) { return w.find(part) != std::string::npos; });
+                     [&](const Warning& w) { return w.text.find(part) != std::string::npos; });
 }
 
 void expect_counts(const SurfaceModel& model, size_t faces, size_t curves, size_t corners) {

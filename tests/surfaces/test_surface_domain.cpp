@@ -25,7 +25,7 @@ namespace surfaces = testing_support;
 
 struct Meshed {
   Mesh mesh;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::vector<SharpCorner> sharp_corners;
 };
 

@@ -209,7 +209,7 @@ TEST_F(Resume, FailuresAreCellsWithReasons) {
           .string();
   const auto result = program({"run", file, "-o", out(), "--timeout", "2", "-j", "2"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("error: long DB: not done after 2 s (--timeout)"), std::string::npos)
+  EXPECT_NE(result.err.find("error: long DB: not done after 2 s (--timeout): "), std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("error: bad DB: "), std::string::npos) << result.err;
   const auto records = read_records(out());
