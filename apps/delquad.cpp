@@ -120,7 +120,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
                    "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off) or CAD "
                    "(.step, .stp, .brep)")
       ->required();
-  mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
+  mesh->add_option("-o,--output", arguments.output,
+                   "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
       ->required();
   mesh->add_option("--size", arguments.size, kSizeHelp);
   mesh->add_option("--curvature", arguments.curvature,
@@ -160,9 +161,10 @@ void add_mesh(CLI::App& app, MeshArguments& arguments) {
   mesh->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
   static const std::map<std::string, MshCurves> curves = {
       {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
-  mesh->add_option("--curves", arguments.msh.curves,
-                   "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
-                   "(the default), or 'all'; deal.II takes none inside")
+  mesh->add_option(
+          "--curves", arguments.msh.curves,
+          "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
+          "(the default), or 'all'; deal.II takes none inside")
       ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
 }
 

@@ -49,8 +49,9 @@ UniqueLabels make_labels(const Mesh& mesh) {
   std::vector<UniqueLabels::Key> keys = keys_of(mesh.curves, 1), of_regions = keys_of(mesh.regions, 2);
   keys.insert(keys.end(), of_regions.begin(), of_regions.end());
   // Names that are tags keep them.
-  std::stable_sort(keys.begin(), keys.end(),
-                   [](const auto& a, const auto& b) { return a.first <= kRegionTag && b.first > kRegionTag; });
+  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
+    return a.first <= kRegionTag && b.first > kRegionTag;
+  });
   return UniqueLabels(keys, {plain, true, kLongestName});
 }
 
@@ -171,8 +172,9 @@ class InpWriter {
       return static_cast<int>(std::find(element.begin(), element.end(), from) - element.begin()) + 1;
     };
     const int n = static_cast<int>(mesh_.triangles.size());
-    return (planar_ ? "S" : "E") + std::to_string(side.element < n ? number_in(mesh_.triangles[side.element])
-                                                                   : number_in(mesh_.quads[side.element - n]));
+    return (planar_ ? "S" : "E") + std::to_string(side.element < n
+                                                      ? number_in(mesh_.triangles[side.element])
+                                                      : number_in(mesh_.quads[side.element - n]));
   }
 
   void write_sets(const char* keyword, Sets& sets) {

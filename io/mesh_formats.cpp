@@ -36,8 +36,10 @@ using Writer = void (*)(const std::filesystem::path&, const Mesh&);
 
 /// Of all formats without options.
 const std::map<std::string, Writer>& writers() {
-  static const std::map<std::string, Writer> all = {{".vtu", write_vtu_with_eta}, {".obj", write_obj},
-                                                    {".inp", write_inp},          {".mesh", write_medit},
+  static const std::map<std::string, Writer> all = {{".vtu", write_vtu_with_eta},
+                                                    {".obj", write_obj},
+                                                    {".inp", write_inp},
+                                                    {".mesh", write_medit},
                                                     {".svg", write_picture}};
   return all;
 }

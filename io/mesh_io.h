@@ -46,13 +46,13 @@ bool fits_msh(std::string_view name);
 // All readers unpack files that are compressed by gzip, and refuse one that holds another format than its
 // name says.
 
-/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles and
-/// quads; physical names and entity tags are kept (a group without a name goes by its number), and so are the
-/// further names that write_msh() leaves; points are ignored, and so are nodes that no other element uses.
-/// Throws InputError with file and line, or byte.
+/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
+/// and quads; physical names and entity tags are kept (a group without a name goes by its number), and so are
+/// the further names that write_msh() leaves; points are ignored, and so are nodes that no other element
+/// uses. Throws InputError with file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces = nullptr);
-/// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces of
-/// more than four vertices are split into triangles.
+/// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
+/// of more than four vertices are split into triangles.
 Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 /// Reads Object File Format text, with or without colours and normals, which are ignored. Faces of more than
 /// four vertices are split into triangles.
@@ -63,8 +63,8 @@ Mesh read_off(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 Mesh read_stl(const std::filesystem::path& path);
 
 /// Reads VTK XML of an unstructured grid: lines, triangles and quads; arrays as text or base64, inline or
-/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu(); files
-/// of other programs have one curve and one region.
+/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
+/// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
 /// Reads Abaqus input: *NODE, *ELEMENT of three and four nodes (shells, membranes, plane elements), ELSET and
 /// NSET. Element sets become names of regions. Node sets that belong to elements' free edges or run between
@@ -74,7 +74,8 @@ Mesh read_inp(const std::filesystem::path& path);
 /// comments.
 Mesh read_medit(const std::filesystem::path& path);
 
-/// Reads by extension: .msh, .obj, .off, .stl, .vtu, .inp, .mesh. InputError for any other, naming those known.
+/// Reads by extension: .msh, .obj, .off, .stl, .vtu, .inp, .mesh. InputError for any other, naming those
+/// known.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.
@@ -90,14 +91,15 @@ struct MshOptions {
 };
 
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
-/// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside it
-/// follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number gets
-/// that number as its tag.
+/// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
+/// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
+/// gets that number as its tag.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {});
 /// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
-/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there means
-/// that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the tags.
+/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there
+/// means that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the
+/// tags.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {});
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would

@@ -80,9 +80,12 @@ class SectionReader {
  private:
   void section(const std::string& name) {
     static const std::map<std::string, void (SectionReader::*)()> readers = {
-        {"MeshFormat", &SectionReader::mesh_format}, {"PhysicalNames", &SectionReader::physical_names},
-        {"Entities", &SectionReader::entities},      {"Nodes", &SectionReader::nodes},
-        {"Elements", &SectionReader::elements},      {"MoreNames", &SectionReader::more_names},
+        {"MeshFormat", &SectionReader::mesh_format},
+        {"PhysicalNames", &SectionReader::physical_names},
+        {"Entities", &SectionReader::entities},
+        {"Nodes", &SectionReader::nodes},
+        {"Elements", &SectionReader::elements},
+        {"MoreNames", &SectionReader::more_names},
         {"PartitionedEntities", &SectionReader::partitioned}};
     const auto reader = readers.find(name);
     if (reader == readers.end()) return skip(name);
@@ -192,20 +195,21 @@ class SectionReader {
   }
 
   void entity(int dim) {
-    const int tag = static_cast<int>(numbers_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
+    const int tag =
+        static_cast<int>(numbers_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
     for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) numbers_.real("a bound of the entity");
     std::vector<int> physicals;
     const long long n_physicals = numbers_.size("the number of the entity's physical tags", 0, INT_MAX);
     for (long long k = 0; k < n_physicals; ++k) {
-      physicals.push_back(
-          std::abs(static_cast<int>(numbers_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
+      physicals.push_back(std::abs(
+          static_cast<int>(numbers_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
     }
     if (dim > 0) {
       const long long n_bounding = numbers_.size("the number of bounding entities", 0, INT_MAX);
       std::vector<int> bounding;
       for (long long k = 0; k < n_bounding; ++k)
-        bounding.push_back(std::abs(
-            static_cast<int>(numbers_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
+        bounding.push_back(std::abs(static_cast<int>(
+            numbers_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
       std::sort(bounding.begin(), bounding.end());
       if (dim == 2) contents_.surface_curves[tag] = std::move(bounding);
     }
@@ -215,7 +219,8 @@ class SectionReader {
   }
 
   Vec3 position() {
-    const double x = numbers_.real("coordinate x"), y = numbers_.real("coordinate y"), z = numbers_.real("coordinate z");
+    const double x = numbers_.real("coordinate x"), y = numbers_.real("coordinate y"),
+                 z = numbers_.real("coordinate z");
     return {x, y, z};
   }
 

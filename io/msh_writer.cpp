@@ -47,8 +47,7 @@ std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
   if (curves == MshCurves::kAll) return chosen;
   const std::vector<char> inside = lines_inside(mesh);
   for (size_t i = 0; i < chosen.size(); ++i)
-    chosen[i] = !inside[i] ||
-                (curves == MshCurves::kNamed && !mesh.curves[mesh.line_curve[i]].names.empty());
+    chosen[i] = !inside[i] || (curves == MshCurves::kNamed && !mesh.curves[mesh.line_curve[i]].names.empty());
   return chosen;
 }
 
