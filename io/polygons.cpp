@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/error.h"
 #include "mesh/predicates.h"
 
 namespace delquad {
@@ -126,6 +127,25 @@ void FaceSplitter::add_face(const std::vector<int>& corners, int region, Mesh& m
   }
   for (const auto& t : triangles) mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
   mesh.triangle_region.insert(mesh.triangle_region.end(), triangles.size(), region);
+}
+
+void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes) {
+  if (mesh.quads.empty()) return;
+  for (size_t i = 0; i < mesh.quads.size(); ++i) {
+    const auto& q = mesh.quads[i];
+    const auto parts =
+        split_polygon({mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]});
+    if (!parts)
+      throw InputError(
+          fmt::format("{}: the quad at ({:.6g}, {:.6g}, {:.6g}): expected one that does not cross "
+                      "itself, to split it into triangles",
+                      source, mesh.points[q[0]].x, mesh.points[q[0]].y, mesh.points[q[0]].z));
+    for (const auto& t : *parts) mesh.triangles.push_back({q[t[0]], q[t[1]], q[t[2]]});
+    mesh.triangle_region.insert(mesh.triangle_region.end(), parts->size(), mesh.quad_region[i]);
+  }
+  notes.push_back(fmt::format("{} quads were split into triangles", mesh.quads.size()));
+  mesh.quads.clear();
+  mesh.quad_region.clear();
 }
 
 void FaceSplitter::note(ReadNotes* notes) const {

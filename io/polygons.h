@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/mesh_io.h"
@@ -14,6 +16,10 @@ namespace delquad {
 /// leads to a hole. Nothing when that is not so, or when it has no area. Indices are those of the corners.
 /// Takes time with the square of their number.
 std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
+
+/// Splits every quad into two triangles, as split_polygon(), for surfaces that are to be meshed. Says so in
+/// `notes`. Throws InputError, which begins with `source`, for a quad that crosses itself or has no area.
+void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes);
 
 /// Adds faces to a mesh as triangles and quads.
 class FaceSplitter {

@@ -10,6 +10,7 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
 #include "pipeline/perturb.h"
@@ -118,6 +119,7 @@ SurfaceModel read_surface(const Case& c) {
     if (c.example.empty() && !kCadFiles.count(kind_of_file(path))) {
       ReadNotes notes;
       Mesh mesh = read_mesh(path, &notes);
+      split_quads(mesh, path.string(), notes);
       SurfaceModel model = make_model(c.surface, std::move(mesh), path.string());
       model.warnings.insert(model.warnings.begin(), notes.begin(), notes.end());
       return model;
