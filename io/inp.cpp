@@ -70,8 +70,9 @@ using Sets = std::map<std::string, std::vector<int>>;
 class InpWriter {
  public:
   InpWriter(TextWriter& out, const Mesh& mesh) : out_(out), mesh_(mesh), labels_(make_labels(mesh)) {
-    planar_ = std::all_of(mesh.points.begin(), mesh.points.end(),
-                          [&](const Vec3& p) { return p.z == mesh.points[0].z; });
+    const bool flat = std::all_of(mesh.points.begin(), mesh.points.end(),
+                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
+    planar_ = flat && area_from_above() >= 0;
   }
 
   void write() {
@@ -89,6 +90,16 @@ class InpWriter {
   }
 
  private:
+  /// Twice the area; less than 0 for a face that looks down, of which plane elements would be inverted.
+  double area_from_above() const {
+    double area = 0;
+    for_each_element(mesh_, [&](int, const auto& v) {
+      for (size_t k = 0; k < v.size(); ++k)
+        area += cross(mesh_.points[v[k]], mesh_.points[v[(k + 1) % v.size()]]).z;
+    });
+    return area;
+  }
+
   void write_renamed() {
     for (const auto& [key, label] : labels_.renamed())
       out_ << "** " << (key.first == kCurveName ? "curve" : "region") << " \"" << one_line(key.second)

@@ -66,9 +66,9 @@ Mesh read_stl(const std::filesystem::path& path);
 /// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
-/// Reads Abaqus input: *NODE, *ELEMENT of three and four nodes (shells, membranes, plane elements), ELSET and
-/// NSET. Element sets become names of regions. Node sets that belong to elements' free edges or run between
-/// regions become curves, as write_inp() writes them.
+/// Reads Abaqus input: *NODE, *ELEMENT of two to four nodes (shells, membranes, plane elements, bars),
+/// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
+/// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 Mesh read_inp(const std::filesystem::path& path);
 /// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
 /// comments.
@@ -106,10 +106,10 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
 /// be one then get numbers, and comments say so.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 /// Abaqus input, as CalculiX takes it, too: numbers of at most 20 characters, shells S4 and S3, or CPS4 and
-/// CPS3 when all z are equal. Every region is an ELSET and an NSET, every curve an NSET and a SURFACE, by its
-/// tag ("region_3", "curve_5") and by each of its names, as far as Abaqus takes them (letters, digits,
-/// underscores); comments have the table. Of plane elements a curve's surface has the sides, of shells the
-/// nodes, whose sides are ELSETs for edge loads ("curve_5_E2").
+/// CPS3 when all z are equal and elements turn left. Every region is an ELSET and an NSET, every curve an
+/// NSET and a SURFACE, by its tag ("region_3", "curve_5") and by each of its names, as far as Abaqus takes
+/// them (letters, digits, underscores); comments have the table. Of plane elements a curve's surface has the
+/// sides, of shells the nodes, and the sides are ELSETs for edge loads ("_curve_5_E2").
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
 /// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
 void write_medit(const std::filesystem::path& path, const Mesh& mesh);

@@ -88,12 +88,12 @@ std::vector<Block> make_blocks(const Mesh& mesh, MshCurves curves) {
   return blocks;
 }
 
-/// Names as they can stand between quotes; Gmsh reads lines of up to 255 bytes.
+/// Names as they can stand between quotes, without control characters; Gmsh reads lines of up to 255 bytes.
 std::string plain(const std::string& name) {
   std::string label = name;
   for (char& c : label) {
     if (c == '"') c = '\'';
-    if (!fits_msh(std::string_view(&c, 1))) c = ' ';
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
   }
   return label;
 }

@@ -143,15 +143,18 @@ void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes) {
     for (const auto& t : *parts) mesh.triangles.push_back({q[t[0]], q[t[1]], q[t[2]]});
     mesh.triangle_region.insert(mesh.triangle_region.end(), parts->size(), mesh.quad_region[i]);
   }
-  notes.push_back(fmt::format("{} quads were split into triangles", mesh.quads.size()));
+  notes.push_back(mesh.quads.size() == 1
+                      ? "1 quad was split into triangles"
+                      : fmt::format("{} quads were split into triangles", mesh.quads.size()));
   mesh.quads.clear();
   mesh.quad_region.clear();
 }
 
 void FaceSplitter::note(ReadNotes* notes) const {
   if (!notes || n_polygons_ == 0) return;
-  notes->push_back(fmt::format("{} faces of more than four vertices were split into {} triangles",
-                               n_polygons_, n_triangles_));
+  notes->push_back(fmt::format("{} of more than four vertices {} split into {} triangles",
+                               n_polygons_ == 1 ? "1 face" : fmt::format("{} faces", n_polygons_),
+                               n_polygons_ == 1 ? "was" : "were", n_triangles_));
 }
 
 }  // namespace delquad

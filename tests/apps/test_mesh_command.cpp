@@ -40,8 +40,9 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
 TEST(MeshCommand, WritesEveryFormatAndMetricsReadsIt) {
   const TemporaryFolder folder;
   // An interface without a name lies inside the mesh.
-  const auto model = write_text(folder / "MODEL.TOML",
-                                kSquareLoop + "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.2 }\n");
+  const auto model = write_text(
+      folder / "MODEL.TOML",
+      kSquareLoop + "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.2 }\nregion = \"core\"\n");
   std::set<std::string> measured;
   for (const char* name : {"a.msh", "b.MSH", "a.vtu", "a.obj", "a.inp", "a.mesh"}) {
     std::vector<std::string> arguments = {"mesh", model, "-o", folder / name, "--size", "0.1"};
@@ -66,9 +67,9 @@ TEST(MeshCommand, SaysWhatAPolygonModelBecame) {
   const auto model = write_text(
       folder / "roof.OBJ", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 3 1\nv 0 2 0\nf 1 2 3 5\nf 3 4 5\nf 1 5 4 3 2\n");
   const ProgramResult result = delquad({"info", model});
-  EXPECT_TRUE(contains(result.out + result.err, "1 quads were split")) << result.out << result.err;
+  EXPECT_TRUE(contains(result.out + result.err, "1 quad was split")) << result.out << result.err;
   EXPECT_TRUE(
-      contains(result.out + result.err, "1 faces of more than four vertices were split into 3 triangles"))
+      contains(result.out + result.err, "1 face of more than four vertices was split into 3 triangles"))
       << result.out << result.err;
 }
 

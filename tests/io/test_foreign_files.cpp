@@ -158,7 +158,7 @@ TEST(Polygons, AreSaidWithTheirNumber) {
   EXPECT_EQ(obj.triangles.size(), 4u);
   EXPECT_EQ(obj.triangle_region.size(), 4u);
   EXPECT_EQ(obj.regions[0].names, (std::vector<std::string>{"roof"}));
-  EXPECT_EQ(notes, (ReadNotes{"1 faces of more than four vertices were split into 3 triangles"}));
+  EXPECT_EQ(notes, (ReadNotes{"1 face of more than four vertices was split into 3 triangles"}));
   const Mesh off = read_mesh(
       write_text(folder / "a.off", "OFF\n5 1 0\n0 0 1\n0 2 1\n0 2 2\n0 1 3\n0 0 2\n5 0 1 2 3 4\n"), &notes);
   EXPECT_EQ(off.triangles.size(), 3u);

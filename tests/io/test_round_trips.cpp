@@ -162,7 +162,7 @@ TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
   mesh.quad_region = {0, 1, 2};
   mesh.curves[1].names = {"curve_3"};
   mesh.curves[2].names = {};
-  mesh.curves[3].names = {"say \"x\"", "two\nlines"};
+  mesh.curves[3].names = {"say \"x\"", "two\nlines\x01"};
   write_msh(folder / "a.msh", mesh);
   const std::string text = read_text(folder / "a.msh");
   EXPECT_EQ(
@@ -171,7 +171,7 @@ TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
       "2 6 \"colour #FF0000\"\n2 7 \"product\"\n")
       << "the name that tells most; names that a group has otherwise stay different";
   EXPECT_EQ(section(text, "MoreNames"),
-            "$MoreNames\n4\n1 4 \"two lines\"\n2 1 \"product\"\n2 1 \"colour #FF0000\"\n2 2 \"product\"\n");
+            "$MoreNames\n4\n1 4 \"two lines \"\n2 1 \"product\"\n2 1 \"colour #FF0000\"\n2 2 \"product\"\n");
 }
 
 TEST(MshWriter, LeavesOutLinesInside) {

@@ -111,6 +111,14 @@ TEST(AbaqusInp, NamesBecomeLabels) {
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
 }
 
+TEST(AbaqusInp, AFaceThatLooksDownIsAShell) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 2);
+  for (auto& quad : mesh.quads) std::swap(quad[1], quad[3]);
+  write_inp(folder / "a.inp", mesh);
+  EXPECT_NE(read_text(folder / "a.inp").find("TYPE=S4\n"), std::string::npos);
+}
+
 TEST(AbaqusInp, NumbersFitCalculix) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(1, 1, 100, 100);
