@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/mesh_io.h"
 #include "mesh/parallel.h"
 #include "pipeline/case.h"
 #include "pipeline/quality.h"
@@ -58,6 +59,7 @@ struct MeshArguments {
   bool allow_triangles = false;
   bool allow_unsound = false;
   bool keep_going = false;  ///< leave faces out that cannot be meshed
+  MshOptions msh{false, MshCurves::kNamed};
 };
 int mesh_command(const MeshArguments& arguments);
 

@@ -162,7 +162,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off) or CAD "
                    "(.step, .stp, .brep)")
       ->required();
-  mesh->add_option("-o,--output", arguments.output, "mesh to write (.msh, .vtu, .obj, .inp or .mesh)")
+  mesh->add_option("-o,--output", arguments.output,
+                   "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
       ->required();
   add_size(*mesh, arguments.size, kSizeHelp);
   mesh->add_option("--curvature", arguments.curvature,
@@ -199,6 +200,14 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
   mesh->add_flag("--keep-going", arguments.keep_going,
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
+  mesh->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  static const std::map<std::string, MshCurves> curves = {
+      {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
+  mesh->add_option(
+          "--curves", arguments.msh.curves,
+          "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
+          "(the default), or 'all'; deal.II takes none inside")
+      ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
   mesh->add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
   add_time_limit(*mesh, common);
 }

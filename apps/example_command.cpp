@@ -12,7 +12,7 @@ namespace delquad {
 namespace {
 
 CadFormat format_of(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+  const std::string extension = kind_of_file(path);
   if (extension == ".step" || extension == ".stp") return CadFormat::kStep;
   if (extension == ".brep") return CadFormat::kBrep;
   throw InputError(path.string() + ": unknown CAD format '" + extension + "'; known: .step, .stp, .brep");

@@ -57,7 +57,7 @@ SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
 
 int mesh_command(const MeshArguments& arguments) {
   set_thread_count(arguments.threads);
-  check_mesh_format(arguments.output);
+  check_mesh_format(arguments.output, arguments.msh);
   const Quality& quality = quality_named(arguments.quality);
   const Word word = parse_word(arguments.pipeline.value_or(quality.word));
   Case c = read_model_case(arguments.model);
@@ -88,7 +88,7 @@ int mesh_command(const MeshArguments& arguments) {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
     const Stopwatch writing;
-    write_mesh(arguments.output, result.mesh);
+    write_mesh(arguments.output, result.mesh, arguments.msh);
     result.log.add_seconds("write", writing.work_seconds());
     if (!arguments.json.empty())
       write_file_atomically(arguments.json,

@@ -14,7 +14,9 @@ namespace delquad {
 int metrics_command(const MetricsArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
-  const Mesh mesh = read_mesh(arguments.mesh);
+  ReadNotes notes;
+  const Mesh mesh = read_mesh(arguments.mesh, &notes);
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");
   std::shared_ptr<const SizeField> size;

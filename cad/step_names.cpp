@@ -19,6 +19,8 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include "mesh/mesh.h"
+
 namespace delquad::cad {
 
 namespace {
@@ -68,7 +70,7 @@ FaceNames step_names(const STEPControl_Reader& reader) {
     Quantity_Color colour;
     if (!styles.GetColors(style, surface, boundary, curve, render, transparency, is_component)) continue;
     if (surface.IsNull() || !STEPConstruct_Styles::DecodeColor(surface, colour)) continue;
-    add(style->Item(), fmt::format("colour {}", Quantity_Color::ColorToHex(colour).ToCString()));
+    add(style->Item(), fmt::format("{}{}", kColourName, Quantity_Color::ColorToHex(colour).ToCString() + 1));
   }
   return names;
 }

@@ -1,9 +1,14 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "mesh/half_edges.h"
 
 namespace delquad {
 
@@ -11,127 +16,218 @@ namespace {
 
 /// Numbers on one line of a set, which may have no more.
 constexpr int kNumbersPerLine = 16;
-/// The longest name that Abaqus takes.
-constexpr size_t kLongestName = 80;
+/// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
+constexpr size_t kLongestName = 60;
+/// Characters of a number; CalculiX cuts off what follows, perhaps within the exponent.
+constexpr size_t kLongestNumber = 20;
+/// Part of the model's diagonal below which a coordinate is zero: some hundred steps of a double there, what
+/// rotations and projections leave of zeros.
+constexpr double kNegligible = 1e-13;
+
+/// What a label is the name of.
+enum Kind { kCurveTag, kRegionTag, kCurveName, kRegionName };
 
 /// A label as Abaqus takes it: letters, digits and underscores, beginning with a letter; letters of other
-/// alphabets become underscores. Labels that would be one, Abaqus being blind to case, get numbers.
-class Labels {
+/// alphabets become underscores.
+std::string plain(const std::string& name) {
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  std::string label = name.empty() || !is_letter(name[0]) ? "SET_" : "";
+  for (const char c : name) label += is_letter(c) || (c >= '0' && c <= '9') ? c : '_';
+  return label;
+}
+
+std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
+  std::vector<UniqueLabels::Key> keys;
+  for (const Entity& entity : entities) {
+    keys.emplace_back(dim == 1 ? kCurveTag : kRegionTag, tag_label(dim, entity.tag));
+    for (const std::string& name : entity.names) keys.emplace_back(dim == 1 ? kCurveName : kRegionName, name);
+  }
+  return keys;
+}
+
+UniqueLabels make_labels(const Mesh& mesh) {
+  std::vector<UniqueLabels::Key> keys = keys_of(mesh.curves, 1), of_regions = keys_of(mesh.regions, 2);
+  keys.insert(keys.end(), of_regions.begin(), of_regions.end());
+  // Names that are tags keep them.
+  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
+    return a.first <= kRegionTag && b.first > kRegionTag;
+  });
+  return UniqueLabels(keys, {plain, true, kLongestName});
+}
+
+std::string number(double x, double negligible) {
+  if (std::abs(x) < negligible) return "0";
+  char digits[32];
+  char* end = std::to_chars(digits, digits + sizeof digits, x).ptr;
+  for (int n = 17; end - digits > static_cast<std::ptrdiff_t>(kLongestNumber); --n)
+    end = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr;
+  return {digits, end};
+}
+
+/// Members of a set by its label.
+using Sets = std::map<std::string, std::vector<int>>;
+
+class InpWriter {
  public:
-  const std::string& of(const std::string& name) {
-    const auto [it, is_new] = label_of_.try_emplace(name);
-    if (is_new) it->second = unused(plain(name));
-    return it->second;
+  InpWriter(TextWriter& out, const Mesh& mesh) : out_(out), mesh_(mesh), labels_(make_labels(mesh)) {
+    const bool flat = std::all_of(mesh.points.begin(), mesh.points.end(),
+                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
+    planar_ = flat && area_from_above() >= 0;
+  }
+
+  void write() {
+    out_ << "*HEADING\nQuad mesh by Delquad\n";
+    write_renamed();
+    write_nodes();
+    int n = 0;
+    write_elements(planar_ ? "CPS3" : "S3", mesh_.triangles, n);
+    write_elements(planar_ ? "CPS4" : "S4", mesh_.quads, n);
+    collect_regions();
+    collect_curves();
+    for (auto* sets : {&element_sets_, &sides_}) write_sets("ELSET", *sets);
+    write_sets("NSET", node_sets_);
+    write_surfaces();
   }
 
  private:
-  static std::string plain(const std::string& name) {
-    const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
-    std::string label = name.empty() || !is_letter(name[0]) ? "SET_" : "";
-    for (const char c : name) label += is_letter(c) || (c >= '0' && c <= '9') ? c : '_';
-    return label.substr(0, kLongestName - 10);
+  /// Twice the area; less than 0 for a face that looks down, of which plane elements would be inverted.
+  double area_from_above() const {
+    double area = 0;
+    for_each_element(mesh_, [&](int, const auto& v) {
+      for (size_t k = 0; k < v.size(); ++k)
+        area += cross(mesh_.points[v[k]], mesh_.points[v[(k + 1) % v.size()]]).z;
+    });
+    return area;
   }
-  std::string unused(const std::string& label) {
-    const auto upper = [](std::string text) {
-      for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-      return text;
+
+  void write_renamed() {
+    for (const auto& [key, label] : labels_.renamed())
+      out_ << "** " << (key.first == kCurveName ? "curve" : "region") << " \"" << one_line(key.second)
+           << "\" is " << label << '\n';
+  }
+
+  void write_nodes() {
+    const double negligible = kNegligible * diagonal(mesh_);
+    out_ << "*NODE\n";
+    for (size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Vec3& p = mesh_.points[i];
+      out_ << i + 1;
+      for (const double x : {p.x, p.y, p.z}) out_ << ", " << number(x, negligible);
+      out_ << '\n';
+    }
+  }
+
+  template <size_t N>
+  void write_elements(const char* type, const std::vector<std::array<int, N>>& elements, int& n) {
+    if (elements.empty()) return;
+    out_ << "*ELEMENT, TYPE=" << type << '\n';
+    for (const auto& element : elements) {
+      out_ << ++n;
+      for (const int v : element) out_ << ", " << v + 1;
+      out_ << '\n';
+    }
+  }
+
+  std::vector<std::string> labels_of(const Entity& entity, int dim) const {
+    std::vector<std::string> all;
+    for (const auto& key : keys_of({entity}, dim)) all.push_back(labels_.of(key));
+    return all;
+  }
+
+  static void add(Sets& sets, const std::string& label, const std::vector<int>& numbers) {
+    std::vector<int>& all = sets[label];
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+
+  void collect_regions() {
+    std::vector<std::vector<int>> elements(mesh_.regions.size()), nodes(mesh_.regions.size());
+    int n = 0;
+    const auto collect = [&](const auto& all, const std::vector<int>& region_of) {
+      for (size_t i = 0; i < all.size(); ++i) {
+        elements[region_of[i]].push_back(++n);
+        for (const int v : all[i]) nodes[region_of[i]].push_back(v + 1);
+      }
     };
-    std::string candidate = label;
-    for (int k = 2; !used_.insert(upper(candidate)).second; ++k) candidate = label + "_" + std::to_string(k);
-    return candidate;
+    collect(mesh_.triangles, mesh_.triangle_region);
+    collect(mesh_.quads, mesh_.quad_region);
+    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
+      if (elements[r].empty()) continue;
+      for (const std::string& label : labels_of(mesh_.regions[r], 2)) {
+        add(element_sets_, label, elements[r]);
+        add(node_sets_, label, nodes[r]);
+      }
+    }
   }
 
-  std::map<std::string, std::string> label_of_;
-  std::set<std::string> used_;
-};
-
-void write_numbers(TextWriter& out, const std::vector<int>& numbers) {
-  for (size_t i = 0; i < numbers.size(); ++i) {
-    const bool last = i + 1 == numbers.size() || (i + 1) % kNumbersPerLine == 0;
-    out << numbers[i] << (last ? "\n" : ", ");
+  /// Nodes of curves; of lines on the boundary the element's side, too.
+  void collect_curves() {
+    const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
+    for (size_t i = 0; i < mesh_.lines.size(); ++i) {
+      const std::vector<int> nodes = {mesh_.lines[i][0] + 1, mesh_.lines[i][1] + 1};
+      const auto at_line = sides_of_edge(sides, mesh_.lines[i][0], mesh_.lines[i][1]);
+      for (const std::string& label : labels_of(mesh_.curves[mesh_.line_curve[i]], 1)) {
+        add(node_sets_, label, nodes);
+        if (at_line.size() != 1) continue;
+        add(surface_nodes_, label, nodes);
+        const std::string side = side_name(at_line[0]);
+        add(sides_, "_" + label + "_" + side, {at_line[0].element + 1});
+        sides_of_[label].insert(side);
+      }
+    }
   }
-}
 
-/// Elements or nodes by the name of the group that holds them, ascending; an entity without a name is its own
-/// group, called by its kind and tag.
-using Groups = std::map<std::string, std::vector<int>>;
+  /// The k-th side lies between the k-th node and the next.
+  std::string side_name(const HalfEdge& side) const {
+    const auto number_in = [&](const auto& element) {
+      const int from = side.forward ? side.lo : side.hi;
+      return static_cast<int>(std::find(element.begin(), element.end(), from) - element.begin()) + 1;
+    };
+    const int n = static_cast<int>(mesh_.triangles.size());
+    return (planar_ ? "S" : "E") + std::to_string(side.element < n
+                                                      ? number_in(mesh_.triangles[side.element])
+                                                      : number_in(mesh_.quads[side.element - n]));
+  }
 
-void add(Groups& groups, const Entity& entity, const char* kind, const std::vector<int>& numbers) {
-  const auto add_to = [&](const std::string& name) {
-    groups[name].insert(groups[name].end(), numbers.begin(), numbers.end());
-  };
-  for (const std::string& name : entity.names) add_to(name);
-  if (entity.names.empty()) add_to(kind + std::to_string(entity.tag));
-}
+  void write_sets(const char* keyword, Sets& sets) {
+    for (auto& [label, numbers] : sets) {
+      out_ << '*' << keyword << ", " << keyword << '=' << label << '\n';
+      write_numbers(numbers, kNumbersPerLine);
+    }
+  }
 
-void write_sets(TextWriter& out, const char* keyword, Groups& groups) {
-  Labels labels;
-  for (auto& [name, numbers] : groups) {
+  void write_numbers(std::vector<int>& numbers, size_t per_line) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    out << '*' << keyword << ", " << keyword << '=' << labels.of(name) << '\n';
-    write_numbers(out, numbers);
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      const bool last = i + 1 == numbers.size() || (i + 1) % per_line == 0;
+      out_ << numbers[i] << (last ? "\n" : ", ");
+    }
   }
-}
 
-template <size_t N>
-void write_elements(TextWriter& out, const char* type, const std::vector<std::array<int, N>>& elements,
-                    int& number) {
-  if (elements.empty()) return;
-  out << "*ELEMENT, TYPE=" << type << '\n';
-  for (const auto& element : elements) {
-    out << ++number;
-    for (const int v : element) out << ", " << v + 1;
-    out << '\n';
+  /// Abaqus and CalculiX call the sides of shells by different names, but both know surfaces of nodes.
+  void write_surfaces() {
+    for (auto& [label, nodes] : surface_nodes_) {
+      out_ << "*SURFACE, NAME=" << label << ", TYPE=" << (planar_ ? "ELEMENT" : "NODE") << '\n';
+      if (!planar_) write_numbers(nodes, 1);
+      for (const std::string& side : sides_of_[label])
+        if (planar_) out_ << '_' << label << '_' << side << ", " << side << '\n';
+    }
   }
-}
 
-template <size_t N>
-void add_nodes(std::vector<std::vector<int>>& nodes, const std::vector<std::array<int, N>>& elements,
-               const std::vector<int>& entity_of) {
-  for (size_t i = 0; i < elements.size(); ++i)
-    for (const int v : elements[i]) nodes[entity_of[i]].push_back(v + 1);
-}
-
-void write(TextWriter& out, const Mesh& mesh) {
-  const bool planar = std::all_of(mesh.points.begin(), mesh.points.end(),
-                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
-  out << "*HEADING\nQuad mesh by Delquad\n*NODE\n";
-  for (size_t i = 0; i < mesh.points.size(); ++i) {
-    const Vec3& p = mesh.points[i];
-    out << i + 1 << ", " << p.x << ", " << p.y << ", " << p.z << '\n';
-  }
-  int number = 0;
-  write_elements(out, planar ? "CPS3" : "S3", mesh.triangles, number);
-  write_elements(out, planar ? "CPS4" : "S4", mesh.quads, number);
-
-  std::vector<std::vector<int>> elements_of(mesh.regions.size()), nodes_of(mesh.regions.size()),
-      nodes_on(mesh.curves.size());
-  number = 0;
-  for (const int region : mesh.triangle_region) elements_of[region].push_back(++number);
-  for (const int region : mesh.quad_region) elements_of[region].push_back(++number);
-  add_nodes(nodes_of, mesh.triangles, mesh.triangle_region);
-  add_nodes(nodes_of, mesh.quads, mesh.quad_region);
-  add_nodes(nodes_on, mesh.lines, mesh.line_curve);
-  Groups element_sets, node_sets;
-  for (size_t r = 0; r < mesh.regions.size(); ++r) {
-    if (elements_of[r].empty()) continue;
-    add(element_sets, mesh.regions[r], "region ", elements_of[r]);
-    add(node_sets, mesh.regions[r], "region ", nodes_of[r]);
-  }
-  for (size_t c = 0; c < mesh.curves.size(); ++c) {
-    if (!nodes_on[c].empty()) add(node_sets, mesh.curves[c], "curve ", nodes_on[c]);
-  }
-  write_sets(out, "ELSET", element_sets);
-  write_sets(out, "NSET", node_sets);
-}
+  TextWriter& out_;
+  const Mesh& mesh_;
+  const UniqueLabels labels_;
+  bool planar_ = false;
+  Sets element_sets_, node_sets_, sides_, surface_nodes_;
+  std::map<std::string, std::set<std::string>> sides_of_;
+};
 
 }  // namespace
 
 void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
   write_file_atomically(path, [&](std::ostream& stream) {
     TextWriter out(stream);
-    write(out, mesh);
+    InpWriter(out, mesh).write();
     out.flush();
   });
 }

@@ -1,3 +1,4 @@
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 
@@ -8,7 +9,7 @@ namespace {
 void write_names(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
   for (const Entity& entity : entities)
     for (const std::string& name : entity.names)
-      out << "# " << kind << ' ' << entity.tag << ": " << name << '\n';
+      out << "# " << kind << ' ' << entity.tag << ": " << one_line(name) << '\n';
 }
 
 template <size_t N>

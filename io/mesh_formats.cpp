@@ -3,19 +3,13 @@
 #include <map>
 
 #include "io/mesh_io.h"
+#include "io/picture.h"
 #include "mesh/error.h"
 #include "metrics/metrics.h"
 
 namespace delquad {
 
 namespace {
-
-std::string extension(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return text;
-}
 
 [[noreturn]] void unknown(const std::filesystem::path& path, const char* known) {
   throw InputError(path.string() + ": unknown kind of mesh file '" + path.extension().string() +
@@ -30,35 +24,59 @@ void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh) {
   write_vtu(path, mesh, {{"eta", eta}});
 }
 
+/// A plane mesh is seen from above, one in space from a corner.
+void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
+  const bool planar = std::all_of(mesh.points.begin(), mesh.points.end(),
+                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
+  (planar ? draw_mesh : draw_surface)(path, mesh, path.stem().string());
+}
+
+constexpr const char* kMsh = ".msh";
 using Writer = void (*)(const std::filesystem::path&, const Mesh&);
 
+/// Of all formats without options.
 const std::map<std::string, Writer>& writers() {
-  static const std::map<std::string, Writer> all = {{".msh", write_msh},
-                                                    {".vtu", write_vtu_with_eta},
+  static const std::map<std::string, Writer> all = {{".vtu", write_vtu_with_eta},
                                                     {".obj", write_obj},
                                                     {".inp", write_inp},
-                                                    {".mesh", write_medit}};
+                                                    {".mesh", write_medit},
+                                                    {".svg", write_picture}};
   return all;
+}
+
+/// kind_of_file() looks behind .gz, but nothing is written packed.
+std::string kind_to_write(const std::filesystem::path& path) {
+  const std::string kind = kind_of_file(path);
+  return kind_of_file("x" + path.extension().string()) == kind ? kind : ".gz";
 }
 
 }  // namespace
 
-Mesh read_mesh(const std::filesystem::path& path) {
-  const std::string kind = extension(path);
-  if (kind == ".msh") return read_msh(path);
-  if (kind == ".obj") return read_obj(path);
-  if (kind == ".off") return read_off(path);
+Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
+  const std::string kind = kind_of_file(path);
+  if (kind == kMsh) return read_msh(path);
+  if (kind == ".obj") return read_obj(path, notes);
+  if (kind == ".off") return read_off(path, notes);
   if (kind == ".stl") return read_stl(path);
-  unknown(path, ".msh, .obj, .off or .stl");
+  if (kind == ".vtu") return read_vtu(path);
+  if (kind == ".inp") return read_inp(path);
+  if (kind == ".mesh") return read_medit(path);
+  unknown(path, ".msh, .obj, .off, .stl, .vtu, .inp or .mesh");
 }
 
-void check_mesh_format(const std::filesystem::path& path) {
-  if (!writers().count(extension(path))) unknown(path, ".msh, .vtu, .obj, .inp or .mesh");
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options) {
+  const std::string kind = kind_to_write(path);
+  if (kind == kMsh) return;
+  if (!writers().count(kind)) unknown(path, ".msh, .vtu, .obj, .inp, .mesh or .svg");
+  if (options.binary)
+    throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
 
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
-  check_mesh_format(path);
-  writers().at(extension(path))(path, mesh);
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
+  check_mesh_format(path, options);
+  const std::string kind = kind_to_write(path);
+  if (kind == kMsh) return write_msh(path, mesh, options);
+  writers().at(kind)(path, mesh);
 }
 
 }  // namespace delquad

@@ -41,46 +41,90 @@ struct MshSurfaces {
   std::vector<Surface> surfaces;  ///< those that 4.1 lists with their curves
 };
 
+/// The path's extension in small letters, such as ".stl"; for "part.STL.gz" it is ".stl", too.
+std::string kind_of_file(const std::filesystem::path& path);
+
+/// What a reader did to the file's content that its user should know, one sentence each.
+using ReadNotes = std::vector<std::string>;
+
 /// Whether a name can stand in an MSH file: it has no double quote and no line break.
 bool fits_msh(std::string_view name);
 
-/// Reads MSH 2.2 or 4.1 (text), by content. Elements of dimension 1 and 2 become lines, triangles and quads;
-/// physical names and entity tags are kept (a group without a name goes by its number); points are ignored,
-/// and so are nodes that no other element uses. Throws InputError with file and line.
+// All readers unpack files that are compressed by gzip, and refuse one that holds another format than its
+// name says.
+
+/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
+/// and quads; physical names and entity tags are kept (a group without a name goes by its number), and so are
+/// the further names that write_msh() leaves; points are ignored, and so are nodes that no other element
+/// uses. Throws InputError with file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces = nullptr);
-/// Reads Wavefront OBJ: v, l, f (3 or 4 vertices); g names the region of the faces and the curve of the lines
-/// after it.
-Mesh read_obj(const std::filesystem::path& path);
-/// Reads Object File Format text, with or without colours and normals, which are ignored: faces of 3 or 4
-/// vertices.
-Mesh read_off(const std::filesystem::path& path);
+/// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
+/// of more than four vertices are split into triangles.
+Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+/// Reads Object File Format text, with or without colours and normals, which are ignored. Faces of more than
+/// four vertices are split into triangles.
+Mesh read_off(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Reads STL, text or binary, by content. Points with the same coordinates become one. Each solid of a text
 /// file is a region with its name.
 Mesh read_stl(const std::filesystem::path& path);
 
-/// Reads by extension: .msh, .obj, .off, .stl. InputError for any other, naming those known.
-Mesh read_mesh(const std::filesystem::path& path);
+/// Reads VTK XML of an unstructured grid: lines, triangles and quads; arrays as text or base64, inline or
+/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
+/// files of other programs have one curve and one region.
+Mesh read_vtu(const std::filesystem::path& path);
+/// Reads Abaqus input: *NODE, *ELEMENT of two to four nodes (shells, membranes, plane elements, bars),
+/// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
+/// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
+Mesh read_inp(const std::filesystem::path& path);
+/// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
+/// comments.
+Mesh read_medit(const std::filesystem::path& path);
 
-/// MSH 4.1 text with $PhysicalNames and $Entities. Coordinates read back exactly. A group whose name is a
-/// number gets that number as its tag.
-void write_msh(const std::filesystem::path& path, const Mesh& mesh);
-void write_msh(std::ostream& stream, const Mesh& mesh);
-/// VTK XML (base64), with the tag of its entity for each cell and one value per cell (lines, then triangles,
-/// then quads) for each field in `cell_data`; a NaN there means that the cell has no value.
+/// Reads by extension: .msh, .obj, .off, .stl, .vtu, .inp, .mesh. InputError for any other, naming those
+/// known.
+Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+
+/// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.
+enum class MshCurves {
+  kAll,
+  kNamed,     ///< those on the boundary of the mesh, and those inside it that have a name
+  kBoundary,  ///< those on the boundary of the mesh
+};
+
+struct MshOptions {
+  bool binary = false;
+  MshCurves curves = MshCurves::kAll;
+};
+
+/// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
+/// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
+/// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
+/// gets that number as its tag.
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {});
+/// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
+/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there
+/// means that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the
+/// tags.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {});
-/// Wavefront OBJ; names of curves and regions become groups, their white space underscores.
+/// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would
+/// be one then get numbers, and comments say so.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
-/// Abaqus input: shells S4 and S3, or CPS4 and CPS3 when all z are equal. Regions are ELSETs and NSETs,
-/// curves NSETs, by their names as far as Abaqus takes them (letters, digits, underscores), else "region_" or
-/// "curve_" and the tag.
+/// Abaqus input, as CalculiX takes it, too: numbers of at most 20 characters, shells S4 and S3, or CPS4 and
+/// CPS3 when all z are equal and elements turn left. Every region is an ELSET and an NSET, every curve an
+/// NSET and a SURFACE, by its tag ("region_3", "curve_5") and by each of its names, as far as Abaqus takes
+/// them (letters, digits, underscores); comments have the table. Of plane elements a curve's surface has the
+/// sides, of shells the nodes, and the sides are ELSETs for edge loads ("_curve_5_E2").
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
 /// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
 void write_medit(const std::filesystem::path& path, const Mesh& mesh);
-/// InputError when write_mesh() knows no format for the path's extension, naming those known.
-void check_mesh_format(const std::filesystem::path& path);
-/// By extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh. Throws as check_mesh_format().
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh);
+/// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
+/// has no such option.
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {});
+/// By extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh, .svg (a picture). Throws as
+/// check_mesh_format().
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 
 }  // namespace delquad

@@ -35,6 +35,7 @@ struct Contents {
   std::map<DimTag, std::vector<int>> entity_physicals;
   std::map<int, std::vector<int>> surface_curves;  ///< tags, ascending (4.1 only)
   std::map<DimTag, std::string> physical_names;
+  std::map<DimTag, std::vector<std::string>> more_names;  ///< of entities, besides their groups
 };
 
 /// Reads the sections. [Gmsh reference manual, "MSH file format" and "Legacy formats"]
@@ -45,8 +46,8 @@ Contents read_contents(TextScanner& scanner);
 /// of their own.
 void settle_physicals(Contents& contents);
 
-/// The groups of an entity by name; one without a name goes by its number.
-std::vector<std::string> group_names(const Contents& contents, DimTag entity);
+/// The groups of an entity by name, of which one without a name goes by its number, and its further names.
+std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
 /// Tags become indices: nodes in the order of their tags, without those that no element uses.
 Mesh to_mesh(Contents contents, const TextScanner& scanner);

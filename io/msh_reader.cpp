@@ -66,7 +66,7 @@ class EntityTable {
     if (dim == last_.first && tag == last_.second) return last_index_;
     std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
     const auto [it, is_new] = index_.emplace(DimTag{dim, tag}, static_cast<int>(entities.size()));
-    if (is_new) entities.push_back({tag, group_names(contents_, {dim, tag})});
+    if (is_new) entities.push_back({tag, names_of(contents_, {dim, tag})});
     last_ = {dim, tag};
     last_index_ = it->second;
     return last_index_;
@@ -97,20 +97,23 @@ MshSurfaces surfaces_of(const Contents& contents) {
   for (const auto& [group, name] : contents.physical_names)
     if (group.first == 2) result.group_names.push_back(name);
   for (const auto& [tag, curves] : contents.surface_curves)
-    if (!curves.empty()) result.surfaces.push_back({{tag, group_names(contents, {2, tag})}, curves});
+    if (!curves.empty()) result.surfaces.push_back({{tag, names_of(contents, {2, tag})}, curves});
   return result;
 }
 
 }  // namespace
 
-std::vector<std::string> group_names(const Contents& contents, DimTag entity) {
+std::vector<std::string> names_of(const Contents& contents, DimTag entity) {
   std::vector<std::string> names;
   const auto physicals = contents.entity_physicals.find(entity);
-  if (physicals == contents.entity_physicals.end()) return names;
-  for (const int physical : physicals->second) {
-    const auto name = contents.physical_names.find({entity.first, physical});
-    names.push_back(name != contents.physical_names.end() ? name->second : std::to_string(physical));
+  if (physicals != contents.entity_physicals.end()) {
+    for (const int physical : physicals->second) {
+      const auto name = contents.physical_names.find({entity.first, physical});
+      names.push_back(name != contents.physical_names.end() ? name->second : std::to_string(physical));
+    }
   }
+  const auto more = contents.more_names.find(entity);
+  if (more != contents.more_names.end()) names.insert(names.end(), more->second.begin(), more->second.end());
   return names;
 }
 
@@ -188,6 +191,7 @@ bool fits_msh(std::string_view name) {
 
 Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces) {
   TextScanner scanner(path);
+  refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner);
   if (surfaces) *surfaces = msh::surfaces_of(contents);
   return msh::to_mesh(std::move(contents), scanner);

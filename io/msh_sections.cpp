@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/mesh_io.h"
+#include "io/msh_numbers.h"
 #include "io/msh_raw.h"
 
 namespace delquad::msh {
@@ -56,7 +57,7 @@ int nodes_of_type(int type, const TextScanner& scanner) {
 
 class SectionReader {
  public:
-  explicit SectionReader(TextScanner& scanner) : in_(scanner) {}
+  explicit SectionReader(TextScanner& scanner) : in_(scanner), numbers_(scanner) {}
 
   Contents read() {
     if (in_.at_end()) in_.fail("the file is empty; expected an MSH file, which starts with $MeshFormat");
@@ -79,9 +80,13 @@ class SectionReader {
  private:
   void section(const std::string& name) {
     static const std::map<std::string, void (SectionReader::*)()> readers = {
-        {"MeshFormat", &SectionReader::mesh_format}, {"PhysicalNames", &SectionReader::physical_names},
-        {"Entities", &SectionReader::entities},      {"Nodes", &SectionReader::nodes},
-        {"Elements", &SectionReader::elements},      {"PartitionedEntities", &SectionReader::partitioned}};
+        {"MeshFormat", &SectionReader::mesh_format},
+        {"PhysicalNames", &SectionReader::physical_names},
+        {"Entities", &SectionReader::entities},
+        {"Nodes", &SectionReader::nodes},
+        {"Elements", &SectionReader::elements},
+        {"MoreNames", &SectionReader::more_names},
+        {"PartitionedEntities", &SectionReader::partitioned}};
     const auto reader = readers.find(name);
     if (reader == readers.end()) return skip(name);
     if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
@@ -96,7 +101,8 @@ class SectionReader {
   void skip(const std::string& name) {
     const int first = in_.line();
     const std::string end = "$End" + name;
-    while (!in_.at_end()) {
+    if (numbers_.are_bytes() && in_.skip_behind("\n" + end)) return;
+    while (!numbers_.are_bytes() && !in_.at_end()) {
       if (in_.token(end) == end) return;
       in_.rest_of_line();
     }
@@ -114,53 +120,96 @@ class SectionReader {
       in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
                            in_.printable(version)));
     }
-    if (in_.integer("the file type", 0, 1) == 1) {
-      in_.fail("binary MSH file: expected text (in Gmsh: Mesh.Binary = 0)");
-    }
-    in_.integer("the data size", 1, 64);
+    const bool binary = in_.integer("the file type", 0, 1) == 1;
+    const long long bytes = in_.integer("the data size", 1, 64);
+    if (!binary) return;
+    if (bytes != 8) in_.fail(fmt::format("binary MSH file with numbers of {} bytes: expected 8", bytes));
+    numbers_.expect_bytes();
   }
 
   void physical_names() {
     const long long count = in_.integer("the number of physical names", 0, INT_MAX);
     for (long long i = 0; i < count; ++i) {
-      const int dim = static_cast<int>(in_.integer("the dimension of a physical name", 0, 3));
-      const int tag =
-          static_cast<int>(in_.integer("the tag of a physical name", -kLargestEntityTag, kLargestEntityTag));
-      const std::string_view rest = in_.rest_of_line();
-      const size_t open = rest.find('"'), close = rest.rfind('"');
-      if (open == close) in_.fail("expected a physical name in double quotes");
-      const std::string_view name = rest.substr(open + 1, close - open - 1);
-      if (!fits_msh(name))
-        in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
-                             in_.printable(name)));
-      contents_.physical_names[{dim, std::abs(tag)}] = name;
+      const auto [key, name] = named();
+      contents_.physical_names[key] = name;
     }
+  }
+
+  void more_names() {
+    const long long count = in_.integer("the number of names", 0, INT_MAX);
+    for (long long i = 0; i < count; ++i) {
+      const auto [key, name] = named();
+      contents_.more_names[key].push_back(name);
+    }
+  }
+
+  /// Dimension, tag and name in quotes.
+  std::pair<DimTag, std::string> named() {
+    const int dim = static_cast<int>(in_.integer("the dimension of a physical name", 0, 3));
+    const int tag =
+        static_cast<int>(in_.integer("the tag of a physical name", -kLargestEntityTag, kLargestEntityTag));
+    const std::string_view rest = in_.rest_of_line();
+    const size_t open = rest.find('"'), close = rest.rfind('"');
+    if (open == close) in_.fail("expected a physical name in double quotes");
+    const std::string_view name = rest.substr(open + 1, close - open - 1);
+    if (!fits_msh(name))
+      in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
+                           in_.printable(name)));
+    return {{dim, std::abs(tag)}, std::string(name)};
+  }
+
+  /// Bytes begin on the line after the section's title; in 2.2 after that of their number, which is text.
+  void begin_numbers() {
+    if (!numbers_.are_bytes() || version_ == Version::k22) return;
+    next_line();
+  }
+
+  void next_line() {
+    in_.rest_of_line();
+    in_.bytes(1, "the end of the line");
+  }
+
+  /// How many there are of what.
+  long long count_of(const char* what) {
+    const std::string title = fmt::format("the number of {}", what);
+    if (version_ == Version::k41) return numbers_.size(title, 0, INT_MAX);
+    const long long count = in_.integer(title, 0, INT_MAX);
+    if (numbers_.are_bytes()) next_line();
+    return count;
+  }
+
+  long long node_tag() {
+    constexpr const char* kWhat = "a node's tag";
+    return version_ == Version::k22 ? numbers_.integer(kWhat, 1, kLargestTag)
+                                    : numbers_.size(kWhat, 1, kLargestTag);
   }
 
   void entities() {
     if (version_ == Version::k22) in_.fail("$Entities does not belong to MSH 2.2");
+    begin_numbers();
     long long counts[4];
-    for (int dim = 0; dim < 4; ++dim) counts[dim] = in_.integer("the number of entities", 0, INT_MAX);
+    for (int dim = 0; dim < 4; ++dim) counts[dim] = numbers_.size("the number of entities", 0, INT_MAX);
     for (int dim = 0; dim < 4; ++dim) {
       for (long long i = 0; i < counts[dim]; ++i) entity(dim);
     }
   }
 
   void entity(int dim) {
-    const int tag = static_cast<int>(in_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
-    for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) in_.real("a bound of the entity");
+    const int tag =
+        static_cast<int>(numbers_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) numbers_.real("a bound of the entity");
     std::vector<int> physicals;
-    const long long n_physicals = in_.integer("the number of the entity's physical tags", 0, INT_MAX);
+    const long long n_physicals = numbers_.size("the number of the entity's physical tags", 0, INT_MAX);
     for (long long k = 0; k < n_physicals; ++k) {
-      physicals.push_back(
-          std::abs(static_cast<int>(in_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
+      physicals.push_back(std::abs(
+          static_cast<int>(numbers_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
     }
     if (dim > 0) {
-      const long long n_bounding = in_.integer("the number of bounding entities", 0, INT_MAX);
+      const long long n_bounding = numbers_.size("the number of bounding entities", 0, INT_MAX);
       std::vector<int> bounding;
       for (long long k = 0; k < n_bounding; ++k)
-        bounding.push_back(std::abs(
-            static_cast<int>(in_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
+        bounding.push_back(std::abs(static_cast<int>(
+            numbers_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
       std::sort(bounding.begin(), bounding.end());
       if (dim == 2) contents_.surface_curves[tag] = std::move(bounding);
     }
@@ -170,25 +219,27 @@ class SectionReader {
   }
 
   Vec3 position() {
-    const double x = in_.real("coordinate x"), y = in_.real("coordinate y"), z = in_.real("coordinate z");
+    const double x = numbers_.real("coordinate x"), y = numbers_.real("coordinate y"),
+                 z = numbers_.real("coordinate z");
     return {x, y, z};
   }
 
   void nodes() {
+    begin_numbers();
     const bool blocks = version_ == Version::k41;
-    const long long n_blocks = blocks ? in_.integer("the number of node blocks", 0, INT_MAX) : 1;
-    const long long count = in_.integer("the number of nodes", 0, INT_MAX);
+    const long long n_blocks = blocks ? numbers_.size("the number of node blocks", 0, INT_MAX) : 1;
+    const long long count = count_of("nodes");
     reserve(contents_.nodes, count, in_);
     if (!blocks) {
       for (long long i = 0; i < count; ++i) {
-        const long long tag = in_.integer("a node's tag", 1, kLargestTag);
+        const long long tag = node_tag();
         const int line = in_.line();
         contents_.nodes.push_back({tag, position(), line});
       }
       return;
     }
-    in_.integer("the least node tag", 0, kLargestTag);
-    in_.integer("the greatest node tag", 0, kLargestTag);
+    numbers_.size("the least node tag", 0, kLargestTag);
+    numbers_.size("the greatest node tag", 0, kLargestTag);
     for (long long b = 0; b < n_blocks; ++b) node_block(count);
     if (static_cast<long long>(contents_.nodes.size()) != count) {
       in_.fail(fmt::format("the blocks hold {} nodes, but {} were announced", contents_.nodes.size(), count));
@@ -196,30 +247,31 @@ class SectionReader {
   }
 
   void node_block(long long announced) {
-    const int dim = static_cast<int>(in_.integer("the dimension of a node block", 0, 3));
-    in_.integer("the entity of a node block", -kLargestEntityTag, kLargestEntityTag);
-    const bool parametric = in_.integer("0 or 1 (parametric)", 0, 1) == 1;
+    const int dim = static_cast<int>(numbers_.integer("the dimension of a node block", 0, 3));
+    numbers_.integer("the entity of a node block", -kLargestEntityTag, kLargestEntityTag);
+    const bool parametric = numbers_.integer("0 or 1 (parametric)", 0, 1) == 1;
     const size_t first = contents_.nodes.size();
-    const long long count = in_.integer("the number of nodes in the block", 0, INT_MAX);
+    const long long count = numbers_.size("the number of nodes in the block", 0, INT_MAX);
     if (static_cast<long long>(first) + count > announced) {
       in_.fail(fmt::format("more nodes than the {} announced", announced));
     }
     for (long long i = 0; i < count; ++i) {
-      const long long tag = in_.integer("a node's tag", 1, kLargestTag);
+      const long long tag = node_tag();
       contents_.nodes.push_back({tag, {}, in_.line()});
     }
     for (size_t i = first; i < contents_.nodes.size(); ++i) {
       contents_.nodes[i].at = position();
-      for (int k = 0; parametric && k < dim; ++k) in_.real("a node's parameter");
+      for (int k = 0; parametric && k < dim; ++k) numbers_.real("a node's parameter");
     }
   }
 
   void elements() {
+    begin_numbers();
     if (version_ == Version::k22) return elements_22();
-    const long long n_blocks = in_.integer("the number of element blocks", 0, INT_MAX);
-    const long long announced = in_.integer("the number of elements", 0, INT_MAX);
-    in_.integer("the least element tag", 0, kLargestTag);
-    in_.integer("the greatest element tag", 0, kLargestTag);
+    const long long n_blocks = numbers_.size("the number of element blocks", 0, INT_MAX);
+    const long long announced = count_of("elements");
+    numbers_.size("the least element tag", 0, kLargestTag);
+    numbers_.size("the greatest element tag", 0, kLargestTag);
     reserve(contents_.elements, announced, in_);
     long long total = 0;
     for (long long b = 0; b < n_blocks; ++b) total += element_block(announced - total);
@@ -229,47 +281,65 @@ class SectionReader {
   }
 
   long long element_block(long long most) {
-    const int dim = static_cast<int>(in_.integer("the dimension of an element block", 0, 3));
+    const int dim = static_cast<int>(numbers_.integer("the dimension of an element block", 0, 3));
     const int entity = static_cast<int>(
-        in_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
-    const int n_nodes = nodes_of_type(static_cast<int>(in_.integer("an element type", 1, INT_MAX)), in_);
+        numbers_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
+    const int n_nodes = nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
     if (dim != std::min(n_nodes - 1, 2)) {
       in_.fail(fmt::format("elements of {} nodes in a block of dimension {}", n_nodes, dim));
     }
-    const long long count = in_.integer("the number of elements in the block", 0, INT_MAX);
+    const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
     if (count > most) in_.fail("more elements than announced");
     for (long long i = 0; i < count; ++i) {
-      in_.integer("an element's tag", 1, kLargestTag);
+      numbers_.size("an element's tag", 1, kLargestTag);
       element(n_nodes, entity, 0);
     }
     return count;
   }
 
   void elements_22() {
-    const long long count = in_.integer("the number of elements", 0, INT_MAX);
+    const long long count = count_of("elements");
     reserve(contents_.elements, count, in_);
-    for (long long i = 0; i < count; ++i) {
-      in_.integer("an element's tag", 1, kLargestTag);
-      const int n_nodes = nodes_of_type(static_cast<int>(in_.integer("an element type", 1, INT_MAX)), in_);
-      const long long n_tags = in_.integer("the number of an element's tags", 0, INT_MAX);
-      int tags[2] = {0, 0};  // physical, elementary
-      for (long long k = 0; k < n_tags; ++k) {
-        const int tag = static_cast<int>(in_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
-        if (k < 2) tags[k] = std::abs(tag);
+    const auto type = [&] { return static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)); };
+    const auto n_tags = [&] { return numbers_.integer("the number of an element's tags", 0, INT_MAX); };
+    if (!numbers_.are_bytes()) {
+      for (long long i = 0; i < count; ++i) {
+        numbers_.integer("an element's tag", 1, kLargestTag);
+        const int n_nodes = nodes_of_type(type(), in_);
+        tagged_element(n_nodes, n_tags());
       }
-      element(n_nodes, tags[1], tags[0]);
+      return;
     }
+    for (long long i = 0; i < count;) {
+      const int n_nodes = nodes_of_type(type(), in_);
+      const long long n = numbers_.integer("the number of elements that follow", 1, count - i);
+      const long long tags = n_tags();
+      for (const long long last = i + n; i < last; ++i) {
+        numbers_.integer("an element's tag", 1, kLargestTag);
+        tagged_element(n_nodes, tags);
+      }
+    }
+  }
+
+  void tagged_element(int n_nodes, long long n_tags) {
+    int tags[2] = {0, 0};  // physical, elementary
+    for (long long k = 0; k < n_tags; ++k) {
+      const int tag = static_cast<int>(numbers_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
+      if (k < 2) tags[k] = std::abs(tag);
+    }
+    element(n_nodes, tags[1], tags[0]);
   }
 
   void element(int n_nodes, int entity, int physical) {
     Element e{n_nodes, entity, physical, {}, in_.line()};
-    for (int k = 0; k < n_nodes; ++k) e.nodes[k] = in_.integer("a node's tag", 1, kLargestTag);
+    for (int k = 0; k < n_nodes; ++k) e.nodes[k] = node_tag();
     if (n_nodes > 1) contents_.elements.push_back(e);
   }
 
   [[noreturn]] void partitioned() { in_.fail("partitioned mesh: expected one that is saved whole"); }
 
   TextScanner& in_;
+  NumberReader numbers_;
   Version version_ = Version::kUnknown;
   std::set<std::string> seen_;
   Contents contents_;

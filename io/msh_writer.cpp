@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
-#include "mesh/error.h"
+#include "mesh/half_edges.h"
 
 namespace delquad {
 
@@ -16,7 +20,9 @@ namespace {
 struct Block {
   int dim;
   const Entity* entity;
+  std::string group;
   std::vector<int> nodes, lines, triangles, quads;
+  int group_tag = 0;
   Vec3 low{kMax, kMax, kMax}, high{-kMax, -kMax, -kMax};
 
   static constexpr double kMax = std::numeric_limits<double>::max();
@@ -27,17 +33,41 @@ struct Block {
   bool is_empty() const { return lines.empty() && triangles.empty() && quads.empty(); }
 };
 
+/// Lines with more than one element, which lie inside the mesh.
+std::vector<char> lines_inside(const Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<char> inside;
+  for (const auto& [a, b] : mesh.lines) inside.push_back(sides_of_edge(sides, a, b).size() > 1);
+  return inside;
+}
+
+/// Whether each line is written.
+std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
+  std::vector<char> chosen(mesh.lines.size(), 1);
+  if (curves == MshCurves::kAll) return chosen;
+  const std::vector<char> inside = lines_inside(mesh);
+  for (size_t i = 0; i < chosen.size(); ++i)
+    chosen[i] = !inside[i] || (curves == MshCurves::kNamed && !mesh.curves[mesh.line_curve[i]].names.empty());
+  return chosen;
+}
+
 /// Sorts elements and nodes into their entities' blocks, the curves' first. A node belongs to the first curve
 /// that holds it, or else to the first region.
-std::vector<Block> make_blocks(const Mesh& mesh) {
+std::vector<Block> make_blocks(const Mesh& mesh, MshCurves curves) {
   std::vector<Block> blocks;
-  for (const Entity& curve : mesh.curves) blocks.push_back({1, &curve, {}, {}, {}, {}});
-  for (const Entity& region : mesh.regions) blocks.push_back({2, &region, {}, {}, {}, {}});
+  const auto add_blocks = [&](int dim, const std::vector<Entity>& entities) {
+    const std::vector<std::string> groups = group_names(entities, dim);
+    for (size_t i = 0; i < entities.size(); ++i)
+      blocks.push_back({dim, &entities[i], groups[i], {}, {}, {}, {}});
+  };
+  add_blocks(1, mesh.curves);
+  add_blocks(2, mesh.regions);
   constexpr int kNone = std::numeric_limits<int>::max();
   std::vector<int> owner(mesh.points.size(), kNone);
   const auto add = [&](const auto& elements, const std::vector<int>& entity_of, int first_block,
-                       std::vector<int> Block::*list) {
+                       std::vector<int> Block::*list, const std::vector<char>* chosen = nullptr) {
     for (size_t i = 0; i < elements.size(); ++i) {
+      if (chosen && !(*chosen)[i]) continue;
       const int b = first_block + entity_of[i];
       (blocks[b].*list).push_back(static_cast<int>(i));
       for (const int v : elements[i]) {
@@ -47,7 +77,8 @@ std::vector<Block> make_blocks(const Mesh& mesh) {
     }
   };
   const int first_region = static_cast<int>(mesh.curves.size());
-  add(mesh.lines, mesh.line_curve, 0, &Block::lines);
+  const std::vector<char> chosen = chosen_lines(mesh, curves);
+  add(mesh.lines, mesh.line_curve, 0, &Block::lines, &chosen);
   add(mesh.triangles, mesh.triangle_region, first_region, &Block::triangles);
   add(mesh.quads, mesh.quad_region, first_region, &Block::quads);
   for (size_t i = 0; i < owner.size(); ++i) {
@@ -57,93 +88,165 @@ std::vector<Block> make_blocks(const Mesh& mesh) {
   return blocks;
 }
 
-using Groups = std::map<std::pair<int, std::string>, int>;  // (dimension, name) -> physical tag
+/// Names as they can stand between quotes, without control characters; Gmsh reads lines of up to 255 bytes.
+std::string plain(const std::string& name) {
+  std::string label = name;
+  for (char& c : label) {
+    if (c == '"') c = '\'';
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return label;
+}
 
-/// A name that is a number is that group's tag; others take the tags that are left, in order of appearance.
-Groups number_groups(const std::vector<Block>& blocks) {
-  Groups groups;
+/// Tag and name of each group, sorted; the blocks learn their groups' tags. A name that is a number is that
+/// group's tag; others take the tags that are left, in order of appearance.
+std::set<std::tuple<int, int, std::string>> number_groups(std::vector<Block>& blocks) {
+  std::vector<UniqueLabels::Key> keys;
+  for (const Block& block : blocks) keys.emplace_back(block.dim, block.group);
+  constexpr size_t kLongestName = 200;
+  const UniqueLabels labels(keys, {plain, false, kLongestName});
+  std::map<UniqueLabels::Key, int> tags;
   std::set<int> taken;
-  for (const Block& block : blocks) {
-    for (const std::string& name : block.entity->names) {
-      if (!fits_msh(name)) {
-        throw InputError("the name '" + name +
-                         "' cannot stand in an MSH file: it has a double quote or a line break");
-      }
-      int tag = 0;
-      const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), tag);
-      if (error != std::errc() || tag <= 0 || name != std::to_string(tag)) continue;
-      groups[{block.dim, name}] = tag;
-      taken.insert(tag);
-    }
+  for (const auto& key : keys) {
+    int tag = 0;
+    const std::string& name = key.second;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), tag);
+    if (error != std::errc() || tag <= 0 || name != std::to_string(tag)) continue;
+    tags[key] = tag;
+    taken.insert(tag);
   }
   int next = 1;
-  for (const Block& block : blocks) {
-    for (const std::string& name : block.entity->names) {
-      if (groups.contains({block.dim, name})) continue;
+  std::set<std::tuple<int, int, std::string>> groups;
+  for (Block& block : blocks) {
+    const UniqueLabels::Key key = {block.dim, block.group};
+    if (!tags.contains(key)) {
       while (taken.contains(next)) ++next;
-      groups[{block.dim, name}] = next++;
+      tags[key] = next++;
     }
+    block.group_tag = tags[key];
+    groups.insert({block.dim, block.group_tag, labels.of(key)});
   }
   return groups;
 }
 
-void write_names(TextWriter& out, const Groups& groups) {
-  if (groups.empty()) return;
-  std::set<std::tuple<int, int, std::string>> sorted;
-  for (const auto& [key, tag] : groups) sorted.insert({key.first, tag, key.second});
-  out << "$PhysicalNames\n" << sorted.size() << '\n';
-  for (const auto& [dim, tag, name] : sorted) out << dim << ' ' << tag << " \"" << name << "\"\n";
-  out << "$EndPhysicalNames\n";
+/// Names of entities beside their groups, which other programs skip.
+void write_more_names(std::ostream& stream, const std::vector<Block>& blocks) {
+  TextWriter out(stream);
+  std::vector<std::pair<const Block*, std::string>> all;
+  for (const Block& block : blocks)
+    for (const std::string& name : block.entity->names)
+      if (name != block.group) all.emplace_back(&block, plain(name));
+  if (all.empty()) return;
+  out << "$MoreNames\n" << all.size() << '\n';
+  for (const auto& [block, name] : all)
+    out << block->dim << ' ' << block->entity->tag << " \"" << name << "\"\n";
+  out << "$EndMoreNames\n";
+  out.flush();
 }
 
-void write_entities(TextWriter& out, const std::vector<Block>& blocks, const Groups& groups) {
-  const auto n_curves =
-      std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.dim == 1; });
-  out << "$Entities\n0 " << n_curves << ' ' << blocks.size() - static_cast<size_t>(n_curves) << " 0\n";
-  for (const Block& block : blocks) {
-    out << block.entity->tag;
-    for (const Vec3& p : {block.low, block.high}) out << ' ' << p.x << ' ' << p.y << ' ' << p.z;
-    std::set<int> tags;
-    for (const std::string& name : block.entity->names) tags.insert(groups.at({block.dim, name}));
-    out << ' ' << tags.size();
-    for (const int tag : tags) out << ' ' << tag;
-    out << " 0\n";
+/// Numbers as text, separated by blanks, or as bytes.
+class MshNumbers {
+ public:
+  MshNumbers(std::ostream& stream, bool binary) : out_(stream), binary_(binary) {}
+
+  MshNumbers& integer(int value) { return put(value); }
+  MshNumbers& size(size_t value) { return put(static_cast<std::uint64_t>(value)); }
+  MshNumbers& real(double value) { return put(value); }
+  MshNumbers& point(const Vec3& p) { return real(p.x).real(p.y).real(p.z); }
+  void end_line() {
+    if (!binary_) out_ << '\n';
+    at_start_ = true;
   }
-  out << "$EndEntities\n";
+  void line(std::string_view text) { out_ << text << '\n'; }
+  void end_section(std::string_view name) {
+    if (binary_) out_ << '\n';
+    line(name);
+  }
+  void flush() { out_.flush(); }
+
+ private:
+  template <class T>
+  MshNumbers& put(T value) {
+    if (binary_) {
+      char bytes[sizeof value];
+      std::memcpy(bytes, &value, sizeof value);
+      out_ << std::string_view(bytes, sizeof value);
+      return *this;
+    }
+    if (!at_start_) out_ << ' ';
+    at_start_ = false;
+    out_ << value;
+    return *this;
+  }
+
+  TextWriter out_;
+  bool binary_, at_start_ = true;
+};
+
+void write_header(MshNumbers& out, bool binary) {
+  out.line("$MeshFormat");
+  out.line(binary ? "4.1 1 8" : "4.1 0 8");
+  if (binary) {
+    out.integer(1);
+    out.line("");
+  }
+  out.line("$EndMeshFormat");
 }
 
-void write_nodes(TextWriter& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+void write_groups(MshNumbers& out, const std::set<std::tuple<int, int, std::string>>& groups) {
+  if (groups.empty()) return;
+  out.line("$PhysicalNames");
+  out.line(std::to_string(groups.size()));
+  for (const auto& [dim, tag, name] : groups)
+    out.line(std::to_string(dim) + ' ' + std::to_string(tag) + " \"" + name + '"');
+  out.line("$EndPhysicalNames");
+}
+
+void write_entities(MshNumbers& out, const std::vector<Block>& blocks) {
+  const auto n_curves = static_cast<size_t>(
+      std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.dim == 1; }));
+  out.line("$Entities");
+  out.size(0).size(n_curves).size(blocks.size() - n_curves).size(0).end_line();
+  for (const Block& block : blocks) {
+    out.integer(block.entity->tag).point(block.low).point(block.high);
+    out.size(1).integer(block.group_tag).size(0).end_line();
+  }
+  out.end_section("$EndEntities");
+}
+
+void write_nodes(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
   size_t count = 0;
   int last = 0;
   for (const Block& block : blocks) {
     count += block.nodes.size();
     if (!block.nodes.empty()) last = std::max(last, block.nodes.back() + 1);
   }
-  out << "$Nodes\n" << blocks.size() << ' ' << count << " 1 " << last << '\n';
+  out.line("$Nodes");
+  out.size(blocks.size()).size(count).size(1).size(last).end_line();
   for (const Block& block : blocks) {
-    out << block.dim << ' ' << block.entity->tag << " 0 " << block.nodes.size() << '\n';
-    for (const int i : block.nodes) out << i + 1 << '\n';
-    for (const int i : block.nodes) {
-      const Vec3& p = mesh.points[i];
-      out << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    }
+    out.integer(block.dim).integer(block.entity->tag).integer(0).size(block.nodes.size()).end_line();
+    for (const int i : block.nodes) out.size(i + 1).end_line();
+    for (const int i : block.nodes) out.point(mesh.points[i]).end_line();
   }
-  out << "$EndNodes\n";
+  out.end_section("$EndNodes");
 }
 
-void write_elements(TextWriter& out, const Mesh& mesh, const std::vector<Block>& blocks) {
-  size_t n_blocks = 0;
-  for (const Block& b : blocks) n_blocks += !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
-  const size_t count = mesh.lines.size() + mesh.triangles.size() + mesh.quads.size();
-  out << "$Elements\n" << n_blocks << ' ' << count << " 1 " << count << '\n';
+void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+  size_t n_blocks = 0, count = 0;
+  for (const Block& b : blocks) {
+    n_blocks += !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
+    count += b.lines.size() + b.triangles.size() + b.quads.size();
+  }
+  out.line("$Elements");
+  out.size(n_blocks).size(count).size(1).size(count).end_line();
   size_t tag = 0;
   const auto write = [&](const Block& block, const auto& elements, const std::vector<int>& list, int type) {
     if (list.empty()) return;
-    out << block.dim << ' ' << block.entity->tag << ' ' << type << ' ' << list.size() << '\n';
+    out.integer(block.dim).integer(block.entity->tag).integer(type).size(list.size()).end_line();
     for (const int i : list) {
-      out << ++tag;
-      for (const int v : elements[i]) out << ' ' << v + 1;
-      out << '\n';
+      out.size(++tag);
+      for (const int v : elements[i]) out.size(v + 1);
+      out.end_line();
     }
   };
   for (const Block& block : blocks) {
@@ -151,25 +254,26 @@ void write_elements(TextWriter& out, const Mesh& mesh, const std::vector<Block>&
     write(block, mesh.triangles, block.triangles, 2);
     write(block, mesh.quads, block.quads, 3);
   }
-  out << "$EndElements\n";
+  out.end_section("$EndElements");
 }
 
 }  // namespace
 
-void write_msh(std::ostream& stream, const Mesh& mesh) {
-  const std::vector<Block> blocks = make_blocks(mesh);
-  const Groups groups = number_groups(blocks);
-  TextWriter out(stream);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-  write_names(out, groups);
-  write_entities(out, blocks, groups);
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options) {
+  std::vector<Block> blocks = make_blocks(mesh, options.curves);
+  const auto groups = number_groups(blocks);
+  MshNumbers out(stream, options.binary);
+  write_header(out, options.binary);
+  write_groups(out, groups);
+  write_entities(out, blocks);
   write_nodes(out, mesh, blocks);
   write_elements(out, mesh, blocks);
   out.flush();
+  write_more_names(stream, blocks);
 }
 
-void write_msh(const std::filesystem::path& path, const Mesh& mesh) {
-  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh); });
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
+  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options); });
 }
 
 }  // namespace delquad

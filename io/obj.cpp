@@ -4,7 +4,9 @@
 #include <climits>
 #include <map>
 
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
 #include "mesh/drop_unused_points.h"
@@ -15,9 +17,9 @@ namespace {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : in_(path) {}
+  explicit ObjReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "OBJ"); }
 
-  Mesh read() {
+  Mesh read(ReadNotes* notes) {
     while (!in_.at_end()) {
       const std::string keyword(in_.token("a keyword"));
       if (keyword == "v") {
@@ -36,6 +38,7 @@ class ObjReader {
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty()) {
       in_.fail("the file holds no lines and no faces");
     }
+    splitter_.note(notes);
     drop_unused_points(mesh_);
     return std::move(mesh_);
   }
@@ -76,17 +79,8 @@ class ObjReader {
 
   void read_face() {
     const std::vector<int> v = vertices();
-    if (v.size() != 3 && v.size() != 4) {
-      in_.fail(fmt::format("face of {} vertices: expected a triangle or a quad", v.size()));
-    }
     const int region = entity(mesh_.regions, region_of_);
-    if (v.size() == 3) {
-      mesh_.triangles.push_back({v[0], v[1], v[2]});
-      mesh_.triangle_region.push_back(region);
-    } else {
-      mesh_.quads.push_back({v[0], v[1], v[2], v[3]});
-      mesh_.quad_region.push_back(region);
-    }
+    splitter_.add_face(v, region, mesh_, in_);
   }
 
   using Index = std::map<std::vector<std::string>, int>;
@@ -98,26 +92,42 @@ class ObjReader {
 
   TextScanner in_;
   Mesh mesh_;
+  FaceSplitter splitter_;
   std::vector<std::string> names_;
   Index curve_of_, region_of_;
 };
 
-void write_group(TextWriter& out, const Entity& entity) {
+/// Groups are separated by white space.
+std::string plain(const std::string& name) {
+  std::string label = name.empty() ? "_" : name;
+  for (char& c : label)
+    if (c == ' ' || (c >= '\t' && c <= '\r')) c = '_';
+  return label;
+}
+
+/// A group of lines and one of faces may have the same name.
+UniqueLabels make_labels(const Mesh& mesh) {
+  std::vector<UniqueLabels::Key> keys;
+  for (const auto* entities : {&mesh.curves, &mesh.regions})
+    for (const Entity& entity : *entities)
+      for (const std::string& name : entity.names) keys.emplace_back(0, name);
+  constexpr size_t kLongestName = 200;  // lines of more than 256 characters are too long for some programs
+  return UniqueLabels(keys, {plain, false, kLongestName});
+}
+
+void write_group(TextWriter& out, const Entity& entity, const UniqueLabels& labels) {
   out << 'g';
-  for (std::string name : entity.names) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }, '_');
-    out << ' ' << name;
-  }
+  for (const std::string& name : entity.names) out << ' ' << labels.of({0, name});
   out << '\n';
 }
 
 /// Elements in their order, a group line before each change of entity.
 template <size_t N>
 void write_elements(TextWriter& out, char keyword, const std::vector<std::array<int, N>>& elements,
-                    const std::vector<int>& entity_of, const std::vector<Entity>& entities) {
+                    const std::vector<int>& entity_of, const std::vector<Entity>& entities,
+                    const UniqueLabels& labels) {
   for (size_t i = 0; i < elements.size(); ++i) {
-    if (i == 0 || entity_of[i] != entity_of[i - 1]) write_group(out, entities[entity_of[i]]);
+    if (i == 0 || entity_of[i] != entity_of[i - 1]) write_group(out, entities[entity_of[i]], labels);
     out << keyword;
     for (const int v : elements[i]) out << ' ' << v + 1;
     out << '\n';
@@ -126,15 +136,18 @@ void write_elements(TextWriter& out, char keyword, const std::vector<std::array<
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& path) { return ObjReader(path).read(); }
+Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes) { return ObjReader(path).read(notes); }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   write_file_atomically(path, [&](std::ostream& stream) {
     TextWriter out(stream);
+    const UniqueLabels labels = make_labels(mesh);
+    for (const auto& [key, label] : labels.renamed())
+      out << "# group " << label << " is \"" << one_line(key.second) << "\"\n";
     for (const Vec3& p : mesh.points) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves);
-    write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions);
-    write_elements(out, 'f', mesh.quads, mesh.quad_region, mesh.regions);
+    write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves, labels);
+    write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions, labels);
+    write_elements(out, 'f', mesh.quads, mesh.quad_region, mesh.regions, labels);
     out.flush();
   });
 }

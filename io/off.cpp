@@ -3,6 +3,7 @@
 #include <climits>
 
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
 
@@ -12,9 +13,9 @@ namespace {
 
 class OffReader {
  public:
-  explicit OffReader(const std::filesystem::path& path) : in_(path) {}
+  explicit OffReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "OFF"); }
 
-  Mesh read() {
+  Mesh read(ReadNotes* notes) {
     read_header();
     const long long n_points = integer("the number of vertices", 0, INT_MAX);
     const long long n_faces = integer("the number of faces", 0, INT_MAX);
@@ -35,8 +36,7 @@ class OffReader {
     }
     if (mesh_.triangles.empty() && mesh_.quads.empty()) in_.fail("the file holds no faces");
     mesh_.regions = {{1, {}}};
-    mesh_.triangle_region.assign(mesh_.triangles.size(), 0);
-    mesh_.quad_region.assign(mesh_.quads.size(), 0);
+    splitter_.note(notes);
     drop_unused_points(mesh_);
     return std::move(mesh_);
   }
@@ -78,24 +78,20 @@ class OffReader {
 
   void read_face() {
     const long long n = integer("the number of a face's vertices", 0, INT_MAX);
-    if (n != 3 && n != 4) in_.fail(fmt::format("face of {} vertices: expected a triangle or a quad", n));
     const long long last = static_cast<long long>(mesh_.points.size()) - 1;
-    std::array<int, 4> v{};
-    for (long long k = 0; k < n; ++k) v[k] = static_cast<int>(in_.integer("a vertex", 0, last));
-    if (n == 3) {
-      mesh_.triangles.push_back({v[0], v[1], v[2]});
-    } else {
-      mesh_.quads.push_back(v);
-    }
+    std::vector<int> v;
+    for (long long k = 0; k < n; ++k) v.push_back(static_cast<int>(in_.integer("a vertex", 0, last)));
+    splitter_.add_face(v, 0, mesh_, in_);
     in_.rest_of_line();  // colours
   }
 
   TextScanner in_;
   Mesh mesh_;
+  FaceSplitter splitter_;
 };
 
 }  // namespace
 
-Mesh read_off(const std::filesystem::path& path) { return OffReader(path).read(); }
+Mesh read_off(const std::filesystem::path& path, ReadNotes* notes) { return OffReader(path).read(notes); }
 
 }  // namespace delquad

@@ -151,6 +151,8 @@ class TextReader {
 Mesh read_stl(const std::filesystem::path& path) {
   TextScanner scanner(path);
   const std::optional<std::uint32_t> n = binary_facets(scanner.text());
+  const bool is_whole = n && scanner.text().size() == kFirstFacet + *n * kFacet;
+  if (!is_whole) refuse_other_kinds(scanner, "STL");
   Mesh mesh = n ? read_binary(path.string(), scanner.text(), *n) : TextReader(scanner).read();
   if (mesh.triangles.empty()) throw InputError(path.string() + ": the file holds no triangles");
   rename_points(mesh, names_of_equal_points(mesh));

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 
 #include "mesh/error.h"
@@ -22,21 +20,22 @@ std::string_view without_plus(std::string_view token) {
 
 }  // namespace
 
-TextScanner::TextScanner(const std::filesystem::path& path) : path_(path.string()) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(path_ + ": cannot be read: it is a folder");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path_ + ": cannot be read: " + std::generic_category().message(errno));
-  constexpr size_t kBlock = 1 << 16;
-  while (in) {
-    const size_t before = text_.size();
-    text_.resize(before + kBlock);
-    in.read(text_.data() + before, kBlock);
-    text_.resize(before + static_cast<size_t>(in.gcount()));
-  }
-  if (in.bad()) throw InputError(path_ + ": cannot be read to its end");
+TextScanner::TextScanner(const std::filesystem::path& path)
+    : path_(path.string()), text_(read_whole_file(path)) {}
+
+std::string_view TextScanner::bytes(size_t count, std::string_view what) {
+  in_bytes_ = true;
+  if (count > bytes_left()) fail(fmt::format("the file ends where {} was expected", what));
+  const std::string_view result = std::string_view(text_).substr(at_, count);
+  at_ += count;
+  return result;
+}
+
+bool TextScanner::skip_behind(std::string_view text) {
+  const size_t found = text_.find(text, at_);
+  if (found == std::string::npos) return false;
+  at_ = found + text.size();
+  return true;
 }
 
 bool TextScanner::at_end() {
@@ -93,7 +92,13 @@ std::string TextScanner::printable(std::string_view token) {
   return "'" + text + (token.size() > kLongest ? "...'" : "'");
 }
 
+void TextScanner::fail(std::string_view message) const {
+  if (in_bytes_) throw InputError(fmt::format("{}: byte {}: {}", path_, at_, message));
+  fail(message, line_);
+}
+
 void TextScanner::fail(std::string_view message, int line) const {
+  if (in_bytes_) throw InputError(fmt::format("{}: {}", path_, message));
   throw InputError(fmt::format("{}:{}: {}", path_, line, message));
 }
 

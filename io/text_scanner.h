@@ -6,11 +6,14 @@
 
 namespace delquad {
 
-/// A text file cut into tokens at white space. Every error is an InputError "file:line: message", where the
-/// line is that of the last token.
+/// The whole file, unpacked when it is compressed by gzip. Throws InputError.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// A file cut into tokens at white space, or into bytes. Every error is an InputError "file:line: message",
+/// where the line is that of the last token, or "file: byte N: message" once bytes were read.
 class TextScanner {
  public:
-  /// Reads the whole file.
+  /// Reads the whole file, as read_whole_file().
   explicit TextScanner(const std::filesystem::path& path);
 
   /// Whether only white space is left.
@@ -26,6 +29,10 @@ class TextScanner {
   double real(std::string_view what);
   /// A token as it can be shown in a message: short, printable, in quotes.
   static std::string printable(std::string_view token);
+  /// The next bytes, as they are; `what` names them in errors.
+  std::string_view bytes(size_t count, std::string_view what);
+  /// Goes behind the next occurrence of a text; false, and no step, when there is none.
+  bool skip_behind(std::string_view text);
   /// What is left of the line.
   std::string_view rest_of_line();
 
@@ -33,13 +40,21 @@ class TextScanner {
   /// The whole file.
   std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }
-  [[noreturn]] void fail(std::string_view message) const { fail(message, line_); }
+  [[noreturn]] void fail(std::string_view message) const;
   [[noreturn]] void fail(std::string_view message, int line) const;
 
  private:
   std::string path_, text_;
   size_t at_ = 0;
   int line_ = 1;
+  bool in_bytes_ = false;  ///< lines mean nothing
 };
+
+/// What the beginning of a file shows it to be, such as "a STEP file"; empty: nothing that is known.
+std::string content_kind(std::string_view text);
+
+/// InputError when the file shows to be something else than `expected`, which is a name of a format as
+/// content_kind() uses it.
+void refuse_other_kinds(const TextScanner& in, std::string_view expected);
 
 }  // namespace delquad

@@ -60,7 +60,7 @@ void write_array(TextWriter& out, std::string_view attributes, const std::vector
 struct Cells {
   std::vector<std::int64_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
-  std::vector<std::int32_t> entities;
+  std::vector<std::int32_t> curves, regions;  ///< tags; 0: none
 
   template <size_t N>
   void add(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
@@ -69,17 +69,35 @@ struct Cells {
       connectivity.insert(connectivity.end(), elements[i].begin(), elements[i].end());
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
       types.push_back(type);
-      entities.push_back(all[entity_of[i]].tag);
+      const int tag = all[entity_of[i]].tag;
+      curves.push_back(N == 2 ? tag : 0);
+      regions.push_back(N == 2 ? 0 : tag);
     }
   }
 };
+
+/// Arrays of numbers, which every reader takes: meshio refuses arrays of strings.
+void write_names(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
+  std::map<std::string, std::vector<std::int32_t>> tags;
+  for (const Entity& entity : entities)
+    for (const std::string& name : entity.names) tags[name].push_back(entity.tag);
+  for (const auto& [name, all] : tags)
+    write_array(out,
+                "type=\"Int32\" Name=\"" + std::string(kind) + ' ' + xml_escaped(name) +
+                    "\" NumberOfTuples=\"" + std::to_string(all.size()) + '"',
+                all);
+}
 
 void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
                 const std::map<std::string, std::vector<double>>& cell_data) {
   constexpr bool kLittle = std::endian::native == std::endian::little;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
-      << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
-      << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << cells.types.size()
+      << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
+  out << "      <FieldData>\n";
+  write_names(out, "curve", mesh.curves);
+  write_names(out, "region", mesh.regions);
+  out << "      </FieldData>\n";
+  out << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << cells.types.size()
       << "\">\n";
   std::vector<double> coordinates;
   coordinates.reserve(3 * mesh.points.size());
@@ -91,7 +109,8 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
   write_array(out, "type=\"Int64\" Name=\"offsets\"", cells.offsets);
   write_array(out, "type=\"UInt8\" Name=\"types\"", cells.types);
   out << "      </Cells>\n      <CellData>\n";
-  write_array(out, "type=\"Int32\" Name=\"entity\"", cells.entities);
+  write_array(out, "type=\"Int32\" Name=\"curve\"", cells.curves);
+  write_array(out, "type=\"Int32\" Name=\"region\"", cells.regions);
   for (const auto& [name, values] : cell_data) {
     write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
   }

@@ -56,6 +56,9 @@ std::atomic<Registry*>& registry() {
   return one;
 }
 
+/// Made before main(): a child shares only what was there before it.
+[[maybe_unused]] const Registry* const made_early = registry();
+
 thread_local int my_entry = -1;
 
 std::atomic<const char*>& my_stage() {

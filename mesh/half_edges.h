@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -48,6 +49,17 @@ inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
               });
   }
   return sides;
+}
+
+/// The sides of the edge between two points; none where no element has it.
+inline std::span<const HalfEdge> sides_of_edge(std::span<const HalfEdge> sides, int a, int b) {
+  const auto key = std::pair(std::min(a, b), std::max(a, b));
+  const auto first = std::lower_bound(sides.begin(), sides.end(), key, [](const HalfEdge& s, const auto& k) {
+    return std::tie(s.lo, s.hi) < std::tie(k.first, k.second);
+  });
+  auto last = first;
+  while (last != sides.end() && last->lo == key.first && last->hi == key.second) ++last;
+  return {first, last};
 }
 
 /// Calls visit(span of its sides) once for each edge of sorted half-edges.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/vec.h"
@@ -13,6 +14,9 @@ struct Entity {
   int tag = 0;                     ///< number in files, > 0
   std::vector<std::string> names;  ///< physical groups that hold it; may be empty
 };
+
+/// How the names begin that CAD faces have from their colours.
+inline constexpr std::string_view kColourName = "colour #";
 
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
 struct Mesh {

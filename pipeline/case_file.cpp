@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cad/example_models.h"
+#include "io/mesh_io.h"
 #include "pipeline/case_keys.h"
 #include "pipeline/located.h"
 #include "pipeline/model_file.h"
@@ -148,8 +149,9 @@ void drop_model(Case& target) {
 /// A file of lines, triangles or CAD as the case's model, if its extension says so.
 bool set_model_file(const std::filesystem::path& file, Case& target) {
   drop_model(target);
-  if (file.extension() != ".msh" && !is_surface_file(file)) return false;
-  (file.extension() == ".msh" ? target.mesh_file : target.surface_file) = file;
+  const bool is_msh = kind_of_file(file) == ".msh";
+  if (!is_msh && !is_surface_file(file)) return false;
+  (is_msh ? target.mesh_file : target.surface_file) = file;
   return true;
 }
 
@@ -219,7 +221,7 @@ void read_model_keys(const TomlTable& table, Case& target) {
   } else if (table.has("mesh")) {
     drop_model(target);
     target.mesh_file = folder / table.text("mesh");
-    if (target.mesh_file.extension() != ".msh")
+    if (kind_of_file(target.mesh_file) != ".msh")
       throw InputError(table.where("mesh") + ": '" + target.mesh_file.string() + "' is not a .msh file");
   } else if (drawn) {
     ModelFile file = read_planar_model(table);
@@ -269,7 +271,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   result.name = file.stem().string();
   result.where = file.string();
   if (set_model_file(file, result)) return result;
-  if (file.extension() != ".toml")
+  if (kind_of_file(file) != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), .step, .stp, .brep, "
                      ".stl, .obj, .off");
@@ -277,7 +279,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (table.has("case"))
     throw InputError(table.where("case") +
                      ": this is an experiment with cases of its own: run it with 'delquad run'");
-  if (table.has("model") && std::filesystem::path(table.text("model")).extension() == ".toml")
+  if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
   table.finish();

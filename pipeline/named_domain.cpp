@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "geometry/boundary_loops.h"
+#include "mesh/half_edges.h"
 #include "mesh/predicates.h"
 
 namespace delquad {
@@ -108,12 +110,48 @@ LoopGroups groups_inside(const Mesh& mesh, const std::vector<BoundaryLoop>& loop
   return groups;
 }
 
+using Interfaces = std::map<std::pair<int, int>, std::vector<std::array<int, 2>>>;
+
+/// Edges between two regions, by these.
+Interfaces edges_between_regions(const Mesh& mesh) {
+  const auto region_of = [&](const HalfEdge& side) {
+    const int n = static_cast<int>(mesh.triangles.size());
+    return side.element < n ? mesh.triangle_region[side.element] : mesh.quad_region[side.element - n];
+  };
+  Interfaces interfaces;
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
+    if (sides.size() != 2) return;
+    const std::pair<int, int> regions = std::minmax(region_of(sides[0]), region_of(sides[1]));
+    if (regions.first != regions.second) interfaces[regions].push_back({sides[0].lo, sides[0].hi});
+  });
+  return interfaces;
+}
+
+/// The lines of the mesh, and loops between its regions that it has no lines of: writers leave those out for
+/// programs that take none inside a mesh.
 Mesh lines_of(const Mesh& mesh) {
   Mesh lines;
   lines.points = mesh.points;
   lines.lines = mesh.lines;
   lines.line_curve = mesh.line_curve;
   lines.curves = mesh.curves;
+  std::vector<int> uses(mesh.points.size(), 0);
+  for (const auto& line : mesh.lines)
+    for (const int v : line) ++uses[v];
+  int last_tag = 0;
+  for (const Entity& curve : mesh.curves) last_tag = std::max(last_tag, curve.tag);
+  for (const auto& [regions, edges] : edges_between_regions(mesh)) {
+    std::vector<int> all_uses = uses;
+    for (const auto& edge : edges)
+      for (const int v : edge) ++all_uses[v];
+    const bool closed = std::ranges::all_of(
+        edges, [&](const auto& edge) { return all_uses[edge[0]] == 2 && all_uses[edge[1]] == 2; });
+    if (!closed) continue;
+    uses = std::move(all_uses);
+    lines.lines.insert(lines.lines.end(), edges.begin(), edges.end());
+    lines.line_curve.resize(lines.lines.size(), static_cast<int>(lines.curves.size()));
+    lines.curves.push_back({++last_tag, {}});
+  }
   return lines;
 }
 

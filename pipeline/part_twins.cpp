@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
+#include <functional>
 #include <map>
+#include <numbers>
 
+#include "algorithms/recombination/poorness.h"
 #include "pipeline/prepare.h"
 #include "smoothing/quad_relocation.h"
 
@@ -93,18 +97,119 @@ void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
   }
 }
 
-/// The worst of the four quads of an opening once the two new vertices have settled.
-double worst_once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
+/// A corner is not opened where that leaves a quad below this eta, or this part of the sine that it had.
+constexpr double kOpenCornerEta = 0.1, kOpenCornerPart = 0.3;
+
+/// The worst of the quads around the vertices from slot `first` on, once these have settled.
+double worst_once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
   constexpr int kSweeps = 8;
-  const int first = mesh.vertex_slots();
-  mesh.open(h, counterclockwise);
+  const int end = mesh.vertex_slots();
   relocation.adopt_new_vertices(first);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (const int v : {first, first + 1}) relocation.step(v);
+    for (int v = first; v < end; ++v) relocation.step(v);
   double worst = 1;
-  for (const int v : {first, first + 1})
+  for (int v = first; v < end; ++v)
     mesh.for_each_out(v, [&](int g) { worst = std::min(worst, least_sine(mesh, QuadTopology::element(g))); });
   return worst;
+}
+
+double worst_once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
+  const int first = mesh.vertex_slots();
+  mesh.open(h, counterclockwise);
+  return worst_once_settled(mesh, relocation, first);
+}
+
+double worst_with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
+  const int first = mesh.vertex_slots();
+  mesh.pillow(std::array<int, 1>{quad});
+  return worst_once_settled(mesh, relocation, first);
+}
+
+/// A node between two faces that has one quad of each: these share two sides. Its places on both boundaries.
+struct TwinCorner {
+  std::array<int, 2> patch, point;
+};
+
+std::vector<TwinCorner> twin_corners(const AllPatches& in) {
+  struct Corner {
+    int node;
+    std::array<int, 2> beside;  ///< nodes at the other ends of the quad's sides there, ascending
+    int patch, point;
+    auto operator<=>(const Corner&) const = default;
+  };
+  std::vector<Corner> corners;
+  for (std::size_t p = 0; p < in.patches.size(); ++p) {
+    if (in.left_out[p] || in.patches[p].form != PatchForm::kQuads) continue;
+    const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
+    const auto is_inside = [&](int v) { return v >= static_cast<int>(node.size()); };
+    for (const auto& quad : in.patches[p].quads.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int before = quad[(k + 3) % 4], v = quad[k], after = quad[(k + 1) % 4];
+        if (is_inside(before) || is_inside(v) || is_inside(after)) continue;
+        const auto [low, high] = std::minmax(node[before], node[after]);
+        corners.push_back({node[v], {low, high}, static_cast<int>(p), v});
+      }
+  }
+  std::ranges::sort(corners);
+  std::vector<TwinCorner> twins;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Corner &a = corners[i - 1], &b = corners[i];
+    if (a.node == b.node && a.beside == b.beside) twins.push_back({{a.patch, b.patch}, {a.point, b.point}});
+  }
+  return twins;
+}
+
+/// Of the k-th face at the corner, in its plane.
+double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
+  const QuadPatch& mesh = in.patches[corner.patch[k]].quads;
+  const int v = corner.point[k];
+  for (const auto& quad : mesh.quads) {
+    const auto i = std::ranges::find(quad, v) - quad.begin();
+    if (i == 4) continue;
+    const Vec2 out = mesh.points[quad[(i + 1) % 4]] - mesh.points[v];
+    const Vec2 in_ = mesh.points[quad[(i + 3) % 4]] - mesh.points[v];
+    const double angle = std::atan2(cross(out, in_), dot(out, in_));
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+  }
+  return 0;
+}
+
+/// Gives a boundary vertex with one quad a second one, where that leaves no bad quads: opens one of the sides
+/// that do not touch it, or puts a ring inside the quad.
+bool open_corner(QuadPatch& patch, int v, const ParametricSize& size) {
+  QuadTopology mesh(patch);
+  if (mesh.valence(v) != 1) return true;  // it has been opened already
+  QuadRelocation relocation(mesh, size);
+  relocation.keep_convex_corners();
+  const int quad = QuadTopology::element(mesh.out(v)), side = mesh.next(mesh.out(v));
+  struct Way {
+    bool possible;
+    std::function<double()> take;  ///< returns the worst sine
+  };
+  const int after = mesh.next(side);
+  const Way ways[] = {
+      {mesh.twin(side) >= 0 && mesh.can_open(side),
+       [&] { return worst_once_open(mesh, relocation, side, false); }},
+      {mesh.twin(after) >= 0 && mesh.can_open(after),
+       [&] { return worst_once_open(mesh, relocation, after, true); }},
+      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return worst_with_ring(mesh, relocation, quad); }}};
+  const Way* best = nullptr;
+  double worst = std::min(sine_of_eta(kOpenCornerEta), kOpenCornerPart * least_sine(mesh, quad));
+  const int n_vertices = mesh.vertex_slots();
+  for (const Way& way : ways) {
+    if (!way.possible) continue;
+    const auto start = mesh.mark();
+    const double sine = way.take();
+    mesh.rollback(start);
+    if (sine > worst) worst = sine, best = &way;
+  }
+  if (best == nullptr) return false;
+  best->take();
+  mesh.commit();
+  for (int w = n_vertices; w < mesh.vertex_slots(); ++w) relocation.activate(w);
+  relocation.relax(0.01, 30);
+  patch = mesh.to_patch();
+  return true;
 }
 
 /// Returns how many were opened.
@@ -185,6 +290,16 @@ PartingSummary part_twins(const AllPatches& in) {
     in.patches[p].inside.clear();
     put_ring_inside(in.patches[p].quads, *in.prepared.patches[p].size);
     ++summary.rings;
+  }
+  for (const TwinCorner& corner : twin_corners(in)) {
+    const auto open = [&](int k) {
+      PatchMesh& patch = in.patches[corner.patch[k]];
+      patch.inside.clear();
+      return open_corner(patch.quads, corner.point[k], *in.prepared.patches[corner.patch[k]].size);
+    };
+    // The wider angle has more room for two.
+    const int first = angle_at(in, corner, 0) >= angle_at(in, corner, 1) ? 0 : 1;
+    ++(open(first) || open(1 - first) ? summary.corners : summary.corners_left);
   }
   return summary;
 }

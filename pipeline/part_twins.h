@@ -11,7 +11,9 @@ namespace delquad {
 /// curve: in space these are one edge, with three or four elements. All but one of them (all, beside an edge
 /// of a curve) are parted: of triangles by a point in the middle, of quads by an opening, see
 /// QuadTopology::open, and left where the quads beside do not allow it. Of two faces that are one quad each
-/// on the same nodes, one gets a ring of quads. Returns what was done, without the time.
+/// on the same nodes, one gets a ring of quads. A node with one quad of each of two faces, which share two
+/// sides then, gets a third by an opening, as readers take two sides in common for an error. Returns what was
+/// done, without the time.
 PartingSummary part_twins(const AllPatches& in);
 
 }  // namespace delquad

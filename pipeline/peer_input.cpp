@@ -115,7 +115,7 @@ std::string quoted(const std::string& text) {
 
 void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
   out << "Merge " << quoted(file.string()) << ";\n";
-  const std::string kind = file.extension().string();
+  const std::string kind = kind_of_file(file);
   if (!is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off") {
     constexpr double kFeatureAngle = 40;  // degrees, as for our own
     out << "ClassifySurfaces{" << c.surface.feature_angle.value_or(kFeatureAngle) * std::numbers::pi / 180

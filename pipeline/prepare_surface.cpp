@@ -10,6 +10,7 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "mesh/activity.h"
 #include "mesh/parallel.h"
 #include "pipeline/located.h"
@@ -104,7 +105,7 @@ WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model,
 }  // namespace
 
 bool is_surface_file(const std::filesystem::path& path) {
-  return kCadFiles.count(path.extension().string()) + kTriangleFiles.count(path.extension().string()) > 0;
+  return kCadFiles.count(kind_of_file(path)) + kTriangleFiles.count(kind_of_file(path)) > 0;
 }
 
 bool holds_surface(const Mesh& mesh) {
@@ -117,8 +118,14 @@ bool holds_surface(const Mesh& mesh) {
 SurfaceModel read_surface(const Case& c) {
   const std::filesystem::path& path = c.surface_file;
   return located(c.where, [&] {
-    if (c.example.empty() && !kCadFiles.count(path.extension().string()))
-      return make_model(c.surface, read_mesh(path), path.string());
+    if (c.example.empty() && !kCadFiles.count(kind_of_file(path))) {
+      ReadNotes notes;
+      Mesh mesh = read_mesh(path, &notes);
+      split_quads(mesh, path.string(), notes);
+      SurfaceModel model = make_model(c.surface, std::move(mesh), path.string());
+      model.warnings.insert(model.warnings.begin(), notes.begin(), notes.end());
+      return model;
+    }
     check_for_cad(c.surface);
     CadOptions options;
     options.keep_going = c.options.keep_going;

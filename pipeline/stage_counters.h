@@ -127,8 +127,12 @@ struct Counters<DiscardSummary> {
 template <>
 struct Counters<PartingSummary> {
   using S = PartingSummary;
-  static constexpr auto all = std::tuple{counter("chords", &S::chords), counter("left", &S::left),
-                                         counter("rings", &S::rings), counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple{counter("chords", &S::chords),
+                                         counter("left", &S::left),
+                                         counter("rings", &S::rings),
+                                         counter("corners", &S::corners),
+                                         counter("corners_left", &S::corners_left),
+                                         counter("seconds", &S::seconds)};
 };
 
 template <>

@@ -41,9 +41,11 @@ struct DiscardSummary {
 
 /// What part_twins() did, over all stages.
 struct PartingSummary {
-  int chords = 0;  ///< parted
-  int left = 0;    ///< chords that the quads beside did not allow to part
-  int rings = 0;   ///< of quads, put inside of faces of one quad
+  int chords = 0;        ///< parted
+  int left = 0;          ///< chords that the quads beside did not allow to part
+  int rings = 0;         ///< of quads, put inside of faces of one quad
+  int corners = 0;       ///< nodes with two quads in all, of which one face got a second one
+  int corners_left = 0;  ///< those where that would have left bad quads
   double seconds = 0;
 };
 

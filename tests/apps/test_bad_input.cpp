@@ -209,7 +209,7 @@ TEST(BadArguments, AreRefused) {
     EXPECT_TRUE(contains(result.err, "whole number from 1 to 1e15")) << result.err;
   }
   expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
-                 {".stl", ".msh, .vtu, .obj, .inp or .mesh"});
+                 {".stl", ".msh, .vtu, .obj, .inp, .mesh or .svg"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
   expect_refusal(delquad({"mesh", folder / "model.iges", "-o", out, "--size", "0.1"}),

@@ -37,6 +37,42 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
     EXPECT_TRUE(contains(record, key)) << key;
 }
 
+TEST(MeshCommand, WritesEveryFormatAndMetricsReadsIt) {
+  const TemporaryFolder folder;
+  // An interface without a name lies inside the mesh.
+  const auto model = write_text(
+      folder / "MODEL.TOML",
+      kSquareLoop + "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.2 }\nregion = \"core\"\n");
+  std::set<std::string> measured;
+  for (const char* name : {"a.msh", "b.MSH", "a.vtu", "a.obj", "a.inp", "a.mesh"}) {
+    std::vector<std::string> arguments = {"mesh", model, "-o", folder / name, "--size", "0.1"};
+    if (std::string(name) == "b.MSH") arguments.insert(arguments.end(), {"--binary", "--curves", "all"});
+    ASSERT_EQ(delquad(arguments).exit_code, 0) << name;
+    const ProgramResult result = delquad({"metrics", folder / name});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    measured.insert(result.out.substr(result.out.find('\n')));
+  }
+  EXPECT_EQ(measured.size(), 1u);
+  EXPECT_EQ(read_mesh(folder / "a.msh").curves.size() + 1, read_mesh(folder / "b.MSH").curves.size());
+
+  EXPECT_EQ(delquad({"mesh", model, "-o", folder / "a.svg", "--size", "0.1"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "a.svg"), "<svg"));
+  const ProgramResult refused = delquad({"mesh", model, "-o", folder / "c.obj", "--size", "0.1", "--binary"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "c.obj")) << refused.err;
+}
+
+TEST(MeshCommand, SaysWhatAPolygonModelBecame) {
+  const TemporaryFolder folder;
+  const auto model = write_text(
+      folder / "roof.OBJ", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 3 1\nv 0 2 0\nf 1 2 3 5\nf 3 4 5\nf 1 5 4 3 2\n");
+  const ProgramResult result = delquad({"info", model});
+  EXPECT_TRUE(contains(result.out + result.err, "1 quad was split")) << result.out << result.err;
+  EXPECT_TRUE(
+      contains(result.out + result.err, "1 face of more than four vertices was split into 3 triangles"))
+      << result.out << result.err;
+}
+
 TEST(MeshCommand, QualityChoosesWordAndCross) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
@@ -120,7 +156,7 @@ TEST(MeshCommand, OddBoundaryLeavesOneTriangleAndSaysWhere) {
 std::filesystem::path flat_quad(const TemporaryFolder& folder) {
   write_text(folder / "flat.msh", line_mesh({{0, 0}, {1, 0}, {2, 0}, {1, 1}}, "rim"));
   return write_text(folder / "flat.toml",
-                    "mesh = \"flat.msh\"\nsize = 10\nrecombination = { treatment = \"none\" }\n");
+                    "mesh = \"flat.msh\"\nsize = 2\nrecombination = { treatment = \"none\" }\n");
 }
 
 const std::string kFlat = "1 quad is inverted or flat (eta 0): face 1 at (1, 0.25, 0)";

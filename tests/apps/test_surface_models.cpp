@@ -24,7 +24,7 @@ TEST(SurfaceModels, ACubeBecomesItsGrid) {
   const TemporaryFolder folder;
   std::ofstream(folder / "cube.off") << kCube;
   const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "cube.msh", "--size", "0.125",
-                            "--json", folder / "cube.json"});
+                            "--json", folder / "cube.json", "--curves", "all"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Mesh mesh = read_msh(folder / "cube.msh");
   EXPECT_EQ(mesh.quads.size(), 6u * 64);

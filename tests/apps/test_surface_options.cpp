@@ -21,7 +21,7 @@ std::pair<int, int> faces_and_curves(const std::vector<std::string>& options, bo
   const TemporaryFolder folder;
   std::ofstream(folder / "roof.off") << roof(torn);
   std::vector<std::string> arguments = {"mesh", folder / "roof.off", "-o", folder / "roof.msh", "--size",
-                                        "0.25"};
+                                        "0.25", "--curves",          "all"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto run = delquad(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -135,7 +135,7 @@ TEST_F(MshReader, AllocatesNoMoreThanTheFileCanHold) {
 
 TEST_F(MshReader, SaysWhichFilesItReads) {
   expect_error(with(kSquare41, "4.1 0 8", "4 0 8"), {"case.msh:2: ", "'4'", "2.2 or 4.1"});
-  expect_error(with(kSquare41, "4.1 0 8", "4.1 1 8"), {"case.msh:2: ", "binary", "expected text"});
+  expect_error(with(kSquare41, "4.1 0 8", "4.1 1 8"), {"case.msh: byte ", "expected the number 1"});
   expect_error("", {"case.msh:1: ", "empty"});
   expect_error(std::string("\x7f"
                            "ELF\0\0garbage",

@@ -54,7 +54,7 @@ TEST_F(Off, NamesTheLineOfWhatIsWrong) {
   };
   const std::string points = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   expect_error("", {"case.off:1: ", "'OFF'"});
-  expect_error("ply\n", {"case.off:1: ", "'OFF'", "'ply'"});
+  expect_error("ply\n", {"case.off:1: ", "holds a PLY file", "expected OFF"});
   expect_error("4OFF\n", {"case.off:1: ", "three coordinates", "'4OFF'"});
   expect_error("OFF BINARY\n", {"case.off:1: ", "binary"});
   expect_error("OFF\n3 x 0\n", {"case.off:2: ", "number of faces", "'x'"});

@@ -63,17 +63,26 @@ Mesh mixed() {
   return mesh;
 }
 
+/// As MSH files have it, where every entity is in a group.
+Mesh named(Mesh mesh) {
+  for (Entity& curve : mesh.curves)
+    if (curve.names.empty()) curve.names = {"curve_" + std::to_string(curve.tag)};
+  return mesh;
+}
+
 TEST(MshRoundTrip, KeepsEverything) {
   const TemporaryFolder folder;
   ASSERT_EQ(check_invariants(mixed()), std::vector<std::string>());
   Mesh lines = testing_support::grid_outline(1, 1, 1, 1);
   lines.regions.clear();
   for (const Mesh& mesh : {mixed(), quad_grid(5, 3), triangle_grid(3, 4), shaken(quad_grid(20, 20)), lines}) {
-    write_msh(folder / "a.msh", mesh);
-    const Mesh back = read_msh(folder / "a.msh");
-    expect_same(mesh, back);
-    write_msh(folder / "b.msh", back);
-    EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
+    for (const bool binary : {false, true}) {
+      write_msh(folder / "a.msh", mesh, {binary, MshCurves::kAll});
+      const Mesh back = read_msh(folder / "a.msh");
+      expect_same(named(mesh), back);
+      write_msh(folder / "b.msh", back, {binary, MshCurves::kAll});
+      EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
+    }
   }
 }
 
@@ -139,12 +148,48 @@ $EndElements
 )");
 }
 
-TEST(MshWriter, RefusesNamesThatTheFormatCannotHold) {
+/// The lines of a section.
+std::string section(const std::string& text, const std::string& name) {
+  const size_t first = text.find('$' + name + '\n'), last = text.find("$End" + name);
+  return first == std::string::npos ? "" : text.substr(first, last - first);
+}
+
+TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
   const TemporaryFolder folder;
-  Mesh mesh = quad_grid(1, 1);
-  mesh.regions[0].names = {"a \"quoted\" name"};
-  expect_input_error([&] { write_msh(folder / "a.msh", mesh); }, {"quoted", "double quote"});
-  EXPECT_TRUE(folder.names().empty());
+  Mesh mesh = quad_grid(1, 3);
+  mesh.regions = {
+      {1, {"product", "colour #FF0000", "hole"}}, {2, {"product", "colour #FF0000"}}, {3, {"product"}}};
+  mesh.quad_region = {0, 1, 2};
+  mesh.curves[1].names = {"curve_3"};
+  mesh.curves[2].names = {};
+  mesh.curves[3].names = {"say \"x\"", "two\nlines\x01"};
+  write_msh(folder / "a.msh", mesh);
+  const std::string text = read_text(folder / "a.msh");
+  EXPECT_EQ(
+      section(text, "PhysicalNames"),
+      "$PhysicalNames\n7\n1 1 \"south\"\n1 2 \"curve_3\"\n1 3 \"curve_3_2\"\n1 4 \"say 'x'\"\n2 5 \"hole\"\n"
+      "2 6 \"colour #FF0000\"\n2 7 \"product\"\n")
+      << "the name that tells most; names that a group has otherwise stay different";
+  EXPECT_EQ(section(text, "MoreNames"),
+            "$MoreNames\n4\n1 4 \"two lines \"\n2 1 \"product\"\n2 1 \"colour #FF0000\"\n2 2 \"product\"\n");
+}
+
+TEST(MshWriter, LeavesOutLinesInside) {
+  const TemporaryFolder folder;
+  const auto curves = [&](MshCurves which) {
+    write_msh(folder / "a.msh", mixed(), {false, which});
+    std::vector<int> tags;
+    for (const Entity& curve : read_msh(folder / "a.msh").curves) tags.push_back(curve.tag);
+    return tags;
+  };
+  EXPECT_EQ(curves(MshCurves::kAll), (std::vector<int>{1, 2, 3, 4, 40}));
+  EXPECT_EQ(curves(MshCurves::kNamed), (std::vector<int>{1, 2, 3, 4}));
+  Mesh named_inside = mixed();
+  named_inside.curves[4].names = {"interface"};
+  write_msh(folder / "a.msh", named_inside, {false, MshCurves::kNamed});
+  EXPECT_EQ(read_msh(folder / "a.msh").curves.size(), 5u);
+  write_msh(folder / "a.msh", named_inside, {false, MshCurves::kBoundary});
+  EXPECT_EQ(read_msh(folder / "a.msh").curves.size(), 4u);
 }
 
 TEST(ObjRoundTrip, KeepsShapeAndNames) {
@@ -163,8 +208,17 @@ TEST(MeshFormats, AreToldByExtension) {
   write_mesh(folder / "a.vtu", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.vtu").find("Name=\"eta\""), std::string::npos);
   expect_input_error([&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
-                     {"a.stl", "'.stl'", ".msh, .vtu, .obj, .inp or .mesh"});
-  expect_input_error([&] { read_mesh(folder / "a.vtu"); }, {"a.vtu", ".msh, .obj, .off or .stl"});
+                     {"a.stl", "'.stl'", ".msh, .vtu, .obj, .inp, .mesh or .svg"});
+  expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
+  expect_input_error(
+      [&] {
+        write_mesh(folder / "a.obj", quad_grid(1, 1), {true, MshCurves::kAll});
+      },
+      {"a.obj", "binary", ".msh"});
+  expect_input_error([&] { read_mesh(folder / "a.ply"); },
+                     {"a.ply", ".msh, .obj, .off, .stl, .vtu, .inp or .mesh"});
+  write_mesh(folder / "a.svg", quad_grid(3, 3));
+  EXPECT_NE(read_text(folder / "a.svg").find("<svg"), std::string::npos);
 }
 
 }  // namespace

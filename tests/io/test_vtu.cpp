@@ -56,7 +56,10 @@ TEST(Vtu, HoldsCellsAndTheirData) {
             (std::vector<std::int64_t>{0, 1, 1, 3, 3, 2, 2, 0, 0, 1, 3, 0, 1, 3, 2}));
   EXPECT_EQ(array<std::int64_t>(xml, "offsets"), (std::vector<std::int64_t>{2, 4, 6, 8, 11, 15}));
   EXPECT_EQ(array<std::uint8_t>(xml, "types"), (std::vector<std::uint8_t>{3, 3, 3, 3, 5, 9}));
-  EXPECT_EQ(array<std::int32_t>(xml, "entity"), (std::vector<std::int32_t>{1, 2, 3, 4, 1, 1}));
+  EXPECT_EQ(array<std::int32_t>(xml, "curve"), (std::vector<std::int32_t>{1, 2, 3, 4, 0, 0}));
+  EXPECT_EQ(array<std::int32_t>(xml, "region"), (std::vector<std::int32_t>{0, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(array<std::int32_t>(xml, "curve east"), (std::vector<std::int32_t>{2}));
+  EXPECT_EQ(array<std::int32_t>(xml, "region inside"), (std::vector<std::int32_t>{1}));
   const auto data = array<double>(xml, "a &lt; b");
   ASSERT_EQ(data.size(), 6u);
   EXPECT_TRUE(std::isnan(data[4]));

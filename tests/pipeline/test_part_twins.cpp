@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "fields/fields.h"
 #include "geometry/surface/triangulated_model.h"
 #include "pipeline/prepare_surface.h"
 #include "pipeline/runner.h"
+#include "tests/support/quad_patches.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
@@ -94,6 +96,44 @@ TEST_F(Pillow, OfTwoQuadsOnTheSameNodesOneGetsARing) {
   EXPECT_EQ(patches[1].quads.quads.size(), 5u);
   part_twins(all);
   EXPECT_EQ(patches[1].quads.quads.size(), 5u);
+}
+
+/// Pairs of quads that share two sides of one node, of patches whose boundaries have the same nodes.
+int two_sides_in_common(const std::vector<PatchMesh>& patches, const PreparedCase& prepared) {
+  std::set<std::array<int, 3>> corners;
+  int pairs = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (const auto& quad : patches[p].quads.quads)
+      for (int k = 0; k < 4; ++k) {
+        const auto node = [&](int i) {
+          const int v = quad[i % 4], n = patches[p].quads.n_boundary;
+          return v < n ? prepared.patches[p].boundary.point_node[v] : 1000 * (1 + static_cast<int>(p)) + v;
+        };
+        const auto [low, high] = std::minmax({node(k + 1), node(k + 3)});
+        pairs += !corners.insert({node(k), low, high}).second;
+      }
+  return pairs;
+}
+
+TEST_F(Pillow, NoTwoQuadsShareTwoSides) {
+  for (const int n : {1, 2, 5}) {
+    for (const bool mirrored : {false, true}) {
+      const QuadPatch grid = testing_support::grid_patch(n, n);
+      PatchMesh& patch = patches[mirrored];
+      patch.form = PatchForm::kQuads;
+      patch.quads = grid;
+      PatchBoundary& boundary = prepared.patches[mirrored].boundary;
+      boundary = shapes::rectangle(n, n, n, n);
+      // The other side of the pillow runs round the other way.
+      if (mirrored)
+        for (int i = 0; i < 4 * n; ++i) boundary.point_node[i] = (4 * n - i) % (4 * n);
+    }
+    EXPECT_GT(two_sides_in_common(patches, prepared), 0) << n;
+    const PartingSummary summary = part_twins(all);
+    EXPECT_EQ(two_sides_in_common(patches, prepared), 0) << n;
+    EXPECT_EQ(summary.corners_left, 0) << n;
+    for (const PatchMesh& patch : patches) EXPECT_TRUE(QuadTopology(patch.quads).check_invariants().empty());
+  }
 }
 
 }  // namespace

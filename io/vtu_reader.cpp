@@ -1,0 +1,342 @@
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <charconv>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <sstream>
+
+#include "io/mesh_io.h"
+#include "io/text_scanner.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/error.h"
+
+namespace delquad {
+
+namespace {
+
+using Tree = boost::property_tree::ptree;
+
+/// Bytes of base64 digits up to the first character that is none; blanks between them are skipped.
+std::string from_base64(std::string_view text, size_t* used = nullptr) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t held = 0;
+  int bits = 0;
+  size_t at = 0;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+    const size_t value = digits.find(c);
+    if (value == std::string::npos) break;
+    held = held << 6 | static_cast<std::uint32_t>(value);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(held >> bits & 255);
+  }
+  while (at < text.size() && text[at] == '=') ++at;
+  if (used) *used = at;
+  return bytes;
+}
+
+class VtuReader {
+ public:
+  explicit VtuReader(const std::filesystem::path& path) : path_(path.string()), in_(path) {
+    refuse_other_kinds(in_, "VTU");
+  }
+
+  Mesh read() {
+    parse();
+    const Tree& file = child(tree_, "VTKFile");
+    if (attribute(file, "type") != "UnstructuredGrid")
+      fail("a VTK file of type '" + attribute(file, "type") + "': expected an UnstructuredGrid");
+    swapped_ = attribute(file, "byte_order", "LittleEndian") !=
+               (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+    wide_header_ = attribute(file, "header_type", "UInt32") == "UInt64";
+    const std::string compressor = attribute(file, "compressor", "");
+    packed_ = compressor == "vtkZLibDataCompressor";
+    if (!compressor.empty() && !packed_)
+      fail("compressed by '" + compressor + "': expected vtkZLibDataCompressor or none");
+    const Tree& grid = child(file, "UnstructuredGrid");
+    for (const auto& [name, piece] : grid)
+      if (name == "Piece") read_piece(piece);
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
+      fail("the file holds no lines, triangles or quads");
+    for (const auto& [name, data] : grid)
+      if (name == "FieldData") read_names(data);
+    drop_unused_points(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(path_ + ": " + message); }
+
+  /// Raw appended data is no XML and is cut out before.
+  void parse() {
+    std::string text(in_.text());
+    const size_t open = text.find("<AppendedData"), first = text.find('_', std::min(open, text.size()));
+    const size_t close = text.rfind("</AppendedData>");
+    if (open != std::string::npos && first != std::string::npos && close != std::string::npos &&
+        first < close) {
+      appended_ = text.substr(first + 1, close - first - 1);
+      text.erase(first, close - first);
+      has_appended_ = true;
+    }
+    std::istringstream stream(std::move(text));
+    try {
+      read_xml(stream, tree_);
+    } catch (const boost::property_tree::xml_parser_error& error) {
+      throw InputError(
+          fmt::format("{}:{}: {}: expected a VTU file, which is XML", path_, error.line(), error.message()));
+    }
+    if (!has_appended_) return;
+    const std::string encoding = attribute(child(child(tree_, "VTKFile"), "AppendedData"), "encoding", "raw");
+    raw_ = encoding == "raw";
+  }
+
+  const Tree& child(const Tree& tree, const std::string& name) const {
+    const auto found = tree.find(name);
+    if (found == tree.not_found()) fail("expected an element <" + name + ">");
+    return found->second;
+  }
+
+  static std::string attribute(const Tree& tree, const std::string& name, const std::string& otherwise = "") {
+    return tree.get("<xmlattr>." + name, otherwise);
+  }
+
+  const Tree* array_named(const Tree& parent, const std::string& name) const {
+    for (const auto& [tag, data] : parent)
+      if (tag == "DataArray" && (name.empty() || attribute(data, "Name") == name)) return &data;
+    return nullptr;
+  }
+
+  const Tree& needed_array(const Tree& parent, const std::string& name) const {
+    const Tree* array = array_named(parent, name);
+    if (!array) fail("expected a data array '" + name + "'");
+    return *array;
+  }
+
+  template <class T>
+  T from_bytes(const char* data) const {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, data, sizeof bytes);
+    if (swapped_) std::reverse(bytes, bytes + sizeof bytes);
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+
+  std::uint64_t header_number(std::string_view bytes, size_t k) const {
+    const size_t width = wide_header_ ? 8 : 4;
+    if (bytes.size() < (k + 1) * width) fail("a data array ends within its header");
+    return wide_header_ ? from_bytes<std::uint64_t>(bytes.data() + k * width)
+                        : from_bytes<std::uint32_t>(bytes.data() + k * width);
+  }
+
+  /// The bytes of an array: after their number as they are, or after a table of blocks, packed.
+  std::string payload(std::string_view text, bool is_raw) const {
+    const size_t width = wide_header_ ? 8 : 4;
+    if (!packed_) {
+      size_t used = 0;
+      std::string bytes = is_raw ? std::string(text) : from_base64(text, &used);
+      const std::uint64_t n = header_number(bytes, 0);
+      // Some programs encode the number apart from the data.
+      if (!is_raw && bytes.size() == width) bytes += from_base64(text.substr(used));
+      if (bytes.size() - width < n)
+        fail(fmt::format("a data array of {} bytes has only {}", n, bytes.size() - width));
+      return bytes.substr(width, n);
+    }
+    size_t used = 0;
+    std::string head = is_raw ? std::string(text) : from_base64(text, &used);
+    const std::uint64_t n_blocks = header_number(head, 0);
+    if (n_blocks > head.size()) fail("a compressed data array has a damaged header");
+    const size_t header = (3 + n_blocks) * width;
+    std::string data = head.substr(std::min(header, head.size()));
+    if (!is_raw && data.empty()) data = from_base64(text.substr(used));
+    std::string result;
+    size_t at = 0;
+    for (std::uint64_t b = 0; b < n_blocks; ++b) {
+      const std::uint64_t n = header_number(head, 3 + b), whole = header_number(head, 1),
+                          last = header_number(head, 2);
+      const std::uint64_t size = b + 1 == n_blocks && last > 0 ? last : whole;
+      result += unpacked(data, at, n, size);
+      at += n;
+    }
+    return result;
+  }
+
+  std::string unpacked(const std::string& data, size_t at, std::uint64_t n, std::uint64_t size) const {
+    constexpr std::uint64_t kMostRatio = 2000;  // zlib packs no more than 1032 times
+    if (at > data.size() || n > data.size() - at || size > kMostRatio * (n + 1))
+      fail("a compressed data array is damaged");
+    std::string bytes(size, '\0');
+    uLongf length = size;
+    const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                                  reinterpret_cast<const Bytef*>(data.data() + at), n);
+    if (status != Z_OK || length != size) fail("a compressed data array is damaged");
+    return bytes;
+  }
+
+  template <class T>
+  std::vector<double> values(const std::string& bytes) const {
+    std::vector<double> result;
+    for (size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T))
+      result.push_back(static_cast<double>(from_bytes<T>(bytes.data() + at)));
+    return result;
+  }
+
+  /// Whole numbers stay exact up to 2^53.
+  std::vector<double> read_array(const Tree& array) const {
+    const std::string format = attribute(array, "format", "ascii"), name = attribute(array, "Name"),
+                      type = attribute(array, "type");
+    if (format == "ascii") return read_text(array.data(), name);
+    std::string bytes;
+    if (format == "appended") {
+      const auto offset = array.get<std::uint64_t>("<xmlattr>.offset", appended_.size() + 1);
+      if (offset > appended_.size()) fail("data array '" + name + "' lies behind the appended data");
+      bytes = payload(std::string_view(appended_).substr(offset), raw_);
+    } else {
+      bytes = payload(array.data(), false);
+    }
+    if (type == "Float64") return values<double>(bytes);
+    if (type == "Float32") return values<float>(bytes);
+    if (type == "Int64") return values<std::int64_t>(bytes);
+    if (type == "UInt64") return values<std::uint64_t>(bytes);
+    if (type == "Int32") return values<std::int32_t>(bytes);
+    if (type == "UInt32") return values<std::uint32_t>(bytes);
+    if (type == "Int16") return values<std::int16_t>(bytes);
+    if (type == "UInt16") return values<std::uint16_t>(bytes);
+    if (type == "Int8") return values<std::int8_t>(bytes);
+    if (type == "UInt8") return values<std::uint8_t>(bytes);
+    fail("data array '" + name + "' of type '" + type + "': expected numbers");
+  }
+
+  std::vector<double> read_text(const std::string& text, const std::string& name) const {
+    std::vector<double> result;
+    const char *at = text.data(), *end = text.data() + text.size();
+    while (true) {
+      while (at < end && (*at == ' ' || (*at >= '\t' && *at <= '\r'))) ++at;
+      if (at == end) return result;
+      double value = 0;
+      const auto [stop, error] = std::from_chars(at, end, value);
+      if (error != std::errc()) fail("data array '" + name + "': expected numbers");
+      result.push_back(value);
+      at = stop;
+    }
+  }
+
+  void read_piece(const Tree& piece) {
+    const Tree* coordinates = array_named(child(piece, "Points"), "");
+    if (!coordinates) fail("expected an array of points");
+    const std::vector<double> xyz = read_array(*coordinates);
+    const size_t first = mesh_.points.size();
+    for (size_t i = 0; i + 2 < xyz.size(); i += 3) {
+      for (size_t k = 0; k < 3; ++k)
+        if (!std::isfinite(xyz[i + k])) fail(fmt::format("point {}: expected finite coordinates", i / 3));
+      mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    }
+    const Tree& cells = child(piece, "Cells");
+    const std::vector<double> corners = read_array(needed_array(cells, "connectivity")),
+                              offsets = read_array(needed_array(cells, "offsets")),
+                              types = read_array(needed_array(cells, "types"));
+    if (types.size() != offsets.size())
+      fail(fmt::format("{} types of cells and {} offsets", types.size(), offsets.size()));
+    const std::vector<double> curve = tags(piece, "curve", types.size()),
+                              region = tags(piece, "region", types.size());
+    double begin = 0;
+    for (size_t c = 0; c < types.size(); ++c) {
+      if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
+        fail(fmt::format("cell {} lies outside of the connectivity", c));
+      std::vector<int> v;
+      for (auto k = static_cast<size_t>(begin); k < static_cast<size_t>(offsets[c]); ++k) {
+        if (!(corners[k] >= 0 && corners[k] < static_cast<double>(mesh_.points.size() - first)))
+          fail(fmt::format("cell {}: there is no point {}", c, corners[k]));
+        v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
+      }
+      add_cell(static_cast<int>(types[c]), v, curve[c], region[c]);
+      begin = offsets[c];
+    }
+  }
+
+  std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
+    const auto data = piece.find("CellData");
+    const Tree* array = data == piece.not_found() ? nullptr : array_named(data->second, name);
+    if (!array) return std::vector<double>(n, 0);
+    std::vector<double> all = read_array(*array);
+    if (all.size() != n) fail(fmt::format("data array '{}': {} values for {} cells", name, all.size(), n));
+    for (const double tag : all)
+      if (!(tag >= 0 && tag < INT_MAX && tag == std::floor(tag)))
+        fail(fmt::format("data array '{}': {}: expected whole numbers", name, tag));
+    return all;
+  }
+
+  void add_cell(int type, const std::vector<int>& v, double curve, double region) {
+    constexpr int kVertex = 1, kPolyVertex = 2, kLine = 3, kTriangle = 5, kQuad = 9;
+    const auto expect = [&](size_t n) {
+      if (v.size() != n) fail(fmt::format("a cell of type {} has {} points: expected {}", type, v.size(), n));
+    };
+    if (type == kVertex || type == kPolyVertex) return;
+    if (type == kLine) {
+      expect(2);
+      mesh_.lines.push_back({v[0], v[1]});
+      mesh_.line_curve.push_back(entity(mesh_.curves, 1, curve));
+    } else if (type == kTriangle) {
+      expect(3);
+      mesh_.triangles.push_back({v[0], v[1], v[2]});
+      mesh_.triangle_region.push_back(entity(mesh_.regions, 2, region));
+    } else if (type == kQuad) {
+      expect(4);
+      mesh_.quads.push_back({v[0], v[1], v[2], v[3]});
+      mesh_.quad_region.push_back(entity(mesh_.regions, 2, region));
+    } else {
+      fail(fmt::format("a cell of type {}: expected lines (3), triangles (5) and quads (9)", type));
+    }
+  }
+
+  /// 0, where a file has no tags, is entity 1.
+  int entity(std::vector<Entity>& entities, int dim, double tag) {
+    const int number = std::max(1, static_cast<int>(tag));
+    const auto [it, is_new] = index_.emplace(std::pair{dim, number}, static_cast<int>(entities.size()));
+    if (is_new) entities.push_back({number, {}});
+    return it->second;
+  }
+
+  /// "curve NAME" or "region NAME": the tags of those that have it.
+  void read_names(const Tree& data) {
+    for (const auto& [tag, array] : data) {
+      if (tag != "DataArray") continue;
+      const std::string title = attribute(array, "Name");
+      for (const auto& [kind, dim] : {std::pair{"curve ", 1}, std::pair{"region ", 2}}) {
+        if (!title.starts_with(kind)) continue;
+        const std::string name = title.substr(std::string_view(kind).size());
+        for (const double number : read_array(array)) {
+          const auto found = index_.find({dim, static_cast<int>(number)});
+          if (found == index_.end()) continue;
+          (dim == 1 ? mesh_.curves : mesh_.regions)[found->second].names.push_back(name);
+        }
+      }
+    }
+  }
+
+  std::string path_;
+  TextScanner in_;
+  Tree tree_;
+  std::string appended_;
+  bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
+  Mesh mesh_;
+  std::map<std::pair<int, int>, int> index_;
+};
+
+}  // namespace
+
+Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
+
+}  // namespace delquad
