@@ -18,10 +18,10 @@
 #include "mesh/error.h"
 #include "mesh/half_edges.h"
 #include "mesh/parallel.h"
+#include "pipeline/lift_bad_quads.h"
 #include "pipeline/part_twins.h"
 #include "pipeline/stage_counters.h"
 #include "pipeline/stopwatch.h"
-#include "surfaces/surface_lift.h"
 
 namespace delquad {
 namespace {
@@ -165,38 +165,15 @@ void count_bad_quads(const std::string& label, const PreparedCase& prepared, Run
                   worst->angle * 180 / std::numbers::pi, worst->eta_bound));
 }
 
-/// Quads below this eta in space are lifted, in so many sweeps.
-constexpr double kPoorInSpace = 0.3;
-constexpr int kLiftSweeps = 20;
-
-/// On surfaces, quads may be worse in space than in the plane in which they were treated, and nodes on curves
-/// may have to give way.
-void lift_bad_quads(const PreparedCase& prepared, SurfaceNodes& nodes, std::vector<PatchMesh>& patches,
-                    const std::vector<char>& left_out, StageLog& log) {
+/// `left_out`: by region.
+void lift(const Case& c, const PreparedCase& prepared, MeshingState& state, const std::vector<char>& left_out,
+          StageLog& log) {
   if (!prepared.surface) return;
   const Stopwatch watch;
   const DoingStage lifting("lifting");
-  std::vector<SurfaceTracks::Patch> lifted;
-  std::vector<std::size_t> which;
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    if (patches[i].form == PatchForm::kQuads && !left_out[prepared.patches[i].region]) which.push_back(i);
-  const PreparedSurface& surface = *prepared.surface;
-  parallel_for(
-      which.size(),
-      [&](std::size_t k) {
-        PatchMesh& patch = patches[which[k]];
-        const DoingFace face = doing_patch(prepared, which[k]);
-        if (patch.inside.empty()) patch.inside = places_inside(prepared, which[k], patch, nodes.points);
-      },
-      [&](std::size_t k) { return static_cast<double>(patches[which[k]].quads.points.size()); });
-  for (const std::size_t i : which)
-    lifted.push_back(
-        {&surface.domain.patches[i], prepared.patches[i].cross.get(), &patches[i].quads, &patches[i].inside});
-  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, nodes, std::move(lifted));
-  std::vector<Vec3> places = tracks.points();
-  LiftingSummary summary;
-  summary.moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps);
-  if (summary.moved > 0) tracks.store(places);
+  std::vector<char> patch_left_out;
+  for (const PreparedPatch& patch : prepared.patches) patch_left_out.push_back(left_out[patch.region]);
+  LiftingSummary summary = lift_bad_quads({prepared, c.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();
   add_counters(log.lift_bad_quads, summary);
   log.add_seconds("lifting", summary.seconds);
@@ -344,7 +321,7 @@ RunResult finish_meshing(const Case& c, const PreparedCase& prepared, const std:
   result.log = std::move(state.log);
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
   if (c.options.treatment == Treatment::kPaper && c.options.repair.lift_bad_quads)
-    lift_bad_quads(prepared, state.nodes, state.patches, left_out, result.log);
+    lift(c, prepared, state, left_out, result.log);
   result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();

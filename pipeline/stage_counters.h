@@ -138,7 +138,8 @@ struct Counters<PartingSummary> {
 template <>
 struct Counters<LiftingSummary> {
   using S = LiftingSummary;
-  static constexpr auto all = std::tuple{counter("moved", &S::moved), counter("seconds", &S::seconds)};
+  static constexpr auto all =
+      std::tuple{counter("moved", &S::moved), counter("rings", &S::rings), counter("seconds", &S::seconds)};
 };
 
 namespace counters_detail {

@@ -52,6 +52,7 @@ struct PartingSummary {
 /// What became of quads that were bad in space, at the end.
 struct LiftingSummary {
   int moved = 0;  ///< vertices
+  int rings = 0;  ///< of quads, put inside those that stayed inverted or folded
   double seconds = 0;
 };
 
