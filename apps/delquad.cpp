@@ -29,7 +29,8 @@ constexpr const char* kTimeLimitHelp =
     "seconds after which the program ends with exit code 1, saying at what, and without a file";
 constexpr const char* kExitCodes =
     "Exit codes: 0: done. 1: internal error, or time is up (--time-limit), or something got worse (compare,\n"
-    "rerun). 2: bad input. 3: triangles are left among the quads. 4: faces were left out (--keep-going).\n"
+    "rerun). 2: bad input. 3: triangles are left among the quads, and written. 4: faces were left out "
+    "(--keep-going).\n"
     "5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: terminated.";
 constexpr int kMostThreads = 1024;
 constexpr const char* kUnsoundHelp =
@@ -304,7 +305,9 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help
+    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' tell what is)\n", error.what());
+    return kBadInput;
   }
   if (common.version) {
     print_version(common.all);
@@ -359,7 +362,8 @@ int run_program(int argc, char** argv) {
     fmt::print(stderr, "error: {}\n", error.what());
     return kBadInput;
   } catch (const UnsoundError& error) {
-    fmt::print(stderr, "error: {}: nothing was written (--allow-unsound writes it)\n", error.what());
+    fmt::print(stderr, "error: {}: nothing was written; another size may help (--allow-unsound writes it)\n",
+               error.what());
     return kUnsound;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "internal error: out of memory\n");

@@ -108,8 +108,10 @@ int mesh_command(const MeshArguments& arguments) {
     fmt::print(stderr, "error: left out: {}\n", failure.reason);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!word.quads_only() || result.mesh.triangles.empty() || arguments.allow_triangles) return kDone;
-  fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
-             result.mesh.triangles.size());
+  fmt::print(
+      stderr,
+      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
+      result.mesh.triangles.size());
   return kTrianglesLeft;
 }
 

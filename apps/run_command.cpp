@@ -28,8 +28,10 @@ int exit_code(const Outcome& outcome, bool allow_triangles) {
   if (outcome.bad_inputs > 0) return kBadInput;
   if (outcome.unsound > 0) return kUnsound;
   if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
-  fmt::print(stderr, "error: {} triangles are left among the quads (--allow-triangles accepts them)\n",
-             outcome.leftover_triangles);
+  fmt::print(
+      stderr,
+      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
+      outcome.leftover_triangles);
   return kTrianglesLeft;
 }
 

@@ -93,6 +93,7 @@ class InpReader {
       else
         data(fields_of(line));
     }
+    if (!pending_.empty()) in_.fail("the file ends within an element: is it whole?");
     if (elements_.empty()) in_.fail("the file holds no *ELEMENT of two, three or four nodes");
     make_mesh();
     drop_unused_points(mesh_);

@@ -75,7 +75,7 @@ SurfaceModel load(const Case& c) {
   }
   MshSurfaces surfaces;
   Mesh mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
-  if (holds_surface(mesh)) return make_model(c.surface, std::move(mesh), c.mesh_file.string());
+  if (holds_surface(mesh)) return make_triangle_model(c, std::move(mesh), c.mesh_file.string());
   return as_model(make_named_domain(mesh, surfaces, c.mesh_file.string()), c.mesh_file.string());
 }
 

@@ -74,11 +74,11 @@ class RegionsInside {
 
 /// For each loop the tags of its curves and of those of the loops directly inside: what bounds a region
 /// there.
-std::vector<std::vector<int>> bounding_curves(const Mesh& mesh, const std::vector<BoundaryLoop>& loops) {
+std::vector<std::vector<int>> bounding_curves(const Mesh& lines, const std::vector<BoundaryLoop>& loops) {
   std::vector<std::set<int>> tags(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l)
     for (const int line : loops[l].lines) {
-      const int tag = mesh.curves[mesh.line_curve[line]].tag;
+      const int tag = lines.curves[lines.line_curve[line]].tag;
       tags[l].insert(tag);
       if (loops[l].parent >= 0) tags[loops[l].parent].insert(tag);
     }
@@ -90,11 +90,12 @@ std::vector<std::vector<int>> bounding_curves(const Mesh& mesh, const std::vecto
 /// The groups of the surface inside each loop; none where the file knows of no surface there.
 using LoopGroups = std::vector<std::optional<std::vector<std::string>>>;
 
-LoopGroups groups_inside(const Mesh& mesh, const std::vector<BoundaryLoop>& loops,
+/// `lines`: those of which the loops are.
+LoopGroups groups_inside(const Mesh& mesh, const Mesh& lines, const std::vector<BoundaryLoop>& loops,
                          const MshSurfaces& surfaces) {
   LoopGroups groups(loops.size());
   const RegionsInside regions(mesh, loops);
-  const auto bounding = bounding_curves(mesh, loops);
+  const auto bounding = bounding_curves(lines, loops);
   for (std::size_t l = 0; l < loops.size(); ++l) {
     const int region = regions[l];
     if (region != kNone) {
@@ -160,7 +161,7 @@ Mesh lines_of(const Mesh& mesh) {
 PlanarDomain make_named_domain(const Mesh& mesh, const MshSurfaces& surfaces, const std::string& source) {
   const Mesh lines = lines_of(mesh);
   const std::vector<BoundaryLoop> loops = find_loops(lines, names_of_curves(lines, source));
-  const LoopGroups groups = groups_inside(mesh, loops, surfaces);
+  const LoopGroups groups = groups_inside(mesh, lines, loops, surfaces);
   DomainOptions options{source, {}};
   std::map<std::pair<double, double>, std::vector<std::string>> names;  // by a loop's first node
   for (std::size_t l = 0; l < loops.size(); ++l) {

@@ -238,7 +238,7 @@ PreparedCase prepare_case(const Case& c) {
   if (!c.model) {
     mesh = located(c.where, [&] { return read_msh(c.mesh_file, &surfaces); });
     if (holds_surface(mesh))
-      return prepare_surface_case(c, make_model(c.surface, std::move(mesh), c.mesh_file.string()), reading);
+      return prepare_surface_case(c, make_triangle_model(c, std::move(mesh), c.mesh_file.string()), reading);
     p.seconds.emplace_back("read", reading.seconds());
   }
   if (!c.surface.where.empty())

@@ -109,10 +109,20 @@ bool is_surface_file(const std::filesystem::path& path) {
 }
 
 bool holds_surface(const Mesh& mesh) {
-  return std::ranges::any_of(mesh.triangles, [&](const auto& t) {
-    return std::ranges::any_of(
-        t, [&](int v) { return mesh.points[v].z != mesh.points[mesh.triangles[0][0]].z; });
-  });
+  const auto in_space = [&](const auto& elements) {
+    return std::ranges::any_of(elements, [&](const auto& element) {
+      return std::ranges::any_of(element,
+                                 [&](int v) { return mesh.points[v].z != mesh.points[elements[0][0]].z; });
+    });
+  };
+  return in_space(mesh.triangles) || in_space(mesh.quads);
+}
+
+SurfaceModel make_triangle_model(const Case& c, Mesh mesh, const std::string& source, ReadNotes notes) {
+  split_quads(mesh, source, notes);
+  SurfaceModel model = make_model(c.surface, std::move(mesh), source);
+  model.warnings.insert(model.warnings.begin(), notes.begin(), notes.end());
+  return model;
 }
 
 SurfaceModel read_surface(const Case& c) {
@@ -121,10 +131,7 @@ SurfaceModel read_surface(const Case& c) {
     if (c.example.empty() && !kCadFiles.count(kind_of_file(path))) {
       ReadNotes notes;
       Mesh mesh = read_mesh(path, &notes);
-      split_quads(mesh, path.string(), notes);
-      SurfaceModel model = make_model(c.surface, std::move(mesh), path.string());
-      model.warnings.insert(model.warnings.begin(), notes.begin(), notes.end());
-      return model;
+      return make_triangle_model(c, std::move(mesh), path.string(), std::move(notes));
     }
     check_for_cad(c.surface);
     CadOptions options;
@@ -159,7 +166,7 @@ PreparedCase prepare_surface(const Case& c, SurfaceModel model, std::shared_ptr<
   const DoingStage flattening_faces("maps");
   improve_triangulation(model);
   refine_for_size(model, wanted);
-  Flattening flattening = flatten(model);
+  Flattening flattening = located(c.where, [&] { return flatten(model); });
   Failures failures(c);
   for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
   add_unflattened(flattening, model, failures);

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "geometry/surface/surface_model.h"
+#include "io/mesh_io.h"
 #include "pipeline/prepare.h"
 
 namespace delquad {
@@ -11,8 +12,11 @@ namespace delquad {
 /// .off).
 bool is_surface_file(const std::filesystem::path& path);
 
-/// Whether some triangle does not lie in the plane of constant z of the first.
+/// Whether some triangle or quad does not lie in the plane of constant z of the first.
 bool holds_surface(const Mesh& mesh);
+
+/// The surface model of a mesh in space from a file, its quads split. `notes` become warnings.
+SurfaceModel make_triangle_model(const Case& c, Mesh mesh, const std::string& source, ReadNotes notes = {});
 
 /// Reads the surface model of a case, with its compounds.
 SurfaceModel read_surface(const Case& c);

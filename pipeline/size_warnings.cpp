@@ -19,6 +19,11 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 /// By rounding to a whole and even number of edges, curves get a little fewer than wanted.
 constexpr double kRounding = 0.9;
+/// What would be round only with sizes below this part of the size there is too small to tell of.
+constexpr double kLeastShown = 0.02;
+
+/// Two digits of a size may be this much more than it.
+constexpr double kRoundedUp = 0.95;
 
 /// What gets few edges to a full turn.
 struct CoarseTurns {
@@ -27,10 +32,12 @@ struct CoarseTurns {
   std::string worst;                                        ///< "curve 5"
   double needed = std::numeric_limits<double>::infinity();  ///< least size that gives enough
 
-  /// `angle`: by which an edge turns; `radius`: of the curvature there.
-  void add(int& count, double angle, double radius, const std::string& name) {
+  /// `angle`: by which an edge turns; `radius`: of the curvature there; `size`: of the edge.
+  void add(int& count, double angle, double radius, double size, const std::string& name) {
     const double per_turn = kTurn / angle;
     if (!(per_turn < kRounding * kFewPerTurn)) return;
+    // Tips and slivers: nobody wants these round.
+    if (radius * kTurn / kFewPerTurn < kLeastShown * size) return;
     ++count;
     needed = std::min(needed, radius * kTurn / kFewPerTurn);
     if (!(per_turn < fewest)) return;
@@ -88,7 +95,7 @@ void add_curves(const PreparedSurface& surface, CoarseTurns& turns) {
     if (domain.cut_face[curve] >= 0 || domain.nodes.on_curve[c].size() < 2) continue;
     const auto [angle, length] = turning(domain.chains[c], surface.model.fine);
     const double edges = static_cast<double>(domain.nodes.on_curve[c].size() - 1);
-    turns.add(turns.curves, angle / edges, length / angle,
+    turns.add(turns.curves, angle / edges, length / angle, length / edges,
               fmt::format("curve {}", surface.model.fine.curves[curve].tag));
   }
 }
@@ -120,7 +127,7 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
     // A face that turns by less than an element may is well served by one.
     const double all = triangles.empty() ? 0 : 2 * spread_of_normals(fine, triangles);
     if (all < kTurn / kFewPerTurn) continue;
-    double angle = 0, radius = 0;
+    double angle = 0, radius = 0, size_there = 0;
     for (std::size_t k = 0; k < triangles.size();
          k += std::max<std::size_t>(1, triangles.size() / kSamples)) {
       const auto& v = fine.triangles[triangles[k]];
@@ -131,9 +138,11 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
       if (!(curvature * size > angle)) continue;
       angle = curvature * size;
       radius = 1 / curvature;
+      size_there = size;
     }
     if (angle > 0)
-      turns.add(turns.faces, std::min(angle, all), radius, fmt::format("face {}", fine.regions[f].tag));
+      turns.add(turns.faces, std::min(angle, all), radius, size_there,
+                fmt::format("face {}", fine.regions[f].tag));
   }
 }
 
@@ -159,7 +168,7 @@ void warn_of_coarse_turns(const PlanarModel& model, const Mesh& boundary, std::v
     if (edges[c] == 0) continue;
     const auto [angle, length] = turning(*model.curves[c].shape, edges[c]);
     const std::string& name = model.curves[c].name;
-    turns.add(turns.curves, angle / edges[c], length / angle,
+    turns.add(turns.curves, angle / edges[c], length / angle, length / edges[c],
               name.empty() ? fmt::format("curve {}", c + 1) : "'" + name + "'");
   }
   if (turns.curves > 0)
@@ -178,7 +187,7 @@ void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surfa
   int hint = -1;
   const double least = wanted.least_by_curvature(wanted.base->at(surface.model.fine.points[0], hint));
   if (turns.needed < least)
-    help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", turns.needed);
+    help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", kRoundedUp * turns.needed);
   if (!help.empty()) warnings.emplace_back(turns.text() + ": " + help + " would help");
 }
 

@@ -227,6 +227,9 @@ TEST(BadArguments, UsageErrorsHaveTheSameExitCode) {
   EXPECT_EQ(delquad({"mush"}).exit_code, 2);
   EXPECT_EQ(delquad({"mesh", "a.toml", "-o", "b.msh", "--sise", "1"}).exit_code, 2);
   EXPECT_EQ(delquad({"--help"}).exit_code, 0);
+  const auto unknown = delquad({"mesh", "a.toml", "-o", "b.msh", "--sise", "1"});
+  EXPECT_TRUE(unknown.err.starts_with("error: ")) << unknown.err;
+  EXPECT_NE(unknown.err.find("--sise"), std::string::npos) << unknown.err;
 }
 
 TEST(BadArguments, ExperimentGivenAsModelIsNamed) {

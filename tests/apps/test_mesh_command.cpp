@@ -169,7 +169,7 @@ TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
   const ProgramResult refused = delquad(arguments);
   EXPECT_EQ(refused.exit_code, 5);
   EXPECT_EQ(refused.err, "error: " + model.string() + ": the mesh is not sound: " + kFlat +
-                             ": nothing was written (--allow-unsound writes it)\n");
+                             ": nothing was written; another size may help (--allow-unsound writes it)\n");
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"flat.msh", "flat.toml"}));
 
   arguments.push_back("--allow-unsound");

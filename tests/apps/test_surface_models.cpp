@@ -32,6 +32,11 @@ TEST(SurfaceModels, ACubeBecomesItsGrid) {
   EXPECT_EQ(mesh.points.size(), mesh.quads.size() + 2);  // Euler: a closed surface of genus 0
   EXPECT_EQ(mesh.regions.size(), 6u);
   EXPECT_EQ(mesh.curves.size(), 12u);
+  // What was written is a model again.
+  const auto again = delquad({"mesh", folder / "cube.msh", "-o", folder / "again.msh", "--size", "0.25"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find("384 quads"), std::string::npos) << again.err;
+  EXPECT_EQ(read_msh(folder / "again.msh").quads.size(), 6u * 16);
 }
 
 TEST(SurfaceModels, EveryNumberOfThreadsGivesTheSameBytes) {

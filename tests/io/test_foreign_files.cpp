@@ -264,6 +264,8 @@ TEST(Inp, ReadsWhatProgramsWrite) {
   refuses("*NODE\n1, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", {"b.inp:4: ", "no node 2"});
   refuses("*NODE\n1, 0, 0\n1, 0, 0\n", {"b.inp:3: ", "node 1 is there twice"});
   refuses("*NODE\n1, 0, 0\n", {"b.inp:", "no *ELEMENT"});
+  refuses("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n2, 1, 2,\n",
+          {"b.inp:", "within an element"});
 }
 
 TEST(Medit, NamesTheLineOfWhatIsWrong) {
