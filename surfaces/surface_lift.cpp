@@ -18,6 +18,9 @@ constexpr int kSteps = 14;
 /// What quads lack is (1 - quality / this)^power, of those that are worse: one bad one outweighs several poor
 /// ones.
 constexpr double kGood = 0.35, kPower = 8;
+/// What a quad that is warped by w counts as: this times 1 - w / 90 degrees, so that lifting begins at 79
+/// degrees, and leaves alone what is merely bent.
+constexpr double kWarpFactor = 2.5;
 /// A move that gains a smaller part is not made, nor where less is lacking.
 constexpr double kLeastGain = 0.01, kLeastLack = 1e-4;
 /// What a quad that is turned over has less.
@@ -39,6 +42,7 @@ class SurfaceLift {
         start_(places),
         eta_(eta),
         steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
+        warp2_(std::pow(std::tan((1 - eta / kWarpFactor) * std::numbers::pi / 2), 2)),
         tried_(places.size(), 0),
         moved_(places.size(), 0) {
     first_.assign(places.size() + 1, 0);
@@ -79,7 +83,7 @@ class SurfaceLift {
   }
 
   /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
-  /// the corner `skipped` (none: -1). Or 1 - warp / 90 degrees where that is less: 0 for a folded quad.
+  /// the corner `skipped` (none: -1). Or what its warp counts as where that is less: 0 for a folded quad.
   double quality(int q, int skipped = -1) const {
     const auto& v = quads_[q];
     const Vec3& outward = outward_[q];
@@ -100,7 +104,7 @@ class SurfaceLift {
     for (int k = 0; k < 2; ++k) {
       const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
       const double warp = std::atan2(norm(cross(m, n)), dot(m, n));
-      least = std::min(least, 1 - warp * (2 / std::numbers::pi));
+      least = std::min(least, kWarpFactor * (1 - warp * (2 / std::numbers::pi)));
     }
     return turned_over ? least - kTurnedOver : least;
   }
@@ -123,7 +127,7 @@ class SurfaceLift {
       const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
       const Vec3 turn = cross(m, n);
       const double along = dot(m, n);
-      if (!(along > 0 && dot(turn, turn) < kMargin * steepest2_ * along * along)) return false;
+      if (!(along > 0 && dot(turn, turn) < kMargin * warp2_ * along * along)) return false;
     }
     return true;
   }
@@ -224,6 +228,7 @@ class SurfaceLift {
   std::vector<Vec3> start_;
   double eta_;                        ///< that will do
   double steepest2_;                  ///< square of the cotangent of the sharpest angle that will do
+  double warp2_;                      ///< square of the tangent of the largest warp that will do
   std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
   std::vector<Vec3> outward_;         ///< normals at the quads where these were at first
   std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
