@@ -5,7 +5,7 @@ RESULTS ?= results
 DATA ?= ../shared/data
 CMAKE_FLAGS ?=
 
-.PHONY: packages build test paper peers bench
+.PHONY: packages build test python paper peers bench
 
 packages:
 	@cmake/install-packages.sh
@@ -32,6 +32,12 @@ paper peers: build
 	done
 	build/$(PRESET)/delquad report $(RESULTS) -o $(RESULTS)/report.html
 	@echo "Tables and pictures lie in $(RESULTS)/; $(RESULTS)/report.html shows them."
+
+# The Python module, in build/$(PRESET)/python, and its tests.
+python: packages
+	cmake --preset $(PRESET) $(CMAKE_FLAGS)
+	cmake --build --preset $(PRESET) --target delquad_python
+	ctest --preset $(PRESET) -R '^python\.'
 
 bench: build
 	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done

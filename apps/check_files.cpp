@@ -2,8 +2,8 @@
 
 #include <system_error>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
 #include "sweep/run_experiment.h"
 
 namespace delquad {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
+#include "cases/case.h"
+#include "delquad/mesher.h"
 #include "io/mesh_io.h"
-#include "mesh/parallel.h"
-#include "pipeline/case.h"
-#include "pipeline/quality.h"
 #include "sweep/run_experiment.h"
 
 namespace delquad {
@@ -39,7 +39,8 @@ struct ReportArguments {
 };
 int report_command(const ReportArguments& arguments);
 
-int schema_command();
+/// `options`: those of the stages as a table, in place of the schema.
+int schema_command(bool options);
 
 struct RerunArguments {
   std::filesystem::path record;

@@ -1,4 +1,4 @@
-#include "apps/delquad.h"
+#include "delquad/extend.h"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -12,11 +12,14 @@
 #include <system_error>
 
 #include "apps/commands.h"
-#include "mesh/error.h"
-#include "pipeline/case.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/progress.h"
-#include "pipeline/soundness.h"
+#include "base/context.h"
+#include "cases/case.h"
+#include "cases/problem.h"
+#include "console/activities.h"
+#include "console/interrupt.h"
+#include "console/progress.h"
+#include "delquad/error.h"
+#include "mesher/soundness.h"
 
 namespace delquad {
 namespace {
@@ -153,8 +156,10 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   report->add_option("-o,--output", arguments.output, "file to write (.html)")->required();
 }
 
-void add_schema(CLI::App& app) {
-  app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
+void add_schema(CLI::App& app, bool& options) {
+  CLI::App* schema =
+      app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
+  schema->add_flag("--options", options, "print the options of the stages as a table (Markdown) instead");
 }
 
 void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
@@ -186,7 +191,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "join ends of open edges of a triangulation up to this part of its diagonal");
   std::string qualities;
   for (const Quality& q : quality_registry())
-    qualities += (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " + q.cross + ")";
+    qualities +=
+        (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " + text_of(q.cross) + ")";
   CLI::Option* quality =
       mesh->add_option("--quality", arguments.quality, "time against quality: " + qualities)
           ->capture_default_str();
@@ -296,7 +302,8 @@ int run_command_line(int argc, char** argv) {
   add_run(app, run);
   add_records(app, tables, rerun);
   add_report(app, report);
-  add_schema(app);
+  bool only_options = false;
+  add_schema(app, only_options);
   add_mesh(app, mesh, common);
   add_metrics(app, metrics, common);
   add_compare(app, compare);
@@ -320,12 +327,13 @@ int run_command_line(int argc, char** argv) {
   }
   if (common.all) set_verbosity(Verbosity::kAll);
   if (common.quiet) be_quiet(app, example.list || run.dry_run);
+  const RunScope told({.activities = &program_activities()});
   std::optional<TimeLimit> limit;
   if (common.time_limit > 0) limit.emplace(common.time_limit);
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("tables")) return tables_command(tables);
   if (app.got_subcommand("report")) return report_command(report);
-  if (app.got_subcommand("schema")) return schema_command();
+  if (app.got_subcommand("schema")) return schema_command(only_options);
   if (app.got_subcommand("rerun")) return rerun_command(rerun);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);

@@ -4,9 +4,9 @@
 
 #include "apps/check_files.h"
 #include "apps/commands.h"
-#include "cad/example_models.h"
+#include "delquad/error.h"
+#include "geometry/cad/example_models.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
 
 namespace delquad {
 namespace {
@@ -22,7 +22,7 @@ CadFormat format_of(const std::filesystem::path& path) {
 
 int example_command(const ExampleArguments& arguments) {
   if (arguments.list) {
-    for (const ExampleModel& example : example_models())
+    for (const Example& example : example_models())
       fmt::print("{:<10} {}\n", example.name, example.description);
     return kDone;
   }

@@ -6,12 +6,12 @@
 
 #include "apps/check_files.h"
 #include "apps/commands.h"
+#include "cases/case_file.h"
+#include "cases/model_info.h"
+#include "console/progress.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
-#include "pipeline/case_file.h"
-#include "pipeline/model_info.h"
-#include "pipeline/progress.h"
-#include "pipeline/size_warnings.h"
+#include "mesher/size_warnings.h"
 
 namespace delquad {
 namespace {

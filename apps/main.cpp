@@ -1,3 +1,3 @@
-#include "apps/delquad.h"
+#include "delquad/extend.h"
 
 int main(int argc, char** argv) { return delquad::run_program(argc, argv); }

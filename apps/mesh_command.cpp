@@ -7,14 +7,19 @@
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
 #include "apps/print_surface_report.h"
+#include "base/activity.h"
+#include "base/context.h"
+#include "base/stopwatch.h"
+#include "cases/case_file.h"
+#include "cases/problem.h"
+#include "cases/surface_spec.h"
+#include "console/interrupt.h"
+#include "console/progress.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/activity.h"
-#include "mesh/error.h"
-#include "pipeline/case_file.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/record.h"
-#include "pipeline/runner.h"
-#include "pipeline/stopwatch.h"
+#include "mesher/check_problem.h"
+#include "mesher/runner.h"
+#include "sweep/record.h"
 
 namespace delquad {
 namespace {
@@ -32,7 +37,7 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
 }
 
 /// The model's sizes, with what the command line says in their place.
-SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
+SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
   if (arguments.size) {
     if (arguments.size->empty())
       throw InputError("--size: the size is empty: expected a number, an expression or 'boundary'");
@@ -49,21 +54,34 @@ SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
     *target = value;
     if (size.where.empty()) size.where = "command line";
   }
-  check_size_limits(size);
+  check_size_limits(size.curvature, size.min, size.max, size.where);
   return size;
+}
+
+/// Returns the exit code.
+int tell_what_is_missing(const RunResult& result, bool quads_wanted) {
+  for (const FaceFailure& failure : result.failures)
+    fmt::print(stderr, "error: left out: {}\n", failure.reason);
+  if (!result.failures.empty()) return kFacesLeftOut;
+  if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
+  fmt::print(
+      stderr,
+      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
+      result.mesh.triangles.size());
+  return kTrianglesLeft;
 }
 
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
-  set_thread_count(arguments.threads);
+  const RunScope run({.threads = arguments.threads});
   check_mesh_format(arguments.output, arguments.msh);
   const Quality& quality = quality_named(arguments.quality);
   const Word word = parse_word(arguments.pipeline.value_or(quality.word));
   Case c = read_model_case(arguments.model);
-  if (!arguments.pipeline && c.cross.where.empty()) c.cross.text = quality.cross;
-  c.options.max_elements = arguments.max_elements;
-  c.options.keep_going = arguments.keep_going;
+  if (!arguments.pipeline && c.cross.where.empty()) c.cross.text = text_of(quality.cross);
+  c.max_elements = arguments.max_elements;
+  c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
@@ -74,11 +92,13 @@ int mesh_command(const MeshArguments& arguments) {
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
 
-  Progress progress(1 + run_steps(word));
+  Progress progress(2 + static_cast<int>(word.stages.size()));
   progress.step(c.name + ": boundary and fields");
-  const PreparedCase prepared = prepare_case(c);
+  const PreparedProblem prepared = prepare_case(c);
   progress.warn(prepared.warnings);
-  RunResult result = run_word(c, prepared, word, progress);
+  RunResult result = run_word(prepared, word, [&](const std::string& stage) {
+    progress.step(c.name + " " + word.text + ": " + stage);
+  });
   if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
   std::vector<Warning> warnings = result.warnings;
   for (const std::string& reason : result.soundness.reasons)
@@ -104,15 +124,7 @@ int mesh_command(const MeshArguments& arguments) {
                fmt::join(prepared.size_adapted_to, " and "));
   print_seconds(prepared, result.log);
   if (result.surface) print_surface_report(prepared, *result.surface);
-  for (const FaceFailure& failure : result.failures)
-    fmt::print(stderr, "error: left out: {}\n", failure.reason);
-  if (!result.failures.empty()) return kFacesLeftOut;
-  if (!word.quads_only() || result.mesh.triangles.empty() || arguments.allow_triangles) return kDone;
-  fmt::print(
-      stderr,
-      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
-      result.mesh.triangles.size());
-  return kTrianglesLeft;
+  return tell_what_is_missing(result, word.quads_only() && !arguments.allow_triangles);
 }
 
 }  // namespace delquad

@@ -5,9 +5,10 @@
 #include "apps/check_files.h"
 #include "apps/commands.h"
 #include "apps/print_metrics.h"
+#include "cases/problem.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
-#include "pipeline/record.h"
+#include "sweep/record.h"
 
 namespace delquad {
 

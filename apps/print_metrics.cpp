@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "mesh/parallel.h"
+#include "base/parallel.h"
 
 namespace delquad {
 
@@ -18,7 +18,7 @@ void print_metrics(const MeshMetrics& metrics) {
   }
 }
 
-void print_seconds(const PreparedCase& prepared, const StageLog& log) {
+void print_seconds(const PreparedProblem& prepared, const StageLog& log) {
   auto seconds = prepared.seconds;
   seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
   std::string list;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "mesher/prepare.h"
+#include "mesher/stages.h"
 #include "metrics/metrics.h"
-#include "pipeline/prepare.h"
-#include "pipeline/stages.h"
 
 namespace delquad {
 
@@ -10,6 +10,6 @@ namespace delquad {
 void print_metrics(const MeshMetrics& metrics);
 
 /// How long each step took, the times of all threads added up.
-void print_seconds(const PreparedCase& prepared, const StageLog& log);
+void print_seconds(const PreparedProblem& prepared, const StageLog& log);
 
 }  // namespace delquad

@@ -13,7 +13,7 @@ std::string show(const Topology& t) {
 
 }  // namespace
 
-void print_surface_report(const PreparedCase& prepared, const SurfaceReport& report) {
+void print_surface_report(const PreparedProblem& prepared, const SurfaceReport& report) {
   const MapReport maps = report_maps(maps_of(*prepared.surface));
   fmt::print(
       "maps: {} patches, ratio of singular values {:.4g} (mean), {:.4g} (95 %), {:.4g} (max), area scale "

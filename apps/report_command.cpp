@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
-#include "pipeline/progress.h"
+#include "console/progress.h"
 
 namespace delquad {
 

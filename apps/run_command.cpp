@@ -3,7 +3,10 @@
 #include <cstdio>
 
 #include "apps/commands.h"
-#include "pipeline/located.h"
+#include "base/context.h"
+#include "base/located.h"
+#include "base/parallel.h"
+#include "cases/option_table_text.h"
 #include "sweep/run_experiment.h"
 #include "sweep/schema.h"
 
@@ -43,8 +46,9 @@ void print_tables(const Outcome& outcome) {
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
-  set_thread_count(arguments.threads > 0 ? arguments.threads
-                                         : std::max(1, thread_count() / arguments.options.limits.jobs));
+  const int threads =
+      arguments.threads > 0 ? arguments.threads : std::max(1, thread_count() / arguments.options.limits.jobs);
+  const RunScope run({.threads = threads});
   Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
   experiment.max_elements = arguments.max_elements;
   if (arguments.pipelines)
@@ -68,8 +72,8 @@ int tables_command(const TablesArguments& arguments) {
   return errors.empty() ? kDone : kBadInput;
 }
 
-int schema_command() {
-  fmt::print("{}", experiment_schema());
+int schema_command(bool options) {
+  fmt::print("{}", options ? option_table_text() : experiment_schema());
   return kDone;
 }
 

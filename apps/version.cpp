@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/commands.h"
-#include "pipeline/versions.h"
+#include "sweep/versions.h"
 
 namespace delquad {
 

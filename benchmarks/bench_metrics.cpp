@@ -11,7 +11,7 @@ namespace {
 void metrics(benchmark::State& state) {
   const SquareCase domain(Grading::kGraded, static_cast<double>(state.range(0)));
   const TriPatch tri = mesh_frontal(domain.boundary(), *make_linf_delquad(), domain.cross, domain.size);
-  const QuadPatch patch = recombine(tri, *make_lemon_solver());
+  const QuadPatch patch = recombine(tri, *make_primal_dual_solver());
   Mesh mesh = domain.domain.boundary;
   mesh.points.clear();
   for (const Vec2 p : patch.points) mesh.points.push_back({p.x, p.y, 0});

@@ -2,7 +2,7 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
-#include "algorithms/recombination/treatment.h"
+#include "algorithms/treatment/treatment.h"
 #include "benchmarks/square_case.h"
 
 // Recombination (dual graph, matching, merge) and treatment of the meshes of F and D, with the insertion of
@@ -25,7 +25,7 @@ void insertion(benchmark::State& state, char letter, Grading grading) {
 void recombination(benchmark::State& state, char letter, Grading grading) {
   const SquareCase domain(grading, static_cast<double>(state.range(0)));
   const TriPatch tri = triangles(letter, domain);
-  const auto solver = make_lemon_solver();
+  const auto solver = make_primal_dual_solver();
   RecombineSummary summary;
   for (auto _ : state) benchmark::DoNotOptimize(recombine(tri, *solver, &summary).quads.data());
   state.counters["matching_share"] =
@@ -35,7 +35,7 @@ void recombination(benchmark::State& state, char letter, Grading grading) {
 
 void treatment(benchmark::State& state, char letter, Grading grading) {
   const SquareCase domain(grading, static_cast<double>(state.range(0)));
-  const QuadPatch raw = recombine(triangles(letter, domain), *make_lemon_solver());
+  const QuadPatch raw = recombine(triangles(letter, domain), *make_primal_dual_solver());
   for (auto _ : state) benchmark::DoNotOptimize(treat_paper(raw, domain.size).quads.data());
   state.SetComplexityN(static_cast<benchmark::IterationCount>(raw.quads.size()));
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "algorithms/insertion/frontal_mesher.h"
+#include "base/context.h"
 #include "benchmarks/square_case.h"
-#include "mesh/parallel.h"
 #include "smoothing/cvt/smooth_points.h"
 #include "smoothing/cvt/spatial_order.h"
 
@@ -29,8 +29,7 @@ struct Seeds {
 /// first steps of a run, so that the triangulation has flips to make.
 void evaluate(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
-  const int usual = thread_count();
-  set_thread_count(static_cast<int>(state.range(1)));
+  const RunScope run({.threads = static_cast<int>(state.range(1))});
   CvtProblem problem(MovingDelaunay(reordered(seeds.mesh, spatial_order(seeds.mesh))), SmoothingOptions().p);
   problem.hold_frames(seeds.square.cross, seeds.square.size);
   const std::vector<Vec2> here = problem.seeds();
@@ -46,7 +45,6 @@ void evaluate(benchmark::State& state) {
                                                benchmark::Counter::kAvgIterations);
   state.counters["rebuilds"] = problem.delaunay().rebuilds();
   state.SetComplexityN(problem.delaunay().n_points());
-  set_thread_count(usual);
 }
 
 void cgal_same_points(benchmark::State& state) {

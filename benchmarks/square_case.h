@@ -3,10 +3,9 @@
 #include <cmath>
 #include <memory>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "geometry/curves.h"
-#include "geometry/planar_model.h"
+#include "delquad/fields.h"
+#include "delquad/model.h"
+#include "geometry/planar/planar_model.h"
 
 /// The domains that the microbenchmarks share.
 namespace delquad::benchmarks {

@@ -1,12 +1,22 @@
-# The libraries, their headers and what find_package(delquad) needs, for strategies of one's own.
+# One shared library of all rooms, for programs of others: they need its headers, which need the standard library
+# alone, and nothing else.
 include(CMakePackageConfigHelpers)
-install(TARGETS delquad delquad_flags EXPORT delquad_targets)
-install(EXPORT delquad_targets NAMESPACE delquad:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)
-foreach(folder mesh geometry cad fields smoothing algorithms surfaces metrics io pipeline sweep report apps)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/delquad FILES_MATCHING PATTERN "*.h")
+add_library(delquad_library SHARED)
+foreach(room IN LISTS DELQUAD_ROOMS)
+  string(REPLACE "/" "_" name ${room})
+  target_sources(delquad_library PRIVATE $<TARGET_OBJECTS:delquad_${name}>)
+  target_link_libraries(delquad_library PRIVATE delquad_${name})  # for what these link
 endforeach()
-configure_package_config_file(cmake/delquad-config.cmake.in ${CMAKE_BINARY_DIR}/delquad-config.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/delquad-config-version.cmake COMPATIBILITY ExactVersion)
-install(FILES ${CMAKE_BINARY_DIR}/delquad-config.cmake ${CMAKE_BINARY_DIR}/delquad-config-version.cmake
+target_link_libraries(delquad_library PRIVATE delquad_flags)
+target_include_directories(delquad_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(delquad_library INTERFACE cxx_std_20)
+set_target_properties(delquad_library PROPERTIES OUTPUT_NAME delquad EXPORT_NAME delquad LINKER_LANGUAGE CXX
+                      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION})
+
+install(TARGETS delquad)
+install(TARGETS delquad_library EXPORT delquad_targets)
+install(DIRECTORY include/delquad DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT delquad_targets NAMESPACE delquad:: FILE delquad-config.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/delquad-config-version.cmake COMPATIBILITY ExactVersion)
+install(FILES ${CMAKE_BINARY_DIR}/delquad-config-version.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)

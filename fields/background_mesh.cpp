@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/predicates.h"
+#include "delquad/error.h"
 #include "fields/refine_patch.h"
 #include "fields/triangle_tree.h"
-#include "mesh/error.h"
-#include "mesh/predicates.h"
 
 namespace delquad {
 

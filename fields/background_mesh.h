@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "mesh/error.h"
-#include "mesh/vec.h"
+#include "delquad/error.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -3,29 +3,28 @@
 #include <cmath>
 #include <utility>
 
+#include "delquad/error.h"
 #include "fields/fields.h"
-#include "geometry/expression.h"
-#include "mesh/error.h"
 
 namespace delquad {
 
 namespace {
 
-class ExpressionCross final : public CrossField {
+class FunctionCross final : public CrossField {
  public:
-  explicit ExpressionCross(const std::string& text) : theta_(text, {"x", "y", "z"}) {}
+  FunctionCross(std::function<double(Vec2)> theta, std::string name)
+      : theta_(std::move(theta)), name_(std::move(name)) {}
   Cross at(Vec2 u, int&) const override {
-    const double values[] = {u.x, u.y, 0};
-    const double theta = theta_(values);
-    if (!std::isfinite(theta)) {
-      throw InputError(fmt::format("cross field '{}' is {} at ({:.6g}, {:.6g}); an angle must be finite",
-                                   theta_.shown(), theta, u.x, u.y));
-    }
+    const double theta = theta_(u);
+    if (!std::isfinite(theta))
+      throw InputError(
+          fmt::format("{} is {} at ({:.6g}, {:.6g}); an angle must be finite", name_, theta, u.x, u.y));
     return Cross::from_angle(theta);
   }
 
  private:
-  Expression theta_;
+  std::function<double(Vec2)> theta_;
+  std::string name_;
 };
 
 /// Where the gradient vanishes, the crosses lie along the axes.
@@ -45,8 +44,8 @@ class GradientCross final : public CrossField {
 
 }  // namespace
 
-std::unique_ptr<CrossField> make_expression_cross(const std::string& expression) {
-  return std::make_unique<ExpressionCross>(expression);
+std::unique_ptr<CrossField> make_function_cross(std::function<double(Vec2)> theta, std::string name) {
+  return std::make_unique<FunctionCross>(std::move(theta), std::move(name));
 }
 
 std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField> size, double step) {

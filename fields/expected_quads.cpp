@@ -3,6 +3,8 @@
 #include <queue>
 #include <vector>
 
+#include "base/box.h"
+#include "base/cancel.h"
 #include "fields/fields.h"
 #include "fields/sample_triangle.h"
 
@@ -32,6 +34,7 @@ class Quadrature {
 
   /// Cuts the triangle up until its sides are short.
   void add(const Corners& corners, double longest) {
+    check_cancelled();
     if (longest_side(corners) > longest && !exhausted()) {
       for (const Corners& quarter : quarters(corners)) add(quarter, longest);
     } else {
@@ -42,6 +45,7 @@ class Quadrature {
   /// Cuts the parts with the largest errors until all together are small enough.
   double refine(double relative_error) {
     while (std::isfinite(total_) && error_ > relative_error * total_ && !exhausted()) {
+      check_cancelled();
       const Part worst = parts_.top();
       parts_.pop();
       total_ -= worst.integral;
@@ -103,7 +107,7 @@ class Quadrature {
 
 double expected_quads(const BackgroundMesh& background, const SizeField& size, double relative_error) {
   Quadrature quadrature(size);
-  const double longest = kCoarsest * diagonal(background.triangles());
+  const double longest = kCoarsest * diagonal(background.triangles().points);
   for (const auto& v : background.triangles().triangles)
     quadrature.add(corners_of(background.triangles(), v), longest);
   return quadrature.refine(kSafety * relative_error);

@@ -1,31 +1,20 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 #include "fields/background_mesh.h"
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "mesh/mesh.h"
 
 namespace delquad {
 
 // --- size fields
 // -------------------------------------------------------------------------------------------------
 
-std::unique_ptr<SizeField> make_constant_size(double delta);
-
-/// delta = expression in x, y, z (and pi). Throws InputError with the position where it does not parse.
-std::unique_ptr<SizeField> make_expression_size(const std::string& expression);
-
-/// A point (a == b) or segment source [paper, section 8.2]: size_near within radius_near of it, size_far
-/// beyond radius_far, linear in the distance between.
-struct SizeSource {
-  Vec3 a, b;
-  double size_near, size_far, radius_near, radius_far;
-};
 /// The smallest of the base (may be null when there is a source) and all sources.
 std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,
                                             std::vector<SizeSource> sources);
@@ -51,28 +40,40 @@ struct Singularity {
   int index;
 };
 
+/// The turning of a cross field known at the middles of a background mesh's sides.
+struct FieldTopology {
+  /// Inside the domain; neighbouring opposite pairs, which are noise, left out.
+  std::vector<Singularity> singularities;
+  /// Sum of all indices, interior and at the boundary's corners, in quarters; equals 4 chi of the domain.
+  int index_sum = 0;
+  /// Euler characteristic of the domain (triangles - edges + vertices of the background mesh).
+  int euler_characteristic = 0;
+};
+
+/// A cross field that has been solved for over a background mesh.
+class SolvedCrossField : public CrossField {
+ public:
+  const std::vector<Singularity>& singularities() const { return topology_.singularities; }
+  int index_sum() const { return topology_.index_sum; }
+  int euler_characteristic() const { return topology_.euler_characteristic; }
+
+ protected:
+  FieldTopology topology_;
+};
+
 /// Cross field of the paper [section 3, equation (3)]: cos 4 theta and sin 4 theta harmonic,
 /// boundary-aligned; with the unknowns on edges (Crouzeix-Raviart), so that corners of any angle carry none.
-class HarmonicCrossField final : public CrossField {
+class HarmonicCrossField final : public SolvedCrossField {
  public:
   explicit HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background);
   ~HarmonicCrossField() override;
   /// Zero at singularities and small far from the boundary: only its angle means anything.
   Cross at(Vec2 u, int& hint) const override;
-  /// Inside the domain; neighbouring opposite pairs, which are noise, left out.
-  const std::vector<Singularity>& singularities() const;
-  /// Sum of all indices, interior and at the boundary's corners, in quarters; equals 4 chi of the domain.
-  int index_sum() const;
-  /// Euler characteristic of the domain (triangles - edges + vertices of the background mesh).
-  int euler_characteristic() const;
 
  private:
   struct Data;
   std::unique_ptr<Data> data_;
 };
-
-/// theta = expression in x, y, z (radians).
-std::unique_ptr<CrossField> make_expression_cross(const std::string& expression);
 
 /// theta = direction of grad delta, by central differences over `step` (a length; e.g. 1e-6 of the domain's
 /// diagonal).

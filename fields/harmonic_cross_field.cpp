@@ -12,8 +12,6 @@ struct HarmonicCrossField::Data {
   std::shared_ptr<const BackgroundMesh> background;
   std::vector<std::array<Cross, 3>>
       crosses;  ///< of each triangle, at the middle of the side opposite to each vertex
-  FieldTopology topology;
-  int euler_characteristic = 0;
 };
 
 HarmonicCrossField::HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background)
@@ -37,9 +35,7 @@ HarmonicCrossField::HarmonicCrossField(std::shared_ptr<const BackgroundMesh> bac
   std::vector<Cross> crosses;
   crosses.reserve(sides.count);
   for (int i = 0; i < sides.count; ++i) crosses.push_back({z[0][i], z[1][i]});
-  data_->topology = find_singularities(*background, sides, crosses);
-  data_->euler_characteristic =
-      static_cast<int>(tri.triangles.size()) - sides.count + static_cast<int>(tri.points.size());
+  topology_ = find_singularities(*background, sides, crosses);
   data_->crosses.reserve(tri.triangles.size());
   for (const auto& [a, b, c] : sides.of_triangle)
     data_->crosses.push_back({crosses[a], crosses[b], crosses[c]});
@@ -58,13 +54,5 @@ Cross HarmonicCrossField::at(Vec2 u, int& hint) const {
   }
   return sum;
 }
-
-const std::vector<Singularity>& HarmonicCrossField::singularities() const {
-  return data_->topology.singularities;
-}
-
-int HarmonicCrossField::index_sum() const { return data_->topology.index_sum; }
-
-int HarmonicCrossField::euler_characteristic() const { return data_->euler_characteristic; }
 
 }  // namespace delquad

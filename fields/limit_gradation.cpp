@@ -4,6 +4,8 @@
 #include <deque>
 #include <utility>
 
+#include "base/box.h"
+#include "base/cancel.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
 #include "fields/sample_triangle.h"
@@ -37,12 +39,13 @@ class LimitedSize final : public SizeField {
 
 /// The base at corners and middles of triangles cut up as above. Points on shared sides come more than once.
 std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& tri) {
-  const double longest = kCoarsest * diagonal(tri);
+  const double longest = kCoarsest * diagonal(tri.points);
   std::vector<SizeEnvelope::Sample> samples;
   std::deque<Corners> queue;
   for (const auto& v : tri.triangles) queue.push_back(corners_of(tri, v));
   int hint = -1;
   while (!queue.empty()) {
+    check_cancelled();
     const Corners corners = queue.front();
     queue.pop_front();
     const bool may_split = samples.size() + kPerTriangle * queue.size() < kMostSamples;

@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/error.h"
+#include "base/cancel.h"
+#include "delquad/error.h"
 
 namespace delquad {
 
@@ -141,8 +142,7 @@ TriPatch refine_patch(const PatchBoundary& patch) {
   Mesher mesher(cdt, Criteria(kShape));
   mesher.init(true);
   const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
-  while (cdt.number_of_vertices() < most && mesher.step_by_step_refine_mesh()) {
-  }
+  while (cdt.number_of_vertices() < most && mesher.step_by_step_refine_mesh()) check_cancelled();
   return extract(cdt, patch);
 }
 

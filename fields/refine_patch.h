@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

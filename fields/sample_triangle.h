@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 
@@ -35,17 +35,6 @@ inline Corners middles(const Corners& c) {
 inline std::array<Corners, 4> quarters(const Corners& c) {
   const Corners m = middles(c);
   return {Corners{c[0], m[2], m[1]}, Corners{m[2], c[1], m[0]}, Corners{m[1], m[0], c[2]}, m};
-}
-
-/// Of the points' bounding box.
-inline double diagonal(const TriPatch& tri) {
-  if (tri.points.empty()) return 0;
-  Vec2 low = tri.points[0], high = low;
-  for (const Vec2 p : tri.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return norm(high - low);
 }
 
 }  // namespace delquad

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

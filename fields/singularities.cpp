@@ -106,6 +106,8 @@ FieldTopology find_singularities(const BackgroundMesh& background, const Sides& 
   for (const double angle : around) of_vertex.push_back(turns(angle));
 
   FieldTopology result;
+  result.euler_characteristic =
+      static_cast<int>(tri.triangles.size()) - sides.count + static_cast<int>(tri.points.size());
   for (const int index : of_triangle) result.index_sum += index;
   for (const int index : of_vertex) result.index_sum += index;
   cancel_pairs(background, of_triangle, of_vertex);

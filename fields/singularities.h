@@ -9,12 +9,6 @@
 
 namespace delquad {
 
-/// The turning of a cross field known at the middles of a background mesh's sides.
-struct FieldTopology {
-  std::vector<Singularity> singularities;
-  int index_sum = 0;
-};
-
 /// sides[t][k] numbers the side of triangle t opposite to vertex k, crosses[side] is the field there, which
 /// on the boundary lies along it.
 ///

@@ -8,6 +8,7 @@
 #include <complex>
 #include <utility>
 
+#include "base/cancel.h"
 #include "fields/laplace.h"
 #include "fields/sample_triangle.h"
 #include "fields/sides.h"
@@ -187,8 +188,6 @@ struct SizeAwareCrossField::Data {
   std::vector<Vec2> gradient;               ///< of log delta in each triangle
   /// Of each triangle, carried from the middle of the side opposite to each vertex to the centroid.
   std::vector<std::array<Complex, 3>> crosses;
-  FieldTopology topology;
-  int euler_characteristic = 0;
 };
 
 SizeAwareCrossField::SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background,
@@ -203,15 +202,14 @@ SizeAwareCrossField::SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> b
   } else {
     CrossDiffusion diffusion(*background, sides, connection, z);
     for (int i = 0; i < kSteps; ++i) {
+      check_cancelled();
       diffusion.step(kLongest * std::pow(kShortest / kLongest, i / (kSteps - 1.0)));
     }
   }
   std::vector<Cross> crosses;
   crosses.reserve(z.size());
   for (const Complex value : z) crosses.push_back({value.real(), value.imag()});
-  data_->topology = find_singularities(*background, sides, crosses, connection.phase_turns());
-  data_->euler_characteristic =
-      static_cast<int>(tri.triangles.size()) - sides.count + static_cast<int>(tri.points.size());
+  topology_ = find_singularities(*background, sides, crosses, connection.phase_turns());
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
     data_->gradient.push_back(connection.gradient(static_cast<int>(t)));
     auto& local = data_->crosses.emplace_back();
@@ -232,14 +230,6 @@ Cross SizeAwareCrossField::at(Vec2 u, int& hint) const {
   sum *= unit(4 * cross(data_->gradient[t], inside - (1.0 / 3) * (x[0] + x[1] + x[2])));
   return {sum.real(), sum.imag()};
 }
-
-const std::vector<Singularity>& SizeAwareCrossField::singularities() const {
-  return data_->topology.singularities;
-}
-
-int SizeAwareCrossField::index_sum() const { return data_->topology.index_sum; }
-
-int SizeAwareCrossField::euler_characteristic() const { return data_->euler_characteristic; }
 
 namespace {
 

@@ -3,10 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "fields/background_mesh.h"
-#include "fields/cross_field.h"
 #include "fields/fields.h"
-#include "fields/size_field.h"
 
 namespace delquad {
 
@@ -17,7 +16,7 @@ namespace delquad {
 /// Minimises the energy of the covariant derivative of exp(4 i theta) by diffusion and normalisation in turn,
 /// over times that fall from many to a few elements, so that the singularities find their places; unknowns on
 /// edges as in HarmonicCrossField, transport within each triangle by SizeConnection.
-class SizeAwareCrossField final : public CrossField {
+class SizeAwareCrossField final : public SolvedCrossField {
  public:
   /// `background`: one patch; its elements must be small against the length over which delta' varies.
   /// `start`: what the iteration starts from and what the field is, exactly, where delta' hardly varies: by
@@ -27,12 +26,6 @@ class SizeAwareCrossField final : public CrossField {
   ~SizeAwareCrossField() override;
   /// Of about unit length, but zero at singularities.
   Cross at(Vec2 u, int& hint) const override;
-  /// Inside the domain; neighbouring opposite pairs, which are noise, left out.
-  const std::vector<Singularity>& singularities() const;
-  /// Sum of all indices, interior and at the boundary's corners, in quarters; equals 4 chi of the domain.
-  int index_sum() const;
-  /// Euler characteristic of the domain (triangles - edges + vertices of the background mesh).
-  int euler_characteristic() const;
 
  private:
   struct Data;

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 #include "fields/background_mesh.h"
-#include "fields/size_field.h"
-#include "mesh/patch.h"
 
 namespace delquad {
 

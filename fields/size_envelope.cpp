@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/cancel.h"
+
 namespace delquad {
 
 namespace {
@@ -24,6 +26,7 @@ SizeEnvelope::SizeEnvelope(std::vector<Sample> samples, double slope)
   // What lies above the envelope is no part of it.
   std::vector<Sample> kept;
   for (const Sample& s : samples_) {
+    check_cancelled();
     if (limit(s.at, s.delta) == s.delta) kept.push_back(s);
   }
   samples_ = std::move(kept);

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "mesh/box_tree.h"
-#include "mesh/vec.h"
+#include "base/box_tree.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "delquad/error.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
-#include "geometry/expression.h"
-#include "mesh/error.h"
 
 namespace delquad {
 
@@ -32,18 +31,19 @@ class CappedSize final : public SizeField {
   double most_;
 };
 
-class ExpressionSize final : public SizeField {
+class FunctionSize final : public SizeField {
  public:
-  explicit ExpressionSize(const std::string& text) : delta_(text, {"x", "y", "z"}) {}
+  FunctionSize(std::function<double(const Vec3&)> delta, std::string name)
+      : delta_(std::move(delta)), name_(std::move(name)) {}
   double at(const Vec3& x, int&) const override {
-    const double values[] = {x.x, x.y, x.z};
-    const double delta = delta_(values);
-    if (!is_size(delta)) throw bad_size(fmt::format("size field '{}'", delta_.shown()), x, delta);
+    const double delta = delta_(x);
+    if (!is_size(delta)) throw bad_size(name_, x, delta);
     return delta;
   }
 
  private:
-  Expression delta_;
+  std::function<double(const Vec3&)> delta_;
+  std::string name_;
 };
 
 class SourceSize final : public SizeField {
@@ -104,8 +104,8 @@ std::unique_ptr<SizeField> make_constant_size(double delta) {
   return std::make_unique<ConstantSize>(delta);
 }
 
-std::unique_ptr<SizeField> make_expression_size(const std::string& expression) {
-  return std::make_unique<ExpressionSize>(expression);
+std::unique_ptr<SizeField> make_function_size(std::function<double(const Vec3&)> delta, std::string name) {
+  return std::make_unique<FunctionSize>(std::move(delta), std::move(name));
 }
 
 std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,

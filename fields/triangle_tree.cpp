@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/predicates.h"
+#include "base/predicates.h"
 
 namespace delquad {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mesh/box_tree.h"
-#include "mesh/patch.h"
+#include "base/box_tree.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -11,8 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
 
 namespace delquad {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <system_error>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
-#include "mesh/error.h"
 
 namespace delquad {
 

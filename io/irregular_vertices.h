@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

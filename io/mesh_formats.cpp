@@ -2,9 +2,9 @@
 #include <limits>
 #include <map>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "mesh/error.h"
 #include "metrics/metrics.h"
 
 namespace delquad {

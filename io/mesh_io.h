@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
+#include "delquad/model.h"
 
 namespace delquad {
 
@@ -31,21 +32,8 @@ void remove_unfinished_files() noexcept;
 /// nothing happens, once a file got its place.
 bool abandon_files();
 
-/// What an MSH file says of surfaces, whether it has elements on them or not.
-struct MshSurfaces {
-  std::vector<std::string> group_names;  ///< of the named groups of dimension 2
-  struct Surface {
-    Entity entity;
-    std::vector<int> curves;  ///< tags of the curves that bound it, ascending
-  };
-  std::vector<Surface> surfaces;  ///< those that 4.1 lists with their curves
-};
-
 /// The path's extension in small letters, such as ".stl"; for "part.STL.gz" it is ".stl", too.
 std::string kind_of_file(const std::filesystem::path& path);
-
-/// What a reader did to the file's content that its user should know, one sentence each.
-using ReadNotes = std::vector<std::string>;
 
 /// Whether a name can stand in an MSH file: it has no double quote and no line break.
 bool fits_msh(std::string_view name);
@@ -57,7 +45,7 @@ bool fits_msh(std::string_view name);
 /// and quads; physical names and entity tags are kept (a group without a name goes by its number), and so are
 /// the further names that write_msh() leaves; points are ignored, and so are nodes that no other element
 /// uses. Throws InputError with file and line, or byte.
-Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces = nullptr);
+Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
 Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
@@ -80,22 +68,6 @@ Mesh read_inp(const std::filesystem::path& path);
 /// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
 /// comments.
 Mesh read_medit(const std::filesystem::path& path);
-
-/// Reads by extension: .msh, .obj, .off, .stl, .vtu, .inp, .mesh. InputError for any other, naming those
-/// known.
-Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
-
-/// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.
-enum class MshCurves {
-  kAll,
-  kNamed,     ///< those on the boundary of the mesh, and those inside it that have a name
-  kBoundary,  ///< those on the boundary of the mesh
-};
-
-struct MshOptions {
-  bool binary = false;
-  MshCurves curves = MshCurves::kAll;
-};
 
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
 /// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
@@ -123,8 +95,5 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh);
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
 /// has no such option.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {});
-/// By extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh, .svg (a picture). Throws as
-/// check_mesh_format().
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 
 }  // namespace delquad

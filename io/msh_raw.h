@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "delquad/mesh.h"
 #include "io/text_scanner.h"
-#include "mesh/mesh.h"
 
 namespace delquad::msh {
 

@@ -92,8 +92,8 @@ void check_tags(const Contents& contents, const TextScanner& scanner) {
   }
 }
 
-MshSurfaces surfaces_of(const Contents& contents) {
-  MshSurfaces result;
+DeclaredSurfaces surfaces_of(const Contents& contents) {
+  DeclaredSurfaces result;
   for (const auto& [group, name] : contents.physical_names)
     if (group.first == 2) result.group_names.push_back(name);
   for (const auto& [tag, curves] : contents.surface_curves)
@@ -189,7 +189,7 @@ bool fits_msh(std::string_view name) {
   return name.find_first_of(std::string_view("\"\r\n\0", 4)) == std::string_view::npos;
 }
 
-Mesh read_msh(const std::filesystem::path& path, MshSurfaces* surfaces) {
+Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner);

@@ -9,21 +9,20 @@
 #include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
-#include "mesh/drop_unused_points.h"
 
 namespace delquad {
 
 namespace {
 
-class ObjReader {
+class ObjReader : FaceReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "OBJ"); }
+  explicit ObjReader(const std::filesystem::path& path) : FaceReader(path, "OBJ") {}
 
   Mesh read(ReadNotes* notes) {
     while (!in_.at_end()) {
       const std::string keyword(in_.token("a keyword"));
       if (keyword == "v") {
-        const double x = number(), y = number(), z = number();
+        const double x = coordinate(), y = coordinate(), z = coordinate();
         mesh_.points.push_back({x, y, z});
       } else if (keyword == "l") {
         read_line();
@@ -38,17 +37,10 @@ class ObjReader {
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty()) {
       in_.fail("the file holds no lines and no faces");
     }
-    splitter_.note(notes);
-    drop_unused_points(mesh_);
-    return std::move(mesh_);
+    return finished(notes);
   }
 
  private:
-  double number() {
-    if (in_.at_end_of_line()) in_.fail("expected three coordinates");
-    return in_.real("a coordinate");
-  }
-
   /// The vertices on the rest of the line, each "v", "v/vt" or "v/vt/vn"; a negative v counts from the last
   /// one.
   std::vector<int> vertices() {
@@ -80,7 +72,7 @@ class ObjReader {
   void read_face() {
     const std::vector<int> v = vertices();
     const int region = entity(mesh_.regions, region_of_);
-    splitter_.add_face(v, region, mesh_, in_);
+    add_face(v, region);
   }
 
   using Index = std::map<std::vector<std::string>, int>;
@@ -90,9 +82,6 @@ class ObjReader {
     return it->second;
   }
 
-  TextScanner in_;
-  Mesh mesh_;
-  FaceSplitter splitter_;
   std::vector<std::string> names_;
   Index curve_of_, region_of_;
 };

@@ -5,15 +5,14 @@
 #include "io/mesh_io.h"
 #include "io/polygons.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
 
 namespace delquad {
 
 namespace {
 
-class OffReader {
+class OffReader : FaceReader {
  public:
-  explicit OffReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "OFF"); }
+  explicit OffReader(const std::filesystem::path& path) : FaceReader(path, "OFF") {}
 
   Mesh read(ReadNotes* notes) {
     read_header();
@@ -36,9 +35,7 @@ class OffReader {
     }
     if (mesh_.triangles.empty() && mesh_.quads.empty()) in_.fail("the file holds no faces");
     mesh_.regions = {{1, {}}};
-    splitter_.note(notes);
-    drop_unused_points(mesh_);
-    return std::move(mesh_);
+    return finished(notes);
   }
 
  private:
@@ -67,11 +64,7 @@ class OffReader {
 
   void read_point() {
     skip_comments();
-    const auto number = [&] {
-      if (in_.at_end_of_line()) in_.fail("expected three coordinates");
-      return in_.real("a coordinate");
-    };
-    const double x = in_.real("a coordinate"), y = number(), z = number();
+    const double x = in_.real("a coordinate"), y = coordinate(), z = coordinate();
     mesh_.points.push_back({x, y, z});
     in_.rest_of_line();  // colours, normals
   }
@@ -81,13 +74,9 @@ class OffReader {
     const long long last = static_cast<long long>(mesh_.points.size()) - 1;
     std::vector<int> v;
     for (long long k = 0; k < n; ++k) v.push_back(static_cast<int>(in_.integer("a vertex", 0, last)));
-    splitter_.add_face(v, 0, mesh_, in_);
+    add_face(v, 0);
     in_.rest_of_line();  // colours
   }
-
-  TextScanner in_;
-  Mesh mesh_;
-  FaceSplitter splitter_;
 };
 
 }  // namespace

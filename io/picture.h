@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/box.h"
 #include "io/irregular_vertices.h"
 #include "io/item_buffer.h"
 #include "io/picture.h"
@@ -55,12 +56,9 @@ Vec3 area_vector(const std::vector<Vec3>& points, const std::array<int, N>& v) {
 class Raster {
  public:
   Raster(const Mesh& mesh, double samples_a_unit) : mesh_(mesh), scale_(samples_a_unit), buffer_(0, 0) {
-    Vec3 high = low_ = mesh.points[0];
-    for (const Vec3& p : mesh.points) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const Vec3 size = scale_ * (high - low_);
+    const auto box = Box<Vec3>::around(std::span(mesh.points));
+    low_ = box.low;
+    const Vec3 size = scale_ * box.size();
     buffer_ = ItemBuffer(static_cast<int>(size.x) + 2, static_cast<int>(size.y) + 2);
     for_each_element(mesh, [&](int element, const auto& v) {
       for_each_part(v, [&](const std::array<Vec3, 3>& part) { buffer_.add(element, part); });

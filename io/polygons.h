@@ -1,25 +1,12 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
+#include <filesystem>
 #include <vector>
 
-#include "io/mesh_io.h"
+#include "delquad/mesh.h"
 #include "io/text_scanner.h"
-#include "mesh/mesh.h"
 
 namespace delquad {
-
-/// Cuts a polygon in space into triangles that turn as it does, by its ears, best ones first. Seen along the
-/// axis nearest to its normal the polygon must not cross itself; corners may lie on others, as where a bridge
-/// leads to a hole. Nothing when that is not so, or when it has no area. Indices are those of the corners.
-/// Takes time with the square of their number.
-std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
-
-/// Splits every quad into two triangles, as split_polygon(), for surfaces that are to be meshed. Says so in
-/// `notes`. Throws InputError, which begins with `source`, for a quad that crosses itself or has no area.
-void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes);
 
 /// Adds faces to a mesh as triangles and quads.
 class FaceSplitter {
@@ -31,6 +18,26 @@ class FaceSplitter {
 
  private:
   long long n_polygons_ = 0, n_triangles_ = 0;
+};
+
+/// What the readers of text files of points and faces share.
+class FaceReader {
+ protected:
+  FaceReader(const std::filesystem::path& path, const char* kind);
+  /// One more coordinate of the point on this line.
+  double coordinate();
+  /// Adds a face of these vertices to the mesh.
+  void add_face(const std::vector<int>& corners, int region) {
+    splitter_.add_face(corners, region, mesh_, in_);
+  }
+  /// The mesh without points that nothing uses.
+  Mesh finished(ReadNotes* notes);
+
+  TextScanner in_;
+  Mesh mesh_;
+
+ private:
+  FaceSplitter splitter_;
 };
 
 }  // namespace delquad

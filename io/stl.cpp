@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
-#include "mesh/error.h"
 #include "mesh/weld.h"
 
 namespace delquad {

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad::svg {
 

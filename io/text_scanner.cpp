@@ -6,7 +6,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 
 namespace delquad {
 

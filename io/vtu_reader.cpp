@@ -13,10 +13,10 @@
 #include <map>
 #include <sstream>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
-#include "mesh/error.h"
 
 namespace delquad {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "delquad/mesh.h"
 #include "mesh/half_edges.h"
-#include "mesh/mesh.h"
 
 namespace delquad {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

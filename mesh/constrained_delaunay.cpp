@@ -8,8 +8,8 @@
 
 #include <utility>
 
-#include "mesh/error.h"
-#include "mesh/predicates.h"
+#include "base/predicates.h"
+#include "delquad/error.h"
 
 namespace delquad {
 

@@ -1,6 +1,6 @@
 #include "mesh/delaunay_kernel.h"
 
-#include "mesh/predicates.h"
+#include "base/predicates.h"
 
 namespace delquad {
 

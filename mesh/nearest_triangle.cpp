@@ -61,15 +61,27 @@ NearestTriangle::NearestTriangle(std::vector<Vec3> points, std::vector<std::arra
       boxes_(boxes_of(points_, triangles_)),
       tree_(boxes_) {}
 
+std::pair<std::array<double, 3>, double> NearestTriangle::nearest_in(int t, const Vec3& x) const {
+  const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];
+  const auto w = nearest_weights(a, b, c, x);
+  const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;
+  return {w, dot(d, d)};
+}
+
+NearestTriangle::Found NearestTriangle::find_from(int guess, const Vec3& x) const {
+  if (guess < 0 || guess >= static_cast<int>(triangles_.size())) return find(x);
+  // The square of a square root is off by a rounding: not less than what it came from.
+  constexpr double kAtLeast = 1 + 1e-12;
+  const Found found = find(x, kAtLeast * std::sqrt(nearest_in(guess, x).second));
+  return found.triangle >= 0 ? found : find(x);
+}
+
 NearestTriangle::Found NearestTriangle::find(const Vec3& x, double reach) const {
   Found best;
   double best2 = reach * reach;
   tree_.nearest(x, best2, [&](int t) {
     if (boxes_[t].distance2(x) > best2) return;
-    const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];
-    const auto w = nearest_weights(a, b, c, x);
-    const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;
-    const double d2 = dot(d, d);
+    const auto [w, d2] = nearest_in(t, x);
     if (d2 > best2 || (d2 == best2 && best.triangle >= 0 && best.triangle < t)) return;
     best2 = d2;
     best = {t, w, 0};

@@ -2,10 +2,11 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "mesh/box_tree.h"
-#include "mesh/vec.h"
+#include "base/box_tree.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 
@@ -22,9 +23,14 @@ class NearestTriangle {
   };
   /// Triangles further than `reach` from x are not looked at.
   Found find(const Vec3& x, double reach = std::numeric_limits<double>::infinity()) const;
+  /// The same without bound, faster where x is in or near triangle `guess` (-1: no guess).
+  Found find_from(int guess, const Vec3& x) const;
   const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
 
  private:
+  /// Weights in the triangle's point nearest to x, and the square of the distance.
+  std::pair<std::array<double, 3>, double> nearest_in(int t, const Vec3& x) const;
+
   std::vector<Vec3> points_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<Box<Vec3>> boxes_;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numbers>
 #include <numeric>
 
+#include "base/parallel.h"
+#include "delquad/error.h"
 #include "mesh/half_edges.h"
-#include "mesh/parallel.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 
@@ -142,9 +144,31 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
   values["n_irregular"] = n_interior - n_regular;
 }
 
+void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
+  for (const OwnMetric& metric : own_metrics()) {
+    const auto fail = [&](const std::string& why) { metrics.failures[metric.key] = why; };
+    try {
+      const double value = metric.measure(input);
+      if (std::isinf(value))
+        fail("it is infinite");
+      else
+        metrics.values[metric.key] = value;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      fail(*error.what() == 0 ? "it threw an exception without a message" : error.what());
+    } catch (...) {
+      fail("it threw something that is no std::exception");
+    }
+  }
+}
+
 }  // namespace
 
-MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given) {
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                             const Options& options) {
   MeshMetrics metrics;
   for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
   metrics.eta = {0, 1, std::vector<long long>(20, 0)};
@@ -162,6 +186,7 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   measure_proportions(mesh, metrics.values);
   measure_topology(mesh, sides, metrics);
   if (size != nullptr) measure_lengths(mesh, sides, *size, given, metrics.values);
+  measure_from_outside({mesh, size, given, options}, metrics);
   return metrics;
 }
 

@@ -1,14 +1,19 @@
-#include <limits>
-
 #include "metrics/metrics.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
 
 namespace delquad {
 
-std::span<const Metric> metric_registry() {
+namespace {
+
+std::deque<Metric>& metrics() {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   using enum Better;
-  static const Metric registry[] = {
+  static std::deque<Metric> registry = {
       {"n_elements", "N", "", kNeither, kNone, "triangles and quads"},
       {"eta_mean", "eta mean", "", kHigher, 0, "paper 6.1, equation (4), mean over quads"},
       {"eta_worst", "eta worst", "", kHigher, 0, "paper 6.1, equation (4), least over quads"},
@@ -47,6 +52,31 @@ std::span<const Metric> metric_registry() {
        "tau against the size as given, before curvature and short curves made it smaller"},
   };
   return registry;
+}
+
+std::deque<OwnMetric>& measures() {
+  static std::deque<OwnMetric> all;
+  return all;
+}
+
+}  // namespace
+
+const std::deque<Metric>& metric_registry() { return metrics(); }
+
+const Metric* find_metric(const std::string& key) {
+  const auto at = std::ranges::find(metrics(), key, &Metric::key);
+  return at == metrics().end() ? nullptr : &*at;
+}
+
+const std::deque<OwnMetric>& own_metrics() { return measures(); }
+
+void add_metric(Metric metric, std::function<double(const MetricInput&)> measure) {
+  if (metric.key.empty()) throw std::invalid_argument("a metric needs a key");
+  if (!measure) throw std::invalid_argument("metric '" + metric.key + "': there is nothing to call");
+  if (find_metric(metric.key) != nullptr)
+    throw std::invalid_argument("there is a metric '" + metric.key + "' already");
+  measures().push_back({metric.key, std::move(measure)});
+  metrics().push_back(std::move(metric));
 }
 
 }  // namespace delquad

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/parallel.h"
+#include "base/parallel.h"
 
 namespace delquad {
 

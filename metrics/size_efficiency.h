@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "fields/size_field.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 #include "mesh/half_edges.h"
-#include "mesh/mesh.h"
 
 namespace delquad {
 

@@ -11,6 +11,7 @@
 #include <new>
 #include <numeric>
 
+#include "base/box.h"
 #include "io/irregular_vertices.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
@@ -29,26 +30,17 @@ Vec3 centre(const Mesh& mesh, const std::array<int, N>& v) {
   return (1.0 / N) * sum;
 }
 
-struct Box {
-  std::array<double, 3> low, high;
-  explicit Box(const Mesh& mesh) {
-    low.fill(mesh.points.empty() ? 0 : std::numeric_limits<double>::infinity());
-    high.fill(mesh.points.empty() ? 0 : -std::numeric_limits<double>::infinity());
-    for (const Vec3& p : mesh.points)
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], coordinates(p)[k]);
-        high[k] = std::max(high[k], coordinates(p)[k]);
-      }
-  }
-};
+Box<Vec3> box_of(const Mesh& mesh) {
+  return mesh.points.empty() ? Box<Vec3>{} : Box<Vec3>::around(std::span(mesh.points));
+}
 
 /// Place along the Z-curve through the box.
-std::uint64_t place_in(const Box& box, const Vec3& at) {
+std::uint64_t place_in(const Box<Vec3>& box, const Vec3& at) {
   constexpr int kBits = 21;
   std::uint64_t place = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double width = box.high[k] - box.low[k];
-    const double part = width > 0 ? (coordinates(at)[k] - box.low[k]) / width : 0;
+    const double width = coordinates(box.size())[k];
+    const double part = width > 0 ? (coordinates(at - box.low)[k]) / width : 0;
     const auto cell = static_cast<std::uint64_t>(std::clamp(part, 0.0, 1.0) * ((1 << kBits) - 1));
     for (int bit = 0; bit < kBits; ++bit) place |= (cell >> bit & 1) << (3 * bit + static_cast<int>(k));
   }
@@ -58,7 +50,7 @@ std::uint64_t place_in(const Box& box, const Vec3& at) {
 /// Neighbours follow each other: their numbers and places then differ little.
 template <size_t N>
 std::vector<std::size_t> spatial_order(const Mesh& mesh, const std::vector<std::array<int, N>>& elements) {
-  const Box box(mesh);
+  const Box<Vec3> box = box_of(mesh);
   std::vector<std::uint64_t> place;
   for (const auto& v : elements) place.push_back(place_in(box, centre(mesh, v)));
   std::vector<std::size_t> order(elements.size());
@@ -138,13 +130,13 @@ void put_irregular(const Mesh& mesh, const Numbering& numbering, PackedMesh& pac
 
 void put_places(const Mesh& mesh, const std::vector<int>& order, PackedMesh& packed, Numbers& out) {
   constexpr double kPerEdge = 64, kPerBox = 1 << 26;
-  const Box box(mesh);
-  packed.origin = box.low;
+  const Box<Vec3> box = box_of(mesh);
+  packed.origin = coordinates(box.low);
   packed.unit = std::max(shortest_edge(mesh) / kPerEdge, diagonal(mesh) / kPerBox);
   for (int k = 0; k < packed.dimension; ++k) {
     std::int64_t before = 0;
     for (const int vertex : order) {
-      const double place = coordinates(mesh.points[vertex])[k] - box.low[k];
+      const double place = coordinates(mesh.points[vertex] - box.low)[k];
       const std::int64_t at = packed.unit > 0 ? std::llround(place / packed.unit) : 0;
       out.put_signed(at - before);
       before = at;
@@ -159,8 +151,8 @@ PackedMesh pack_mesh(const Mesh& mesh) {
   packed.triangles = mesh.triangles.size();
   packed.quads = mesh.quads.size();
   packed.lines = mesh.lines.size();
-  const Box box(mesh);
-  packed.dimension = box.low[2] == box.high[2] ? 2 : 3;
+  const Box<Vec3> box = box_of(mesh);
+  packed.dimension = box.low.z == box.high.z ? 2 : 3;
   Numbers out;
   Numbering numbering(mesh.points.size());
   for (const std::size_t t : spatial_order(mesh, mesh.triangles))

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "io/svg.h"
+#include "mesher/stages.h"
 #include "metrics/metrics.h"
-#include "pipeline/stages.h"
 #include "sweep/experiment.h"
 #include "sweep/statistics.h"
 
@@ -46,13 +46,7 @@ const char* name_of(Better better) {
 
 Json table_json(const Table& table) {
   if (table.rows.empty()) return Json();
-  Json json = {{"title", table.title},
-               {"heads", {table.group_title, table.name_title}},
-               {"columns", Json::array()},
-               {"rows", Json::array()},
-               {"notes", table.notes}};
-  for (const TableColumn& column : table.columns)
-    json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
+  Json json = json_without_rows(table);
   for (const TableRow& row : table.rows) {
     Json marks = Json::object();
     for (const auto& [key, mark] : row.marks) marks[key] = mark == Mark::kBest ? "best" : "as good";

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

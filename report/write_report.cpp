@@ -9,13 +9,13 @@
 #include <limits>
 #include <ostream>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
-#include "pipeline/record.h"
 #include "report/packed_mesh.h"
 #include "report/page_json.h"
 #include "report/page_text.h"
 #include "report/sheet_json.h"
+#include "sweep/record.h"
 #include "sweep/tables.h"
 
 namespace delquad {

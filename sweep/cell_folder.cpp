@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include "mesh/error.h"
-#include "pipeline/interrupt.h"
+#include "console/interrupt.h"
+#include "delquad/error.h"
 
 namespace delquad {
 namespace {
@@ -33,6 +33,9 @@ void remove_results(const fs::path& folder) {
     std::error_code nothing_there;
     fs::remove(folder / name, nothing_there);
   }
+  std::error_code no_folder;
+  for (const auto& entry : fs::directory_iterator(folder, no_folder))
+    if (entry.path().filename().string().starts_with("metric-")) fs::remove(entry.path(), no_folder);
 }
 
 /// Temporary folders of this cell whose processes were killed.

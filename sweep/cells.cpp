@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "io/digest.h"
+#include "sweep/digest.h"
 
 namespace delquad {
 namespace {
@@ -65,8 +65,11 @@ const std::string& version_of(const Peer& peer) {
 std::string model_digest(const Case& c) {
   if (c.model) {
     std::string text = describe(*c.model);
-    for (const DeclaredHole& hole : c.holes)
-      text += fmt::format("hole {:a} {:a}\n", hole.point.x, hole.point.y);
+    for (const ModelLoop& loop : c.model->loops) {
+      if (!loop.is_hole) continue;
+      const Vec2 first = c.model->curves[loop.curves.front()].shape->point(0);
+      text += fmt::format("hole {:a} {:a}\n", first.x, first.y);
+    }
     return digest(text);
   }
   return c.example.empty() ? file_digest(model_path(c)) : digest("example " + c.example);
@@ -85,6 +88,9 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
     cell.peer_version = version_of(*cell.peer);
     pipeline += peer_record(*cell.peer, cell.peer_version);
   }
+  for (const MetricCommand& metric : experiment.metrics)
+    cell.metrics.push_back({&metric, metric_files(metric)});
+  pipeline += metrics_by_command_record(cell);
   cell.key = digest(
       fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed, pipeline, cell.program_digest));
   return cell;
@@ -99,7 +105,7 @@ std::optional<RecordHead> read_head(const fs::path& cell) {
   char bytes[1024];
   in.read(bytes, sizeof bytes);
   const std::string_view head(bytes, static_cast<std::size_t>(in.gcount()));
-  RecordHead result{value_of(head, "key"), value_of(head, "status")};
+  RecordHead result{value_of(head, "key"), value_of(head, "status"), value_of(head, "metrics_status")};
   return result.key.empty() ? std::nullopt : std::optional(std::move(result));
 }
 

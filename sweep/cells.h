@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/record.h"
 #include "sweep/experiment.h"
+#include "sweep/record.h"
 
 namespace delquad {
 
@@ -22,6 +22,7 @@ std::filesystem::path cell_folder(const std::filesystem::path& folder, const Cas
 /// What the record in a cell's folder says at its beginning.
 struct RecordHead {
   std::string key, status;
+  std::string metrics_status = {};  ///< "failed" where a measure has no value
 };
 /// Nothing where there is no record, or one that was not written by an experiment. Costs little.
 std::optional<RecordHead> read_head(const std::filesystem::path& cell);

@@ -6,17 +6,19 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 #include "metrics/metrics.h"
 
 namespace delquad {
 namespace {
 
 /// +1 where more is better, -1 where less is.
-int direction(const std::string& key) {
+int direction(const std::string& key, const std::vector<Metric>& own) {
   if (key == "seconds") return -1;
-  const auto metrics = metric_registry();
-  const auto at = std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.key == key; });
+  std::vector<Metric> metrics(metric_registry().begin(), metric_registry().end());
+  for (const Metric& metric : own)
+    if (find_metric(metric.key) == nullptr) metrics.push_back(metric);
+  const auto at = std::ranges::find(metrics, key, &Metric::key);
   if (at != metrics.end() && at->better != Better::kNeither) return at->better == Better::kHigher ? 1 : -1;
   std::string known;
   for (const Metric& m : metrics)
@@ -48,7 +50,10 @@ int Comparison::count(Verdict verdict) const {
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance) {
   std::vector<int> directions;
-  for (const std::string& metric : metrics) directions.push_back(direction(metric));
+  std::vector<Metric> own = own_metrics_of(before);
+  for (Metric& metric : own_metrics_of(after))
+    if (std::ranges::find(own, metric.key, &Metric::key) == own.end()) own.push_back(std::move(metric));
+  for (const std::string& metric : metrics) directions.push_back(direction(metric, own));
   std::map<std::string, const CellRecord*> later;
   for (const CellRecord& r : after) later[name(r)] = &r;
 

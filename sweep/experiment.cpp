@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <set>
 
-#include "io/toml_reader.h"
+#include "base/located.h"
+#include "cases/case_file.h"
+#include "cases/toml_reader.h"
 #include "metrics/metrics.h"
-#include "pipeline/case_file.h"
-#include "pipeline/located.h"
 #include "sweep/schema.h"
 #include "sweep/tables.h"
 
@@ -20,24 +21,31 @@ namespace {
 
 const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
 
-std::vector<std::string> metric_keys() {
+std::vector<std::string> keys_of_metrics(const std::vector<MetricCommand>& commands) {
   std::vector<std::string> keys;
   for (const Metric& m : metric_registry()) keys.push_back(m.key);
+  for (const MetricCommand& command : commands) keys.push_back(command.metric.key);
   return keys;
+}
+
+/// What one of the keys is, up to a dot: commands may give several values.
+bool is_known(const std::string& metric, const std::vector<std::string>& known) {
+  return std::ranges::find(known, metric) != known.end() ||
+         std::ranges::find(known, metric.substr(0, metric.find('.'))) != known.end();
 }
 
 void check_known(const TomlTable& table, const std::string& key, const std::string& metric,
                  const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), metric) != known.end()) return;
+  if (is_known(metric, known)) return;
   const auto near = nearest_name(metric, known);
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" +
                    (near ? "; did you mean '" + *near + "'?" : ""));
 }
 
-std::vector<PublishedRow> read_published(const std::filesystem::path& file) {
+std::vector<PublishedRow> read_published(const std::filesystem::path& file,
+                                         std::vector<std::string> columns) {
   const TomlTable top = TomlTable::read(file);
   const std::string source = top.text("source");
-  std::vector<std::string> columns = metric_keys();
   for (const StepTime& time : step_times_of_tables()) columns.push_back(time.key);
   std::vector<PublishedRow> rows;
   for (const TomlTable& table : top.tables("row")) {
@@ -53,10 +61,10 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file) {
   return rows;
 }
 
-ExpectedRatio read_ratio(const TomlTable& table) {
+ExpectedRatio read_ratio(const TomlTable& table, const std::vector<std::string>& metrics) {
   ExpectedRatio ratio{table.text("metric"), table.text("numerator"), table.text("denominator"),
                       table.positive_number("expected"), table.text("source", "")};
-  check_known(table, "metric", ratio.metric, metric_keys());
+  check_known(table, "metric", ratio.metric, metrics);
   located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
   located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
   table.finish(ratio_keys());
@@ -128,6 +136,33 @@ std::string folder_text(const Axis& axis, std::size_t i) {
   return text.size() > kLongestValue || same > 1 ? "value-" + std::to_string(i + 1) : text;
 }
 
+std::vector<std::string> read_command(const TomlTable& table, const char* key) {
+  std::vector<std::string> command = table.texts(key);
+  if (!command.empty() && !command[0].empty()) return command;
+  throw InputError(
+      fmt::format("{}: '{}' is empty: expected a program and its arguments", table.where(key), key));
+}
+
+bool has_placeholder(const std::vector<std::string>& command, const char* placeholder) {
+  return std::ranges::any_of(command, [&](const std::string& w) { return w.find(placeholder) != w.npos; });
+}
+
+Better read_better(const TomlTable& table) {
+  const std::string text = table.text("better", "neither");
+  if (text == "higher") return Better::kHigher;
+  if (text == "lower") return Better::kLower;
+  if (text == "neither") return Better::kNeither;
+  throw InputError(table.where("better") + ": 'better' is '" + text +
+                   "': expected \"higher\", \"lower\" or \"neither\"");
+}
+
+int read_count(const TomlTable& table, const char* key, int least, int most, int absent) {
+  const long long count = table.integer(key, absent);
+  if (!table.has(key) || (count >= least && count <= most)) return static_cast<int>(count);
+  throw InputError(
+      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most));
+}
+
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 }  // namespace
@@ -174,7 +209,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
-  c.options.max_elements = max_elements;
+  c.max_elements = max_elements;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     c.variant.emplace_back(axes[k].title, axes[k].values[choice[k]]);
     c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k], choice[k]);
@@ -204,12 +239,6 @@ void Experiment::read_peer(const TomlTable& table) {
                      "': the name of a peer begins with a small letter, unlike words of stages");
   if (std::ranges::find(peers, peer.name, &Peer::name) != peers.end())
     throw InputError(table.where("name") + ": a second peer '" + peer.name + "'");
-  const auto read_command = [&](const char* key) {
-    std::vector<std::string> command = table.texts(key);
-    if (!command.empty() && !command[0].empty()) return command;
-    throw InputError(
-        fmt::format("{}: '{}' is empty: expected a program and its arguments", table.where(key), key));
-  };
   const auto read_format = [&](const char* key, const std::vector<std::string>& known,
                                std::string& extension) {
     const std::string format = table.text(key, extension.substr(1));
@@ -218,18 +247,50 @@ void Experiment::read_peer(const TomlTable& table) {
                                    fmt::join(known, ", ")));
     extension = "." + format;
   };
-  peer.command = read_command("command");
+  peer.command = read_command(table, "command");
   for (const char* placeholder : {"{input}", "{output}"})
-    if (std::ranges::none_of(peer.command,
-                             [&](const std::string& w) { return w.find(placeholder) != w.npos; }))
+    if (!has_placeholder(peer.command, placeholder))
       throw InputError(fmt::format("{}: 'command' lacks {}", table.where("command"), placeholder));
-  peer.version = read_command("version");
+  peer.version = read_command(table, "version");
   read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
   if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);
   peer.keeps_boundary = table.flag("keeps_boundary", peer.keeps_boundary);
   table.finish(peer_keys());
   peers.push_back(std::move(peer));
+}
+
+void Experiment::read_metric(const TomlTable& table) {
+  MetricCommand command;
+  Metric& metric = command.metric;
+  metric.key = table.text("name");
+  command.folder = file.parent_path();
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  if (metric.key.empty() || metric.key.size() > 60 ||
+      std::isalpha(static_cast<unsigned char>(metric.key[0])) == 0 || !std::ranges::all_of(metric.key, plain))
+    throw InputError(table.where("name") + ": '" + metric.key +
+                     "': the name of a metric is a letter, then letters, digits, '_' and '-'");
+  std::vector<std::string> taken = keys_of_metrics(metrics);
+  for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
+  taken.push_back("seconds");
+  if (std::ranges::find(taken, metric.key) != taken.end())
+    throw InputError(table.where("name") + ": there is a metric '" + metric.key + "' already");
+  command.command = read_command(table, "command");
+  if (!has_placeholder(command.command, "{mesh}") && !has_placeholder(command.command, "{folder}"))
+    throw InputError(table.where("command") + ": 'command' lacks {mesh}, and {folder} in its place");
+  if (table.has("files")) command.files = table.texts("files");
+  for (const std::string& name : command.files)
+    if (!std::filesystem::is_regular_file(command.folder / name))
+      throw InputError(table.where("files") + ": no file '" + (command.folder / name).string() + "'");
+  metric.title = table.text("title", metric.key);
+  metric.unit = table.text("unit", "");
+  metric.better = read_better(table);
+  metric.worst = std::numeric_limits<double>::quiet_NaN();
+  metric.source = fmt::format("{}", fmt::join(command.command, " "));
+  metric.digits = read_count(table, "digits", 0, kMostDigits, metric.digits);
+  command.timeout = static_cast<unsigned>(read_count(table, "timeout", 1, kMostSeconds, 0));
+  table.finish(metric_keys());
+  metrics.push_back(std::move(command));
 }
 
 const Peer* Experiment::peer_of(const Word& word) const {
@@ -288,11 +349,13 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
   for (const TomlTable& peer : table.tables("peer")) experiment.read_peer(peer);
   experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
+  for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
+  const std::vector<std::string> metrics = keys_of_metrics(experiment.metrics);
   if (table.has("reference"))
-    experiment.published = read_published(file.parent_path() / table.text("reference"));
+    experiment.published = read_published(file.parent_path() / table.text("reference"), metrics);
   experiment.step_times = table.flag("step_times", false);
   if (const auto ratio = table.optional_table("ratio")) {
-    experiment.ratio = read_ratio(*ratio);
+    experiment.ratio = read_ratio(*ratio, metrics);
     for (const std::string& text : {experiment.ratio->numerator, experiment.ratio->denominator})
       located(ratio->where(), [&] { experiment.find_pipeline(text); });
   }

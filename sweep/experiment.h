@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "io/toml_reader.h"
-#include "pipeline/case.h"
-#include "pipeline/peer.h"
-#include "pipeline/stages.h"
+#include "cases/case.h"
+#include "cases/toml_reader.h"
+#include "mesher/stages.h"
+#include "sweep/metric_command.h"
+#include "sweep/peer.h"
 
 namespace delquad {
 
@@ -56,12 +57,13 @@ class Experiment {
   std::filesystem::path file;
   std::vector<Word> words;  ///< and peers, as words without stages
   std::vector<Peer> peers;
+  std::vector<MetricCommand> metrics;
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
   std::vector<Axis> axes;
-  bool step_times = false;                                 ///< the table has a column for each step's time
-  std::optional<LinfStudy> linf;                           ///< then there are no cases
-  long long max_elements = MeshingOptions{}.max_elements;  ///< of every case
+  bool step_times = false;                              ///< the table has a column for each step's time
+  std::optional<LinfStudy> linf;                        ///< then there are no cases
+  long long max_elements = MeshProblem{}.max_elements;  ///< of every case
 
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
@@ -82,6 +84,7 @@ class Experiment {
  private:
   void read_matrix(const TomlTable& matrix);
   void read_peer(const TomlTable& table);
+  void read_metric(const TomlTable& table);
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 
 namespace delquad {
 

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "algorithms/insertion/linf_delaunay.h"
+#include "console/interrupt.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
-#include "pipeline/interrupt.h"
 
 namespace delquad {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "pipeline/progress.h"
+#include "console/progress.h"
 #include "sweep/experiment.h"
 #include "sweep/table.h"
 

@@ -19,10 +19,10 @@
 #include <system_error>
 #include <utility>
 
-#include "mesh/activity.h"
-#include "mesh/error.h"
-#include "mesh/parallel.h"
-#include "pipeline/peer.h"
+#include "base/parallel.h"
+#include "console/activities.h"
+#include "delquad/error.h"
+#include "sweep/peer.h"
 
 namespace delquad {
 namespace {
@@ -100,7 +100,7 @@ struct TimeIsUp {
 extern "C" void report_timeout(int) {
   char text[600];
   std::size_t n = std::strlen(std::strcpy(text, time_is_up.text));
-  n += describe_doing(text + n, sizeof text - n);
+  n += program_activities().describe(text + n, sizeof text - n);
   [[maybe_unused]] const ssize_t written = write(time_is_up.report, text, n);
   _exit(1);
 }
@@ -157,7 +157,7 @@ class Family {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
     for (const int signal_number : {SIGINT, SIGTERM}) signal(signal_number, SIG_DFL);
-    start_own_activities();
+    program_activities().clear();  // those of the parent
     if (limits_.seconds > 0) report_timeouts(limits_.seconds, report);
     if (limits_.bytes > 0) {
       const rlimit limit = {static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};

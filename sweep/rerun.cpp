@@ -8,11 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/digest.h"
+#include "cases/problem.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
-#include "pipeline/runner.h"
+#include "mesher/runner.h"
 #include "sweep/cells.h"
+#include "sweep/digest.h"
 
 namespace delquad {
 namespace {
@@ -91,11 +92,10 @@ Rerun rerun_record(const std::filesystem::path& file) {
   if (digests.at("program") != now.program_digest) rerun.differences.push_back("the program's bytes");
   if (record.at("seed") != c.seed) rerun.differences.push_back("the seed");
 
-  Progress silent;
   const TemporaryFolder scratch;
-  const PreparedCase prepared = prepare_case(c);
+  const PreparedProblem prepared = prepare_case(c);
   const RunResult result = now.peer != nullptr ? run_peer(*now.peer, c, prepared, pipeline, scratch.path)
-                                               : run_word(c, prepared, experiment.words[0], silent);
+                                               : run_word(prepared, experiment.words[0]);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);
   rerun.same_mesh = digests.at("mesh") == digest(mesh.view());

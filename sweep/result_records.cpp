@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mesh/error.h"
-#include "pipeline/case.h"
+#include "cases/case.h"
+#include "delquad/error.h"
 #include "sweep/experiment.h"
 
 namespace delquad {
@@ -27,6 +27,19 @@ void add_step_times(const Json& seconds, std::map<std::string, double>& values) 
     if (at == seconds.end()) continue;
     total += values[time.key] = at->get<double>();
   }
+}
+
+Metric parse_metric(const Json& json) {
+  Metric metric{json.at("key"),
+                json.at("title"),
+                json.at("unit"),
+                Better::kNeither,
+                std::numeric_limits<double>::quiet_NaN(),
+                ""};
+  const auto better = json.at("better").get<std::string>();
+  if (better != "neither") metric.better = better == "higher" ? Better::kHigher : Better::kLower;
+  json.at("digits").get_to(metric.digits);
+  return metric;
 }
 
 CellRecord parse(const Json& json) {
@@ -51,6 +64,9 @@ CellRecord parse(const Json& json) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
   };
   for (const auto& [key, value] : json.at("metrics").items()) record.values[key] = number(value);
+  for (const Json& metric : json.value("own_metrics", Json::array()))
+    record.own_metrics.push_back(parse_metric(metric));
+  record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
   record.values["seconds"] = number(json.at("meshing_seconds"));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
@@ -63,6 +79,28 @@ CellRecord parse(const Json& json) {
 }
 
 }  // namespace
+
+std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records) {
+  std::vector<Metric> metrics;
+  for (const CellRecord& record : records)
+    for (const Metric& metric : record.own_metrics)
+      if (std::ranges::find(metrics, metric.key, &Metric::key) == metrics.end()) metrics.push_back(metric);
+  std::vector<Metric> all;
+  for (const Metric& metric : metrics) {
+    std::set<std::string> parts;
+    for (const CellRecord& record : records)
+      for (const auto& [key, value] : record.values)
+        if (key.starts_with(metric.key + ".")) parts.insert(key);
+    const auto has_whole = [&](const CellRecord& record) { return record.values.contains(metric.key); };
+    if (parts.empty() || std::ranges::any_of(records, has_whole)) all.push_back(metric);
+    for (const std::string& key : parts) {
+      all.push_back(metric);
+      all.back().key = key;
+      all.back().title += key.substr(metric.key.size());
+    }
+  }
+  return all;
+}
 
 std::vector<CellRecord> read_records(const fs::path& folder) {
   std::error_code error;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "delquad/metrics.h"
+
 namespace delquad {
 
 /// What a record says of one cell of an experiment.
@@ -24,8 +26,14 @@ struct CellRecord {
   std::vector<std::string> unsound = {};          ///< why its mesh is not sound; empty: it is
   std::string uniform_size = {};                  ///< delta, where it was asked to be the same everywhere
   std::vector<std::string> size_adapted_to = {};  ///< what made the size less than was asked for
-  std::filesystem::path folder = {};              ///< of the cell
+  std::vector<Metric> own_metrics = {};           ///< that the project itself does not have
+  std::map<std::string, std::string> failed_metrics = {};  ///< why a measure has no value, by key
+  std::filesystem::path folder = {};                       ///< of the cell
 };
+
+/// The measures of records that the project itself does not have, each once, in the order of records: with a
+/// measure for each of the values that a command gave, "name.part".
+std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
 
 /// The records of an experiment below a folder, by place and path. Throws InputError naming the file that is
 /// no record, the cell that is there twice, or the folder that has none.

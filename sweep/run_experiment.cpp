@@ -12,17 +12,18 @@
 #include <system_error>
 #include <utility>
 
-#include "io/digest.h"
+#include "base/activity.h"
+#include "base/stopwatch.h"
+#include "cases/case_pictures.h"
+#include "cases/problem.h"
+#include "console/progress.h"
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "mesh/activity.h"
-#include "mesh/error.h"
-#include "pipeline/case_pictures.h"
-#include "pipeline/progress.h"
-#include "pipeline/runner.h"
-#include "pipeline/stopwatch.h"
+#include "mesher/runner.h"
 #include "sweep/cell_folder.h"
 #include "sweep/cells.h"
+#include "sweep/digest.h"
 #include "sweep/folder_lock.h"
 #include "sweep/linf_study.h"
 #include "sweep/study_file.h"
@@ -44,14 +45,14 @@ struct Cell {
   fs::path folder;
 };
 
-/// Where a peer works.
-fs::path peer_scratch(const fs::path& cell) {
-  return cell.parent_path() / ("." + cell.filename().string() + ".peer");
+/// Where peers and measures by command work.
+fs::path scratch_of(const fs::path& cell) {
+  return cell.parent_path() / ("." + cell.filename().string() + ".work");
 }
 
 bool is_done(const Cell& cell) {
   const auto head = read_head(cell.folder);
-  return head && head->key == cell.identity.key && head->status == "ok";
+  return head && head->key == cell.identity.key && head->status == "ok" && head->metrics_status.empty();
 }
 
 /// A variant of a case with the cells that are to be made from it, in the process that works on it: each
@@ -62,7 +63,7 @@ struct Work {
   std::vector<Cell> cells;
   SweepProgress* progress;
   bool allow_unsound;
-  std::optional<PreparedCase> prepared;
+  std::optional<PreparedProblem> prepared;
   MeshingState state;
 
   void prepare() {
@@ -81,16 +82,17 @@ struct Work {
   void finish(const Cell& cell) {
     const DoingStage finishing("writing");
     const std::string label = c.folder + " " + cell.word->text;
-    const fs::path scratch = peer_scratch(cell.folder);
+    const fs::path scratch = scratch_of(cell.folder);
     const std::string name = c.name + " " + cell.word->text;
     RunResult result = cell.identity.peer != nullptr
                            ? run_peer(*cell.identity.peer, c, *prepared, name, scratch)
-                           : finish_meshing(c, *prepared, name, std::move(state));
+                           : finish_meshing(*prepared, name, std::move(state));
     for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
     // What others make is shown as it is.
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
     if (!result.soundness.sound())
       say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
+    measure_by_commands(cell, scratch, result);
     write_cell(cell.folder, [&](const fs::path& at) {
       if (fs::exists(scratch))
         for (const auto& entry : fs::directory_iterator(scratch))
@@ -99,8 +101,8 @@ struct Work {
       write_msh(at / "mesh.msh", result.mesh);
       write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
       (prepared->background ? draw_mesh : draw_surface)(at / "picture.svg", result.mesh, label);
-      if (!result.log.smoothing.empty())
-        draw_convergence(at / "convergence.svg", result.log.smoothing, label + ": smoothing");
+      if (result.log.summaries.has("smoothing"))
+        draw_convergence(at / "convergence.svg", result.log.summaries, label + ": smoothing");
       result.log.add_seconds("write", writing.work_seconds());
       CellIdentity identity = cell.identity;
       identity.mesh_digest = file_digest(at / "mesh.msh");
@@ -112,9 +114,28 @@ struct Work {
     progress->done();
   }
 
+  /// Lets other programs measure the mesh, before anything of the cell is in place: it may take long.
+  void measure_by_commands(const Cell& cell, const fs::path& scratch, RunResult& result) const {
+    if (cell.identity.metrics.empty()) return;
+    const DoingStage measuring("metrics by command");
+    const Stopwatch watch;
+    if (cell.identity.peer == nullptr) fs::remove_all(scratch);
+    fs::create_directories(scratch);
+    write_msh(scratch / "mesh.msh", result.mesh);
+    for (const auto& [metric, files] : cell.identity.metrics) {
+      MetricOutcome outcome = run_metric(*metric, c, cell.word->text, scratch);
+      result.metrics.values.merge(outcome.values);
+      if (outcome.failure.empty()) continue;
+      say(fmt::format("warning: {} {}: no '{}': {}", c.folder, cell.word->text, metric->metric.key,
+                      outcome.failure));
+      result.metrics.failures[metric->metric.key] = outcome.failure;
+    }
+    result.log.add_seconds("metrics by command", watch.seconds());
+  }
+
   void remove_scratch(const Cell& cell) const {
     std::error_code ignored;
-    fs::remove_all(peer_scratch(cell.folder), ignored);
+    fs::remove_all(scratch_of(cell.folder), ignored);
   }
 
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
@@ -193,7 +214,7 @@ Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
       if (at->stage == nullptr && at->cell == nullptr)
         work->prepare();
       else if (at->stage != nullptr)
-        run_stage(*at->stage, work->c, *work->prepared, work->state);
+        run_stage(*at->stage, *work->prepared, work->state);
       if (at == &end) break;
     }
     if (is_leaf) work->finish(*end.cell);
@@ -348,11 +369,12 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
       for (std::size_t w = 0; w < experiment.words.size(); ++w) {
         const CellIdentity cell = identify(experiment, c, model, {i, v, w});
         const auto head = read_head(cell_folder(folder, c, experiment.words[w]));
-        const std::string state = absent                  ? "data not found"
-                                  : !head                 ? "to do"
-                                  : head->key != cell.key ? "outdated"
-                                  : head->status == "ok"  ? "done"
-                                                          : head->status;
+        const std::string state = absent                          ? "data not found"
+                                  : !head                         ? "to do"
+                                  : head->key != cell.key         ? "outdated"
+                                  : !head->metrics_status.empty() ? "metric failed"
+                                  : head->status == "ok"          ? "done"
+                                                                  : head->status;
         text += fmt::format("{:<14} {} {}\n", state, c.folder, experiment.words[w].text);
       }
     }

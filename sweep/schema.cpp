@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/case_keys.h"
+#include "cases/case_keys.h"
 
 namespace delquad {
 namespace {
@@ -20,6 +20,7 @@ const std::string kSeeds =
     R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 1000000000}, "minItems": 1})";
 const std::string kFolder = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
+const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
 /// What a model is made of, which does not vary.
 const std::vector<std::string> kModels = {"loop", "pattern", "curve", "example",
                                           "mesh", "model",   "data",  "compare"};
@@ -30,7 +31,7 @@ Json value_schema(const TomlKey& key) {
   Json choices = Json::array();
   if (!key.type.empty()) choices.push_back(Json::parse(key.type));
   if (key.table != nullptr) {
-    choices.push_back(table_schema(*key.table));
+    choices.push_back(table_schema(key.table()));
     if (key.many) choices.push_back({{"type", "array"}, {"items", choices.back()}});
   }
   return choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
@@ -57,7 +58,7 @@ Json matrix_schema(const TomlKeys& keys) {
     if (std::ranges::find(kModels, key.name) != kModels.end()) continue;
     Json choices = Json::array();
     if (!key.type.empty() || key.many) choices.push_back(list_of(value_schema(key)));
-    if (key.table != nullptr && !key.many) choices.push_back(matrix_schema(*key.table));
+    if (key.table != nullptr && !key.many) choices.push_back(matrix_schema(key.table()));
     json["properties"][key.name] = choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
   }
   return json;
@@ -84,6 +85,19 @@ const TomlKeys& peer_keys() {
   return keys;
 }
 
+const TomlKeys& metric_keys() {
+  static const TomlKeys keys = {
+      {"name", "in tables and records", kMetricName, nullptr, false, true},
+      {"command", "program and arguments, with {mesh}", kCommand, nullptr, false, true},
+      {"files", "that its value depends on, too", kTexts},
+      {"title", "in tables; else the name", kText},
+      {"unit", "for people", kText},
+      {"better", "which values are", one_of({"higher", "lower", "neither"})},
+      {"digits", "after the decimal point, in tables", between("integer", 0, kMostDigits)},
+      {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
+  return keys;
+}
+
 const TomlKeys& ratio_keys() {
   static const TomlKeys keys = {{"metric", "key of a measure", kText, nullptr, false, true},
                                 {"numerator", "a pipeline", kText, nullptr, false, true},
@@ -99,30 +113,26 @@ const TomlKeys& linf_study_keys() {
   return keys;
 }
 
-const TomlKeys& experiment_case_keys() {
-  static const TomlKeys keys = [] {
-    TomlKeys all = {{"name", "of its folder", kFolder, nullptr, false, true}};
-    all.insert(all.end(), case_keys().begin(), case_keys().end());
-    return all;
-  }();
+TomlKeys experiment_case_keys() {
+  TomlKeys keys = case_keys();
+  keys.insert(keys.begin(), {"name", "of its folder", kFolder, nullptr, false, true});
   return keys;
 }
 
-const TomlKeys& experiment_keys() {
-  static const TomlKeys keys = [] {
-    TomlKeys all = {{"title", "of the tables", kText},
-                    {"pipelines", "words of stages and names of peers", kTexts},
-                    {"peer", "other meshers", "", &peer_keys(), true},
-                    {"reference", "a file of published rows", kText},
-                    {"step_times", "whether tables have a column for each step's time", kFlag},
-                    {"ratio", "of a measure between two pipelines", "", &ratio_keys()},
-                    {"linf_delaunay", "in place of cases: point sets", "", &linf_study_keys()},
-                    // Its keys are those of cases, see whole_matrix_schema().
-                    {"matrix", "what varies", R"({"type": "object"})"},
-                    {"case", "what is meshed", "", &experiment_case_keys(), true}};
-    all.insert(all.end(), case_keys().begin(), case_keys().end());
-    return all;
-  }();
+TomlKeys experiment_keys() {
+  TomlKeys keys = {{"title", "of the tables", kText},
+                   {"pipelines", "words of stages and names of peers", kTexts},
+                   {"peer", "other meshers", "", peer_keys, true},
+                   {"metric", "measures that other programs take", "", metric_keys, true},
+                   {"reference", "a file of published rows", kText},
+                   {"step_times", "whether tables have a column for each step's time", kFlag},
+                   {"ratio", "of a measure between two pipelines", "", ratio_keys},
+                   {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
+                   // Its keys are those of cases, see whole_matrix_schema().
+                   {"matrix", "what varies", R"({"type": "object"})"},
+                   {"case", "what is meshed", "", experiment_case_keys, true}};
+  const TomlKeys of_cases = case_keys();
+  keys.insert(keys.end(), of_cases.begin(), of_cases.end());
   return keys;
 }
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <string>
 
-#include "pipeline/progress.h"
+#include "console/progress.h"
 
 namespace delquad {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 
 namespace delquad {
 namespace {
@@ -188,6 +188,18 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
+nlohmann::ordered_json json_without_rows(const Table& table) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"title", table.title},
+               {"heads", {table.group_title, table.name_title}},
+               {"columns", Json::array()},
+               {"rows", Json::array()},
+               {"notes", table.notes}};
+  for (const TableColumn& column : table.columns)
+    json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
+  return json;
+}
+
 std::string to_json(const Table& table) {
   using Json = nlohmann::ordered_json;
   const auto object = [&](const std::map<std::string, double>& values) {
@@ -196,13 +208,7 @@ std::string to_json(const Table& table) {
       if (values.contains(column.key)) json[column.key] = values.at(column.key);
     return json;
   };
-  Json json = {{"title", table.title},
-               {"heads", {table.group_title, table.name_title}},
-               {"columns", Json::array()},
-               {"rows", Json::array()},
-               {"notes", table.notes}};
-  for (const TableColumn& column : table.columns)
-    json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
+  Json json = json_without_rows(table);
   for (const TableRow& row : table.rows) {
     Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
     if (!row.failure.empty() || !row.skipped.empty()) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ std::string to_markdown(const Table& table);
 std::string to_tex(const Table& table);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);
+/// What the JSON of a table begins with: title, heads, columns; rows that are still empty; notes.
+nlohmann::ordered_json json_without_rows(const Table& table);
 std::string to_json(const Table& table);
 /// What to_json() has written, but for half-widths and marks. Throws InputError naming the file.
 Table read_table(const std::filesystem::path& file);

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <set>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
 #include "metrics/metrics.h"
 #include "sweep/statistics.h"
 
@@ -31,21 +31,16 @@ const std::vector<std::pair<const char*, int>> kColumns = {
 /// What pairs of pipelines are compared by.
 const std::vector<const char*> kCompared = {"eta_mean", "eta_worst", "d4", "tau", kSeconds};
 
-const Metric* find_metric(const std::string& key) {
-  const auto metrics = metric_registry();
-  const auto at = std::ranges::find(metrics, key, &Metric::key);
-  return at == metrics.end() ? nullptr : &*at;
-}
-
 /// With a column for each step's time, or one for the stages of the pipeline; and one for tau against the
 /// size as it was given, where that is another than what it was measured against.
-std::vector<TableColumn> table_columns(bool step_times, bool sizes_adapted) {
+std::vector<TableColumn> table_columns(bool step_times, bool sizes_adapted, const std::vector<Metric>& own) {
   std::vector<TableColumn> columns;
   for (const auto& [key, digits] : kColumns) {
     const Metric* metric = find_metric(key);
     if (key == std::string(kTauGiven) && !sizes_adapted) continue;
     columns.push_back({key, metric == nullptr ? key : metric->title, digits});
   }
+  for (const Metric& metric : own) columns.push_back({metric.key, metric.title, metric.digits});
   if (!step_times) {
     columns.push_back({kSeconds, "s", 2});
     return columns;
@@ -112,11 +107,12 @@ std::vector<double> differences(const std::vector<const CellRecord*>& a,
 }
 
 /// Marks the best value of each measure among the rows of a group that make quads, and sound meshes.
-void mark_best(std::span<const Samples> samples, std::span<TableRow> rows) {
-  for (const auto& [key, digits] : kColumns) {
-    const Metric* metric = find_metric(key);
-    if (metric == nullptr || metric->better == Better::kNeither) continue;
-    const double sign = metric->better == Better::kHigher ? 1 : -1;
+void mark_best(const std::vector<Metric>& metrics, std::span<const Samples> samples,
+               std::span<TableRow> rows) {
+  for (const Metric& metric : metrics) {
+    if (metric.better == Better::kNeither) continue;
+    const std::string& key = metric.key;
+    const double sign = metric.better == Better::kHigher ? 1 : -1;
     std::vector<std::size_t> rivals;
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i].values.contains(key) && rows[i].unsound.empty() && makes_quads(*samples[i].done[0]))
@@ -138,21 +134,23 @@ void mark_best(std::span<const Samples> samples, std::span<TableRow> rows) {
 class Tabulation {
  public:
   Tabulation(const StudyFile& study, const std::vector<CellRecord>& records)
-      : study_(study), records_(records), samples_(group_samples(records)) {}
+      : study_(study), records_(records), samples_(group_samples(records)), own_(own_metrics_of(records)) {}
 
   Outcome run() {
     Table& table = outcome_.table;
     table.title = study_.title;
     table.columns =
-        table_columns(study_.step_times, std::ranges::any_of(records_, [](const CellRecord& record) {
-                        return !record.size_adapted_to.empty();
-                      }));
+        table_columns(study_.step_times,
+                      std::ranges::any_of(
+                          records_, [](const CellRecord& record) { return !record.size_adapted_to.empty(); }),
+                      own_);
     for (const PublishedRow& row : study_.published)
       table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
     const std::size_t first = table.rows.size();
     for (const Samples& row : samples_) add_row(row);
     mark_groups(std::span(table.rows).subspan(first));
     note_cells();
+    note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     compare_pairs();
     return std::move(outcome_);
@@ -212,10 +210,13 @@ class Tabulation {
   }
 
   void mark_groups(std::span<TableRow> rows) const {
+    std::vector<Metric> metrics = own_;
+    for (const auto& [key, digits] : kColumns)
+      if (const Metric* metric = find_metric(key)) metrics.push_back(*metric);
     for (std::size_t first = 0, last; first < rows.size(); first = last) {
       last = first;
       while (last < rows.size() && rows[last].group == rows[first].group) ++last;
-      mark_best(std::span(samples_).subspan(first, last - first), rows.subspan(first, last - first));
+      mark_best(metrics, std::span(samples_).subspan(first, last - first), rows.subspan(first, last - first));
     }
   }
 
@@ -237,6 +238,20 @@ class Tabulation {
     if (records_.size() < study_.cells)
       notes.push_back(
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
+  }
+
+  /// Of each measure that has no value somewhere: where, and why.
+  void note_failed_metrics() {
+    std::map<std::string, std::pair<std::size_t, std::string>> failed;  // how often, the first
+    for (const CellRecord& record : records_)
+      for (const auto& [key, reason] : record.failed_metrics) {
+        auto& [count, first] = failed[key];
+        if (count++ == 0) first = fmt::format("{} {}: {}", record.group, record.pipeline, reason);
+      }
+    for (const auto& [key, entry] : failed)
+      outcome_.table.notes.push_back(entry.first == 1 ? fmt::format("no '{}' of {}", key, entry.second)
+                                                      : fmt::format("no '{}' of {} cells, the first {}", key,
+                                                                    entry.first, entry.second));
   }
 
   /// Against which size tau is measured.
@@ -294,12 +309,20 @@ class Tabulation {
                 const std::map<std::string, std::vector<const CellRecord*>>& by_word) {
     const auto a = by_word.find(first), b = by_word.find(second);
     if (a == by_word.end() || b == by_word.end()) return;
+    std::vector<Metric> metrics;
     for (const char* key : kCompared) {
+      const Metric* metric = find_metric(key);
+      const double none = std::nan("");
+      metrics.push_back(metric == nullptr ? Metric{key, key, "", Better::kLower, none, ""} : *metric);
+    }
+    for (const Metric& metric : own_)
+      if (metric.better != Better::kNeither) metrics.push_back(metric);
+    for (const Metric& metric : metrics) {
+      const std::string& key = metric.key;
       const std::vector<double> d = differences(a->second, b->second, key);
       if (d.size() < kFewestPairs) continue;
-      const Metric* metric = find_metric(key);
-      const double sign = metric != nullptr && metric->better == Better::kHigher ? 1 : -1;
-      TableRow row{first + " - " + second, metric == nullptr ? key : metric->title, {}, {}, "", ""};
+      const double sign = metric.better == Better::kHigher ? 1 : -1;
+      TableRow row{first + " - " + second, metric.title, {}, {}, "", ""};
       row.values = {
           {"pairs", static_cast<double>(d.size())},
           {"better", static_cast<double>(std::ranges::count_if(d, [&](double x) { return sign * x > 0; }))},
@@ -314,6 +337,7 @@ class Tabulation {
   const StudyFile& study_;
   const std::vector<CellRecord>& records_;
   std::vector<Samples> samples_;
+  std::vector<Metric> own_;
   Outcome outcome_;
 };
 

@@ -1,15 +1,13 @@
 #include "algorithms/cleanup/cleanup.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
-#include <utility>
 
 #include "algorithms/cleanup/cleanup_process.h"
-#include "algorithms/recombination/poorness.h"
-#include "smoothing/short_edges.h"
+#include "base/cancel.h"
+#include "base/stopwatch.h"
+#include "mesh/quad_corners.h"
+#include "smoothing/relocation/short_edges.h"
 
 namespace delquad {
 
@@ -25,8 +23,6 @@ constexpr double kGreedyLoss = 0.02;
 /// Weight of the size deviation against eta: with 1 the annealing pays for regular vertices with tau.
 constexpr double kSizeWeight = 1.5;
 
-double eta_of_sine(double sine) { return 2 / std::numbers::pi * std::asin(std::clamp(sine, -1.0, 1.0)); }
-
 }  // namespace
 
 CleanupProcess::CleanupProcess(const QuadPatch& mesh, const ParametricSize& size,
@@ -35,7 +31,8 @@ CleanupProcess::CleanupProcess(const QuadPatch& mesh, const ParametricSize& size
       energy_(mesh_),
       relocation_(mesh_, size),
       options_(options),
-      random_(static_cast<std::uint64_t>(options.seed)) {
+      random_(static_cast<std::uint64_t>(options.seed)),
+      queue_(mesh_, energy_) {
   lengthen_short_edges(mesh_, size);
 }
 
@@ -79,17 +76,15 @@ void CleanupProcess::consider(std::span<const int> vertices) {
     const int gain = energy_.gain(move);
     if (gain > 0 && is_legal(mesh_, move)) queue_.push({gain, move});
   };
-  ++seen_;
-  seen_element_.resize(mesh_.element_slots(), 0);
-  seen_vertex_.resize(mesh_.vertex_slots(), 0);
-  const auto is_new = [&](unsigned& seen) { return std::exchange(seen, seen_) != seen_; };
+  elements_met_.begin(mesh_.element_slots());
+  vertices_met_.begin(mesh_.vertex_slots());
   for (const int v : vertices) {
     if (!mesh_.vertex_alive(v)) continue;
-    if (is_new(seen_vertex_[v])) for_each_split(mesh_, v, add);
+    if (vertices_met_.meet(v)) for_each_split(mesh_, v, add);
     mesh_.for_each_out(v, [&](int h) {
       const int e = QuadTopology::element(h), w = mesh_.target(h);
-      if (is_new(seen_element_[e])) for_each_move(mesh_, e, add);
-      if (is_new(seen_vertex_[w])) for_each_split(mesh_, w, add);
+      if (elements_met_.meet(e)) for_each_move(mesh_, e, add);
+      if (vertices_met_.meet(w)) for_each_split(mesh_, w, add);
     });
   }
 }
@@ -103,21 +98,8 @@ void CleanupProcess::greedy() {
 }
 
 void CleanupProcess::drain() {
-  Candidate last{0, {}};
-  while (!queue_.empty()) {
-    const Candidate candidate = queue_.top();
-    queue_.pop();
-    // An edit is seen from several vertices.
-    if (candidate.gain == last.gain && candidate.move == last.move) continue;
-    last = candidate;
-    if (!is_legal(mesh_, candidate.move)) continue;
-    const int gain = energy_.gain(candidate.move);
-    if (gain <= 0) continue;
-    if (gain != candidate.gain)
-      queue_.push({gain, candidate.move});
-    else if (attempt(candidate.move, kGreedyLoss))
-      accept();
-  }
+  while (const auto move = queue_.pop())
+    if (attempt(*move, kGreedyLoss)) accept();
 }
 
 void CleanupProcess::list_irregular(int v) {
@@ -132,6 +114,7 @@ void CleanupProcess::anneal(double tolerance) {
   work_.clear();
   for (const int v : visiting_) listed_[v] = 0;
   for (const int v : visiting_) {
+    check_cancelled();
     if (!mesh_.vertex_alive(v) || energy_.of(v) == 0) continue;
     TreatmentMove move{};
     if (!pick_neutral(v, move)) continue;
@@ -167,7 +150,7 @@ bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
   const Quality before = quality(touched_);
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
   const auto start = mesh_.mark();
-  perform(move);
+  apply(mesh_, relocation_, move, touched_);
   for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
     for (const int v : touched_) relocation_.step(v);
     const Quality after = quality(touched_);
@@ -178,14 +161,6 @@ bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
   }
   mesh_.rollback(start);
   return false;
-}
-
-void CleanupProcess::perform(const TreatmentMove& move) {
-  const int first = mesh_.vertex_slots();
-  apply(mesh_, move);
-  if (first == mesh_.vertex_slots()) return;
-  relocation_.adopt_new_vertices(first);
-  for (int v = first; v < mesh_.vertex_slots(); ++v) touched_.push_back(v);
 }
 
 void CleanupProcess::accept() {
@@ -209,23 +184,11 @@ void CleanupProcess::accept() {
 }
 
 void CleanupProcess::count(const TreatmentMove& move) {
-  switch (move.kind) {
-    case TreatmentMove::kCollapse:
-      ++summary_.diamonds;
-      break;
-    case TreatmentMove::kDoublet:
-      ++summary_.doublets;
-      break;
-    case TreatmentMove::kSplit:
-      ++summary_.splits;
-      break;
-    case TreatmentMove::kOpenForward:
-    case TreatmentMove::kOpenBackward:
-      ++summary_.openings;
-      break;
-    default:
-      ++summary_.rotations;
-  }
+  using S = CleanupSummary;
+  // By TreatmentMove::Kind; there are no insets.
+  static constexpr int S::*kCounters[] = {&S::rotations, &S::rotations, &S::diamonds, &S::doublets,
+                                          &S::rotations, &S::splits,    &S::openings, &S::openings};
+  ++(summary_.*kCounters[move.kind]);
 }
 
 double CleanupProcess::deviation(int element) const {
@@ -241,35 +204,28 @@ double CleanupProcess::deviation(int element) const {
 }
 
 CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
-  ++seen_;
-  seen_element_.resize(mesh_.element_slots(), 0);
   Quality total;
   int n = 0;
-  for (const int v : vertices) {
-    if (!mesh_.vertex_alive(v)) continue;
-    mesh_.for_each_out(v, [&](int h) {
-      const int e = QuadTopology::element(h);
-      if (seen_element_[e] == seen_) return;
-      seen_element_[e] = seen_;
-      const double sine = least_sine(mesh_, e);
-      total.least_sine = std::min(total.least_sine, sine);
-      total.mean += eta_of_sine(sine) - kSizeWeight * deviation(e);
-      ++n;
-    });
-  }
+  elements_met_.begin(mesh_.element_slots());
+  for_each_element_around(mesh_, vertices, elements_met_, [&](int e) {
+    const double sine = least_sine(mesh_, e);
+    total.least_sine = std::min(total.least_sine, sine);
+    total.mean += eta_of_sine(sine) - kSizeWeight * deviation(e);
+    ++n;
+  });
   total.mean /= std::max(n, 1);
   return total;
 }
 
 QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options,
                    CleanupSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   CleanupProcess process(mesh, size, options);
   process.run();
   QuadPatch result = process.result();
   if (summary != nullptr) {
     *summary = process.summary();
-    summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    summary->seconds = watch.seconds();
   }
   return result;
 }

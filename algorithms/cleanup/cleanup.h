@@ -1,7 +1,8 @@
 #pragma once
 
-#include "fields/size_field.h"
-#include "mesh/patch.h"
+#include "base/counters.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 
@@ -10,6 +11,9 @@ struct CleanupOptions {
   double tolerance = 0.1;  ///< how much quality an edit may cost in the first round; none in the last
   long long seed = 1;      ///< of the annealing
 };
+
+OptionGroup cleanup_group();
+CleanupOptions cleanup_options(const Options& options);
 
 /// Neither an edit nor relocation takes the least eta of the quads around below both this and what it was.
 inline constexpr double kCleanupFloorEta = 0.5;
@@ -27,6 +31,24 @@ struct CleanupSummary {
   long long relocated = 0;  ///< moves of vertices
   long long looks = 0;      ///< QuadRelocation::looks(): at most linear in the number of elements
   double seconds = 0;
+};
+
+template <>
+struct Counters<CleanupSummary> {
+  using S = CleanupSummary;
+  static constexpr const char* step = "cleanup";
+  static constexpr auto all = std::tuple{counter("irregular_before", &S::irregular_before),
+                                         counter("irregular_after", &S::irregular_after),
+                                         counter("rotations", &S::rotations),
+                                         counter("diamonds", &S::diamonds),
+                                         counter("doublets", &S::doublets),
+                                         counter("splits", &S::splits),
+                                         counter("openings", &S::openings),
+                                         counter("tried", &S::tried),
+                                         counter("annealed", &S::annealed),
+                                         counter("relocated", &S::relocated),
+                                         counter("looks", &S::looks),
+                                         counter("seconds", &S::seconds)};
 };
 
 /// Lowers the number of irregular vertices of a quad mesh.

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <queue>
 #include <random>
 #include <span>
 #include <vector>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "algorithms/recombination/treatment_moves.h"
-#include "smoothing/quad_relocation.h"
+#include "algorithms/treatment/move_queue.h"
+#include "algorithms/treatment/treatment_moves.h"
+#include "base/marks.h"
+#include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
 
@@ -21,13 +22,6 @@ class CleanupProcess {
   const CleanupSummary& summary() const { return summary_; }
 
  private:
-  struct Candidate {
-    int gain;
-    TreatmentMove move;
-    bool operator<(const Candidate& other) const {
-      return gain != other.gain ? gain < other.gain : other.move < move;
-    }
-  };
   /// Of the elements around some vertices.
   struct Quality {
     double mean = 0;        ///< of eta - weighted size deviation
@@ -44,7 +38,6 @@ class CleanupProcess {
   bool pick_neutral(int v, TreatmentMove& move);
   /// Applies the move and relocates around; takes all back if the quality falls by more than `loss`.
   bool attempt(const TreatmentMove& move, double loss);
-  void perform(const TreatmentMove& move);
   void accept();
   void count(const TreatmentMove& move);
   Quality quality(std::span<const int> vertices);
@@ -56,14 +49,13 @@ class CleanupProcess {
   QuadRelocation relocation_;
   CleanupOptions options_;
   std::mt19937_64 random_;
-  std::priority_queue<Candidate> queue_;            ///< edits that lower the sum, the largest gain first
+  MoveQueue queue_;                                 ///< edits that lower the sum
   std::vector<int> visiting_, work_;                ///< irregular vertices of this round and of the next
   std::vector<char> listed_;                        ///< by vertex: in work_
   std::vector<std::vector<TreatmentMove>> failed_;  ///< by vertex, since an edit changed what lies around
   std::vector<int> touched_;                        ///< vertices of the edit on trial
   std::vector<TreatmentMove> choices_;
-  std::vector<unsigned> seen_element_, seen_vertex_;  ///< against seen_
-  unsigned seen_ = 0;
+  Marks elements_met_, vertices_met_;
   CleanupSummary summary_;
 };
 

@@ -1,11 +1,12 @@
 #include "algorithms/insertion/frontal_mesher.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <queue>
 
 #include "algorithms/insertion/vertex_fields.h"
+#include "base/cancel.h"
+#include "base/stopwatch.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/delaunay_kernel.h"
 
@@ -44,6 +45,7 @@ class FrontalMesher {
         options_(options),
         h_max_(options.h_max > 0 ? options.h_max : placement.default_h_max()),
         kernel_(initial) {
+    summary_.h_max = h_max_;
     VertexFields last;
     for (const Vec2 u : kernel_.points()) vertices_.push_back(last = sample(u, last));
     states_.resize(kernel_.triangles().size());
@@ -57,6 +59,7 @@ class FrontalMesher {
       while (start_layer()) {
         ++summary_.layers;
         while (!queue_.empty()) {
+          check_cancelled();
           const FrontEntry entry = queue_.top();
           queue_.pop();
           if (states_[entry.triangle].stamp != entry.stamp) continue;
@@ -172,7 +175,10 @@ class FrontalMesher {
                    p[tri.v[k]],
                    {},
                    std::min((a.delta + b.delta) / 2, states_[t].delta),
-                   Frame::from_cross(a.cross + b.cross)};
+                   Frame::from_cross(a.cross + b.cross),
+                   summary_.layers,
+                   &size_,
+                   a.size_hint};
     if (const int n = tri.n[k]; n >= 0) {
       const auto& beyond = kernel_.triangles()[n];
       const int j = beyond.n[0] == t ? 0 : beyond.n[1] == t ? 1 : 2;
@@ -260,21 +266,20 @@ class FrontalMesher {
 
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   TriPatch patch =
       fill_frontal(constrained_delaunay(boundary, boundary.seeds), placement, cross, size, options, summary);
-  if (summary)
-    summary->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (summary) summary->seconds = watch.seconds();
   return patch;
 }
 
 TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FrontalMesher mesher(initial, placement, cross, size, options);
   FrontalSummary done = mesher.run();
   TriPatch patch = mesher.result(initial.n_boundary);
-  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.seconds = watch.seconds();
   if (summary) *summary = done;
   return patch;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "algorithms/insertion/point_placement.h"
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "mesh/patch.h"
+#include "base/counters.h"
+#include "delquad/extend.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 
@@ -28,7 +28,30 @@ struct FrontalSummary {
   long long rejected = 0;    ///< candidate points refused
   long long unresolved = 0;  ///< triangles left above h_max because every candidate was refused
   int layers = 0;
+  double h_max = 0;  ///< that was used: the option's or the strategy's own
   double seconds = 0;
+};
+
+inline const char* name_of(FrontalTermination termination) {
+  return termination == FrontalTermination::kResolved ? "resolved" : "max_points";
+}
+inline void append_counter(std::vector<SummaryField>& fields, const char* key, FrontalTermination value,
+                           Over over, double) {
+  fields.push_back({key, name_of(value), over, static_cast<double>(value)});
+}
+
+template <>
+struct Counters<FrontalSummary> {
+  using S = FrontalSummary;
+  static constexpr const char* step = "insertion";
+  static constexpr auto all = std::tuple{counter("termination", &S::termination, Over::kMost),
+                                         counter("inserted", &S::inserted),
+                                         counter("packed", &S::packed),
+                                         counter("rejected", &S::rejected),
+                                         counter("unresolved", &S::unresolved),
+                                         counter("layers", &S::layers, Over::kMost),
+                                         counter("h_max", &S::h_max, Over::kMost),
+                                         counter("seconds", &S::seconds)};
 };
 
 /// Frontal Delaunay mesher [paper, section 5]: layer by layer, largest active triangle first, one strategy

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "algorithms/insertion/point_placement.h"
+#include "delquad/extend.h"
 
 namespace delquad {
 
@@ -12,7 +12,6 @@ namespace {
 /// side delta'.
 class L2Frontal final : public PointPlacement {
  public:
-  char letter() const override { return 'F'; }
   std::string name() const override { return "L2 frontal"; }
   /// Where a large uniform mesh has 2/sqrt 3 times the vertices of D's [section 1]. The reference
   /// implementation's 1.22 gives 7 % more than that.

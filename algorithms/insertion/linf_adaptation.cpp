@@ -1,143 +1,20 @@
 #include "algorithms/insertion/linf_adaptation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
 #include "algorithms/insertion/vertex_fields.h"
-#include "mesh/predicates.h"
+#include "base/cancel.h"
+#include "base/predicates.h"
+#include "base/stopwatch.h"
+#include "mesh/tri_topology.h"
 
 namespace delquad {
 namespace {
 
 constexpr double kLongest = std::numbers::sqrt2, kShortest = 1 / kLongest;
-
-/// One corner of a triangle: side k lies opposite of it.
-struct Corner {
-  int t, k;
-};
-
-/// A triangulation that is edited locally. Dead triangles have v[0] < 0.
-class Triangulation {
- public:
-  explicit Triangulation(const TriPatch& tri)
-      : points(tri.points), v(tri.triangles), n(tri.neighbours), n_boundary(tri.n_boundary) {
-    corner_of.resize(points.size(), -1);
-    for (int t = 0; t < size(); ++t) note_corners(t);
-  }
-
-  int size() const { return static_cast<int>(v.size()); }
-  bool alive(int t) const { return v[t][0] >= 0; }
-  int facing(int u, int t) const { return n[u][0] == t ? 0 : n[u][1] == t ? 1 : 2; }
-  bool on_boundary(int i) const { return i < n_boundary; }
-
-  /// The corners at an inner vertex, counterclockwise.
-  void star(int i, std::vector<Corner>& corners) const {
-    corners.clear();
-    const int first = corner_of[i];
-    int t = first;
-    do {
-      const int k = v[t][0] == i ? 0 : v[t][1] == i ? 1 : 2;
-      corners.push_back({t, k});
-      t = n[t][(k + 1) % 3];
-    } while (t != first);
-  }
-
-  /// Swaps the side of t opposite of its corner k, which has a neighbour.
-  void swap(int t, int k) {
-    const int u = n[t][k], m = facing(u, t);
-    const int a = v[t][k], b = v[t][(k + 1) % 3], c = v[t][(k + 2) % 3], d = v[u][m];
-    const int ab = n[t][(k + 2) % 3], ca = n[t][(k + 1) % 3];
-    const int bd = n[u][(m + 1) % 3], dc = n[u][(m + 2) % 3];
-    set(t, {a, b, d}, {bd, u, ab});
-    set(u, {a, d, c}, {dc, ca, t});
-    relink(bd, u, t);
-    relink(ca, t, u);
-  }
-
-  /// Cuts the side of t opposite of its corner k, which has a neighbour, in two.
-  int split(int t, int k, Vec2 at) {
-    const int u = n[t][k], m = facing(u, t), i = static_cast<int>(points.size());
-    const int a = v[t][k], b = v[t][(k + 1) % 3], c = v[t][(k + 2) % 3], d = v[u][m];
-    const int ca = n[t][(k + 1) % 3], ab = n[t][(k + 2) % 3];
-    const int bd = n[u][(m + 1) % 3], dc = n[u][(m + 2) % 3];
-    const int p = size(), q = p + 1;
-    points.push_back(at);
-    corner_of.push_back(-1);
-    v.resize(v.size() + 2);
-    n.resize(n.size() + 2);
-    set(t, {a, b, i}, {u, p, ab});
-    set(u, {i, b, d}, {bd, q, t});
-    set(p, {a, i, c}, {q, ca, t});
-    set(q, {i, d, c}, {dc, p, u});
-    relink(ca, t, p);
-    relink(dc, u, q);
-    return i;
-  }
-
-  /// Takes inner vertex `from` out by moving it onto its neighbour `to`; `star` is that of `from`.
-  void collapse(int from, int to, const std::vector<Corner>& star) {
-    for (const auto& [t, k] : star) {
-      const bool gone = v[t][(k + 1) % 3] == to || v[t][(k + 2) % 3] == to;
-      if (!gone) {
-        v[t][k] = to;
-        note_corners(t);
-      }
-    }
-    for (const auto& [t, k] : star) {
-      const int j = v[t][(k + 1) % 3] == to ? (k + 1) % 3 : v[t][(k + 2) % 3] == to ? (k + 2) % 3 : -1;
-      if (j < 0) continue;
-      // The sides opposite of `from` and of `to` become one.
-      const int left = n[t][k], right = n[t][j];
-      if (left >= 0) n[left][facing(left, t)] = right;
-      if (right >= 0) n[right][facing(right, t)] = left;
-      v[t] = {-1, -1, -1};
-      for (const int u : {left, right})
-        if (u >= 0 && alive(u)) note_corners(u);
-    }
-    corner_of[from] = -1;
-  }
-
-  TriPatch to_patch() const {
-    TriPatch tri;
-    tri.n_boundary = n_boundary;
-    std::vector<int> point_at(points.size(), -1), triangle_at(v.size(), -1);
-    for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-      if (!on_boundary(i) && corner_of[i] < 0) continue;
-      point_at[i] = static_cast<int>(tri.points.size());
-      tri.points.push_back(points[i]);
-    }
-    for (int t = 0, next = 0; t < size(); ++t)
-      if (alive(t)) triangle_at[t] = next++;
-    for (int t = 0; t < size(); ++t) {
-      if (!alive(t)) continue;
-      tri.triangles.push_back({point_at[v[t][0]], point_at[v[t][1]], point_at[v[t][2]]});
-      auto& around = tri.neighbours.emplace_back();
-      for (int k = 0; k < 3; ++k) around[k] = n[t][k] < 0 ? -1 : triangle_at[n[t][k]];
-    }
-    return tri;
-  }
-
-  std::vector<Vec2> points;
-  std::vector<std::array<int, 3>> v, n;
-  std::vector<int> corner_of;  ///< a triangle of each vertex
-  int n_boundary;
-
- private:
-  void note_corners(int t) {
-    for (const int i : v[t]) corner_of[i] = t;
-  }
-  void set(int t, std::array<int, 3> corners, std::array<int, 3> around) {
-    v[t] = corners;
-    n[t] = around;
-    note_corners(t);
-  }
-  void relink(int t, int from, int to) {
-    if (t >= 0) n[t][facing(t, from)] = to;
-  }
-};
 
 class Adaptation {
  public:
@@ -148,15 +25,15 @@ class Adaptation {
   }
 
   TriPatch run(AdaptationSummary& s) {
-    for (std::size_t edits = mesh_.v.size(); edits > mesh_.v.size() / kFew && s.sweeps < options_.max_sweeps;
-         ++s.sweeps) {
+    for (long long edits = mesh_.triangle_slots();
+         edits > mesh_.triangle_slots() / kFew && s.sweeps < options_.max_sweeps; ++s.sweeps) {
       const long long splits = split_long(), collapses = collapse_short();
       const long long swaps = swap_edges();
       s.moves += move_vertices();
       s.splits += splits;
       s.collapses += collapses;
       s.swaps += swaps;
-      edits = static_cast<std::size_t>(splits + collapses + swaps);
+      edits = splits + collapses + swaps;
     }
     s.swaps += swap_edges();
     return mesh_.to_patch();
@@ -172,7 +49,7 @@ class Adaptation {
   /// `near` by value: it may lie in the list that grows here.
   void sample(int i, VertexFields near) {
     if (static_cast<std::size_t>(i) >= fields_.size()) fields_.resize(i + 1);
-    fields_[i] = sample_fields(cross_, size_, mesh_.points[i], near);
+    fields_[i] = sample_fields(cross_, size_, mesh_.point(i), near);
   }
 
   /// Axes and length by which vectors are measured.
@@ -196,12 +73,12 @@ class Adaptation {
   }
   static double largest(Vec2 d) { return std::max(std::abs(d.x), std::abs(d.y)); }
   double length(int a, int b) const {
-    return largest(frame_of(std::array{a, b}).of(mesh_.points[b] - mesh_.points[a]));
+    return largest(frame_of(std::array{a, b}).of(mesh_.point(b) - mesh_.point(a)));
   }
 
   /// 0 when it is flat or upside down.
   double measure(const Frame& frame, int a, int b, int c) const {
-    const Vec2 p = mesh_.points[a], q = mesh_.points[b], r = mesh_.points[c];
+    const Vec2 p = mesh_.point(a), q = mesh_.point(b), r = mesh_.point(c);
     if (orient2d(p, q, r) <= 0) return 0;
     const double longest =
         std::max({largest(frame.of(q - p)), largest(frame.of(r - q)), largest(frame.of(p - r))});
@@ -212,44 +89,15 @@ class Adaptation {
   template <class Wanted>
   std::vector<Edge> inner_edges(Wanted wanted) const {
     std::vector<Edge> edges;
-    for (int t = 0; t < mesh_.size(); ++t) {
+    for (int t = 0; t < mesh_.triangle_slots(); ++t) {
       if (!mesh_.alive(t)) continue;
       for (int k = 0; k < 3; ++k) {
-        if (mesh_.n[t][k] < t) continue;
-        const int a = mesh_.v[t][(k + 1) % 3], b = mesh_.v[t][(k + 2) % 3];
+        if (mesh_.across(t, k) < t) continue;
+        const int a = mesh_.vertex(t, k + 1), b = mesh_.vertex(t, k + 2);
         if (const double l = length(a, b); wanted(l)) edges.push_back({l, std::min(a, b), std::max(a, b)});
       }
     }
     return edges;
-  }
-
-  /// The corner opposite of the edge in a triangle that has it and a neighbour there; t < 0: none any more.
-  Corner find_edge(int a, int b) {
-    if (mesh_.corner_of[a] < 0 || mesh_.corner_of[b] < 0) return {-1, 0};
-    const int inner = mesh_.on_boundary(a) ? b : a, other = inner == a ? b : a;
-    if (mesh_.on_boundary(inner)) return find_chord(a, b);
-    mesh_.star(inner, star_);
-    for (const auto& [t, k] : star_)
-      if (mesh_.v[t][(k + 1) % 3] == other) return {t, (k + 2) % 3};
-    return {-1, 0};
-  }
-
-  /// Between two boundary vertices: turns around a from its known triangle, both ways.
-  Corner find_chord(int a, int b) const {
-    for (const int way : {1, 2}) {
-      int t = mesh_.corner_of[a];
-      const int first = t;
-      do {
-        const int k = mesh_.v[t][0] == a ? 0 : mesh_.v[t][1] == a ? 1 : 2;
-        for (const int j : {1, 2})
-          if (mesh_.v[t][(k + j) % 3] == b) {
-            const int opposite = (k + 3 - j) % 3;
-            return mesh_.n[t][opposite] < 0 ? Corner{-1, 0} : Corner{t, opposite};
-          }
-        t = mesh_.n[t][(k + way) % 3];
-      } while (t >= 0 && t != first);
-    }
-    return {-1, 0};
   }
 
   long long split_long() {
@@ -259,15 +107,15 @@ class Adaptation {
     });
     long long splits = 0;
     for (const Edge& e : edges) {
-      if (static_cast<long long>(mesh_.points.size()) >= options_.max_points) break;
-      const Corner at = find_edge(e.a, e.b);
+      check_cancelled();
+      if (mesh_.vertex_slots() >= options_.max_points) break;
+      const TriCorner at = mesh_.find_inner_edge(e.a, e.b);
       if (at.t < 0) continue;
-      const Vec2 middle = 0.5 * (mesh_.points[e.a] + mesh_.points[e.b]);
-      const int u = mesh_.n[at.t][at.k];
-      const Vec2 apex[] = {mesh_.points[mesh_.v[at.t][at.k]],
-                           mesh_.points[mesh_.v[u][mesh_.facing(u, at.t)]]};
-      const Vec2 b = mesh_.points[mesh_.v[at.t][(at.k + 1) % 3]],
-                 c = mesh_.points[mesh_.v[at.t][(at.k + 2) % 3]];
+      const Vec2 middle = 0.5 * (mesh_.point(e.a) + mesh_.point(e.b));
+      const int u = mesh_.across(at.t, at.k);
+      const Vec2 apex[] = {mesh_.point(mesh_.vertex(at.t, at.k)),
+                           mesh_.point(mesh_.vertex(u, mesh_.facing(u, at.t)))};
+      const Vec2 b = mesh_.point(mesh_.vertex(at.t, at.k + 1)), c = mesh_.point(mesh_.vertex(at.t, at.k + 2));
       const bool upright = orient2d(apex[0], b, middle) > 0 && orient2d(apex[0], middle, c) > 0 &&
                            orient2d(apex[1], c, middle) > 0 && orient2d(apex[1], middle, b) > 0;
       if (!upright) continue;
@@ -284,7 +132,8 @@ class Adaptation {
     });
     long long collapses = 0;
     for (const Edge& e : edges) {
-      if (find_edge(e.a, e.b).t < 0 || length(e.a, e.b) >= kShortest) continue;
+      check_cancelled();
+      if (mesh_.find_inner_edge(e.a, e.b).t < 0 || length(e.a, e.b) >= kShortest) continue;
       // The younger vertex goes, if it can.
       collapses += collapse(e.b, e.a) || collapse(e.a, e.b);
     }
@@ -297,30 +146,15 @@ class Adaptation {
     if (star_.size() < 4) return false;  // three triangles would become one that overlaps what is outside
     int common = 0;
     for (const auto& [t, k] : star_) {
-      const int a = mesh_.v[t][(k + 1) % 3], b = mesh_.v[t][(k + 2) % 3];
+      const int a = mesh_.vertex(t, k + 1), b = mesh_.vertex(t, k + 2);
       if (a != to && length(a, to) > kLongest) return false;
-      common += adjacent(a, to);
+      common += mesh_.adjacent(a, to);
       if (a == to || b == to) continue;
-      if (orient2d(mesh_.points[to], mesh_.points[a], mesh_.points[b]) <= 0) return false;
+      if (orient2d(mesh_.point(to), mesh_.point(a), mesh_.point(b)) <= 0) return false;
     }
     if (common != 2) return false;  // else an edge would be there twice
     mesh_.collapse(from, to, star_);
     return true;
-  }
-
-  /// Whether an edge joins two vertices; boundary edges count.
-  bool adjacent(int a, int b) const {
-    if (a == b) return false;
-    for (const int way : {1, 2}) {
-      int t = mesh_.corner_of[a];
-      const int first = t;
-      do {
-        const int k = mesh_.v[t][0] == a ? 0 : mesh_.v[t][1] == a ? 1 : 2;
-        if (mesh_.v[t][(k + 1) % 3] == b || mesh_.v[t][(k + 2) % 3] == b) return true;
-        t = mesh_.n[t][(k + way) % 3];
-      } while (t >= 0 && t != first);
-    }
-    return false;
   }
 
   long long swap_edges() {
@@ -329,18 +163,20 @@ class Adaptation {
     long long swaps = 0;
     for (int pass = 0, changed = 1; pass < kPasses && changed > 0; ++pass) {
       changed = 0;
-      for (int t = 0; t < mesh_.size(); ++t)
+      for (int t = 0; t < mesh_.triangle_slots(); ++t) {
+        check_cancelled();
         for (int k = 0; k < 3 && mesh_.alive(t); ++k) {
-          const int u = mesh_.n[t][k];
+          const int u = mesh_.across(t, k);
           if (u < t) continue;
-          const int a = mesh_.v[t][k], b = mesh_.v[t][(k + 1) % 3], c = mesh_.v[t][(k + 2) % 3];
-          const int d = mesh_.v[u][mesh_.facing(u, t)];
+          const int a = mesh_.vertex(t, k), b = mesh_.vertex(t, k + 1), c = mesh_.vertex(t, k + 2);
+          const int d = mesh_.vertex(u, mesh_.facing(u, t));
           const Frame frame = frame_of(std::array{a, b, c, d});
           const double now = std::min(measure(frame, a, b, c), measure(frame, d, c, b));
           if (std::min(measure(frame, a, b, d), measure(frame, a, d, c)) <= now + kBetter) continue;
           mesh_.swap(t, k);
           ++changed;
         }
+      }
       swaps += changed;
     }
     return swaps;
@@ -350,8 +186,10 @@ class Adaptation {
     constexpr int kPasses = 3;
     long long moves = 0;
     for (int pass = 0; pass < kPasses; ++pass)
-      for (int i = mesh_.n_boundary; i < static_cast<int>(mesh_.points.size()); ++i)
-        if (mesh_.corner_of[i] >= 0) moves += move(i);
+      for (int i = 0; i < mesh_.vertex_slots(); ++i) {
+        check_cancelled();
+        if (!mesh_.on_boundary(i) && mesh_.vertex_alive(i)) moves += move(i);
+      }
     return moves;
   }
 
@@ -361,9 +199,9 @@ class Adaptation {
     double sum = 0;
     Vec2 ways;
     for (const auto& [t, k] : star_) {
-      const int j = mesh_.v[t][(k + 1) % 3];
+      const int j = mesh_.vertex(t, k + 1);
       const Frame frame = frame_of(std::array{i, j});
-      const Vec2 f = frame.of(at - mesh_.points[j]), way = nearest_ideal(f) - f;
+      const Vec2 f = frame.of(at - mesh_.point(j)), way = nearest_ideal(f) - f;
       sum += dot(way, way);
       ways += frame.to_plane(way);
     }
@@ -381,42 +219,42 @@ class Adaptation {
 
   bool move(int i) {
     mesh_.star(i, star_);
-    const Vec2 from = mesh_.points[i];
+    const Vec2 from = mesh_.point(i);
     Vec2 step;
     const double before = misfit(i, from, &step);
     const auto upright = [&](Vec2 at) {
-      return std::ranges::all_of(star_, [&](const Corner& c) {
-        return orient2d(at, mesh_.points[mesh_.v[c.t][(c.k + 1) % 3]],
-                        mesh_.points[mesh_.v[c.t][(c.k + 2) % 3]]) > 0;
+      return std::ranges::all_of(star_, [&](const TriCorner& c) {
+        return orient2d(at, mesh_.point(mesh_.vertex(c.t, c.k + 1)),
+                        mesh_.point(mesh_.vertex(c.t, c.k + 2))) > 0;
       });
     };
     for (double part = 1; part > 0.1; part /= 2) {
       const Vec2 at = from + part * step;
       if (!upright(at) || !(misfit(i, at, nullptr) < before)) continue;
-      mesh_.points[i] = at;
+      mesh_.move(i, at);
       sample(i, fields_[i]);
       return true;
     }
     return false;
   }
 
-  static constexpr std::size_t kFew = 1000;  // edits to so many triangles are not worth another sweep
-  Triangulation mesh_;
+  static constexpr int kFew = 1000;  // edits to so many triangles are not worth another sweep
+  TriTopology mesh_;
   const CrossField& cross_;
   const ParametricSize& size_;
   AdaptationOptions options_;
   std::vector<VertexFields> fields_;
-  std::vector<Corner> star_;
+  std::vector<TriCorner> star_;
 };
 
 }  // namespace
 
 TriPatch adapt_linf(const TriPatch& tri, const CrossField& cross, const ParametricSize& size,
                     const AdaptationOptions& options, AdaptationSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   AdaptationSummary s;
   TriPatch adapted = Adaptation(tri, cross, size, options).run(s);
-  s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  s.seconds = watch.seconds();
   if (summary != nullptr) *summary = s;
   return adapted;
 }

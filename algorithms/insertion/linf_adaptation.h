@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "mesh/patch.h"
+#include "base/counters.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 
@@ -16,6 +16,18 @@ struct AdaptationSummary {
   long long splits = 0, collapses = 0, swaps = 0;
   long long moves = 0;  ///< of vertices
   double seconds = 0;
+};
+
+template <>
+struct Counters<AdaptationSummary> {
+  using S = AdaptationSummary;
+  static constexpr const char* step = "adaptation";
+  static constexpr auto all = std::tuple{counter("sweeps", &S::sweeps, Over::kMost),
+                                         counter("splits", &S::splits),
+                                         counter("collapses", &S::collapses),
+                                         counter("swaps", &S::swaps),
+                                         counter("moves", &S::moves),
+                                         counter("seconds", &S::seconds)};
 };
 
 /// Adapts a triangulation to a size and a cross field by local edits, so that its edges have the length 1 in

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "algorithms/insertion/linf_geometry.h"
-#include "algorithms/insertion/point_placement.h"
+#include "delquad/extend.h"
 
 namespace delquad {
 
@@ -24,7 +24,6 @@ constexpr double kShortestLeg = 0.79;
 class LinfDelquad final : public PointPlacement {
  public:
   explicit LinfDelquad(const LinfOptions& options) : options_(options) {}
-  char letter() const override { return 'D'; }
   std::string name() const override { return "L-infinity Delquad"; }
   double default_h_max() const override { return 1.4; }
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "fields/cross_field.h"
-#include "mesh/vec.h"
+#include "delquad/extend.h"
+#include "delquad/mesh.h"
 
 /// Plane geometry in the L-infinity norm of a rotated frame [remacle2013, section 4].
 ///
@@ -15,29 +15,6 @@
 /// square, and is called half the extent here; clamps act on the distance rho from the edge's ends instead of
 /// on the parameter t.
 namespace delquad {
-
-/// An orthonormal frame; its axes are directions of a cross.
-struct Frame {
-  Vec2 e1{1, 0}, e2{0, 1};
-  static Frame from_angle(double theta);
-  /// The frame at the angle of a cross, found by halving angles with square roots; (0, 0) counts as angle 0.
-  static Frame from_cross(Cross cross);
-  Vec2 to_local(Vec2 v) const { return {dot(v, e1), dot(v, e2)}; }
-  Vec2 to_global(Vec2 v) const { return v.x * e1 + v.y * e2; }
-};
-
-inline Frame Frame::from_cross(Cross cross) {
-  if (cross.c == 0 && cross.s == 0) return {};
-  // Some vector at half the angle of v, which is in (-pi, pi]; no division, no cancellation.
-  const auto halve_angle = [](Vec2 v) {
-    const double length = norm(v);
-    if (v.x >= 0) return Vec2{v.x + length, v.y};
-    return v.y >= 0 ? Vec2{v.y, length - v.x} : Vec2{-v.y, v.x - length};
-  };
-  const Vec2 direction = halve_angle(halve_angle({cross.c, cross.s}));
-  const Vec2 e1 = (1 / norm(direction)) * direction;
-  return {e1, perp(e1)};
-}
 
 /// max(|x|, |y|) of a vector in frame coordinates.
 inline double linf_norm(Vec2 v) { return std::max(std::abs(v.x), std::abs(v.y)); }

@@ -1,12 +1,13 @@
 #include "algorithms/insertion/packing.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
 #include "algorithms/insertion/linf_geometry.h"
 #include "algorithms/insertion/vertex_fields.h"
+#include "base/cancel.h"
+#include "base/stopwatch.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/delaunay_kernel.h"
 
@@ -41,6 +42,7 @@ class Packer {
   /// does.
   FrontalSummary run() {
     for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
+      check_cancelled();
       const Frame frame = Frame::from_cross(vertices_[v].cross);
       for (const Vec2 d : {frame.e1, frame.e2, -frame.e1, -frame.e2}) {
         if (summary_.inserted >= options_.max_points) {
@@ -102,7 +104,7 @@ class Packer {
 
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const int n_boundary = static_cast<int>(boundary.points.size());
   Packer packer(boundary, cross, size, options);
   const FrontalSummary packed = packer.run();
@@ -114,7 +116,7 @@ TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& fille
   done.inserted += packed.inserted;
   done.rejected += packed.rejected;
   if (packed.termination != FrontalTermination::kResolved) done.termination = packed.termination;
-  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.seconds = watch.seconds();
   if (summary) *summary = done;
   return patch;
 }

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "mesh/error.h"
+#include "delquad/error.h"
+#include "delquad/fields.h"
 
 namespace delquad {
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "algorithms/recombination/quad_cost.h"
+#include "base/cancel.h"
 
 namespace delquad {
 
@@ -151,6 +152,7 @@ class Repairer {
       }
     }
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      check_cancelled();
       for (std::size_t i = 0; i < stars.size(); ++i)
         place(points_, static_cast<int>(first_new + i), stars[i]);
     }
@@ -201,7 +203,10 @@ BoundaryRepairSummary repair_fans(QuadPatch& mesh, const std::vector<FanEnds>& p
   if (pairs.empty()) return {};
   const std::size_t n_points = mesh.points.size();
   Repairer repairer(mesh, pairs);
-  for (std::size_t k = 0; k < pairs.size(); ++k) repairer.repair(k);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    check_cancelled();
+    repairer.repair(k);
+  }
   repairer.relax(n_points);
   mesh.triangles.clear();
   std::erase_if(mesh.quads, [&](const Element& e) {

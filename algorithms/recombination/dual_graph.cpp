@@ -4,6 +4,7 @@
 
 #include "algorithms/recombination/hilbert.h"
 #include "algorithms/recombination/quad_cost.h"
+#include "mesh/tri_topology.h"
 
 namespace delquad {
 
@@ -75,13 +76,6 @@ void add_spares(const TriPatch& tri, const std::vector<int>& node, DualGraph& du
 }
 
 }  // namespace
-
-int facing_side(const TriPatch& tri, int t, int u) {
-  for (int side = 0; side < 3; ++side) {
-    if (tri.neighbours[t][side] == u) return side;
-  }
-  return -1;
-}
 
 DualGraph build_dual_graph(const TriPatch& tri) {
   DualGraph dual;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "algorithms/recombination/matching.h"
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
+#include "matching/matching.h"
 
 namespace delquad {
 
@@ -29,8 +29,5 @@ struct DualGraph {
 };
 
 DualGraph build_dual_graph(const TriPatch& tri);
-
-/// The side of triangle t that faces triangle u, -1 when they share none.
-int facing_side(const TriPatch& tri, int t, int u);
 
 }  // namespace delquad

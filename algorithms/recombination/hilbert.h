@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

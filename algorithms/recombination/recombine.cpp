@@ -4,8 +4,9 @@
 #include <stdexcept>
 
 #include "algorithms/recombination/boundary_repair.h"
-#include "algorithms/recombination/chord_split.h"
 #include "algorithms/recombination/dual_graph.h"
+#include "algorithms/recombination/spanning_sides.h"
+#include "mesh/tri_topology.h"
 
 namespace delquad {
 
@@ -81,14 +82,15 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
   TriPatch cut;
   if (matching.status == MatchingStatus::kNotPerfect) {
     cut = tri;
-    s.split_chords = split_chords(cut);
+    s.split_chords = split_spanning_sides(cut);
     mesh = &cut;
     dual = build_dual_graph(cut);
     s.graph_seconds += lap();
     matching = solver.solve(dual.graph);
     s.matching_seconds += lap();
     if (matching.status == MatchingStatus::kNotPerfect) {
-      throw std::logic_error(solver.name() + " finds no perfect matching although no chord is left");
+      throw std::logic_error(solver.name() +
+                             " finds no perfect matching although no inner side joins two boundary points");
     }
   }
 
@@ -101,6 +103,7 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
   s.duplications = repairs.duplications;
   s.leftover_triangles = static_cast<int>(quads.triangles.size());
   s.cost = matching.cost;
+  s.solver = std::move(matching.fields);
   s.merge_seconds = lap();
   if (summary != nullptr) *summary = s;
   return quads;

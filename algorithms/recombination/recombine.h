@@ -1,7 +1,8 @@
 #pragma once
 
-#include "algorithms/recombination/matching.h"
-#include "mesh/patch.h"
+#include "base/counters.h"
+#include "delquad/mesh.h"
+#include "matching/matching.h"
 
 namespace delquad {
 
@@ -15,6 +16,25 @@ struct RecombineSummary {
   int leftover_triangles = 0;  ///< 0 when the boundary is even, else 1 for each odd component
   long long cost = 0;          ///< of the matching
   double graph_seconds = 0, matching_seconds = 0, merge_seconds = 0;
+  std::vector<SummaryField> solver = {};  ///< what it has to say itself
+};
+
+template <>
+struct Counters<RecombineSummary> {
+  using S = RecombineSummary;
+  static constexpr const char* step = "recombination";
+  static constexpr auto all = std::tuple{counter("triangles", &S::triangles),
+                                         counter("split_chords", &S::split_chords),
+                                         counter("extra_edges", &S::extra_edges),
+                                         counter("matched_extra", &S::matched_extra),
+                                         counter("pentagon_swaps", &S::pentagon_swaps),
+                                         counter("duplications", &S::duplications),
+                                         counter("leftover_triangles", &S::leftover_triangles),
+                                         counter("cost", &S::cost),
+                                         counter("graph_seconds", &S::graph_seconds),
+                                         counter("matching_seconds", &S::matching_seconds),
+                                         counter("merge_seconds", &S::merge_seconds),
+                                         counter("solver", &S::solver)};
 };
 
 /// Merges the triangles of a patch two by two by minimum-cost perfect matching on the dual graph
@@ -22,21 +42,21 @@ struct RecombineSummary {
 ///
 /// An even boundary gives quads only. An odd one leaves exactly one triangle in each odd component: the one
 /// whose absence makes the rest cheapest. Vertices are never moved; new ones come last (from duplication,
-/// placed where the worst quad around is best; from cut chords). The number of quads is half the triangles,
-/// plus one for each duplication and for each cut chord.
+/// placed where the worst quad around is best; from cut spanning sides). The number of quads is half the
+/// triangles, plus one for each duplication and for each cut spanning side.
 ///
 /// Differs from the paper, which takes the existence of a perfect matching from the theorem on cubic graphs
 /// without bridges although a triangle on the boundary has degree four: the graph may have none (18 points on
-/// a circle suffice). Then every chord (an interior side that joins two boundary points) is cut in two, and a
-/// perfect matching exists. Proof by Tutte: no triangle has two boundary sides any more, so the extra edges
-/// link the triangles of each boundary loop to a cycle. Let S be a set of s1 triangles with a boundary side
-/// and s3 without, whose removal leaves at least s1 + s3 + 2 odd components, and r the number of runs into
-/// which S cuts those cycles. A component without boundary sides has at least three edges to S. The others
-/// have four a run: two along the cycle, and two because a path between boundary points that is no chord has
-/// two edges; there are at most r of them. S has 4 s1 + 3 s3 edge ends, of which 2 (s1 - r) lead along a
-/// cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r; but each run
-/// ends at another triangle of S, hence r <= s1. With an odd number of triangles the same bound leaves room
-/// for one odd component too many, which is where the leftover comes from.
+/// a circle suffice). Then every spanning side (an interior one that joins two boundary points) is cut in
+/// two, and a perfect matching exists. Proof by Tutte: no triangle has two boundary sides any more, so the
+/// extra edges link the triangles of each boundary loop to a cycle. Let S be a set of s1 triangles with a
+/// boundary side and s3 without, whose removal leaves at least s1 + s3 + 2 odd components, and r the number
+/// of runs into which S cuts those cycles. A component without boundary sides has at least three edges to S.
+/// The others have four a run: two along the cycle, and two because a path between boundary points that is no
+/// such side has two edges; there are at most r of them. S has 4 s1 + 3 s3 edge ends, of which 2 (s1 - r)
+/// lead along a cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r;
+/// but each run ends at another triangle of S, hence r <= s1. With an odd number of triangles the same bound
+/// leaves room for one odd component too many, which is where the leftover comes from.
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr);
 
 }  // namespace delquad

@@ -1,10 +1,9 @@
 // M: new points at the tip of an equilateral triangle, as F does, but measured by the larger of the two
 // norms.
+#include <delquad/extend.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include "apps/delquad.h"
-#include "pipeline/stages.h"
 
 namespace {
 
@@ -12,7 +11,6 @@ using namespace delquad;
 
 class Mixed final : public PointPlacement {
  public:
-  char letter() const override { return 'M'; }
   std::string name() const override { return "equilateral, by the larger norm"; }
   double default_h_max() const override { return l2_->default_h_max(); }
   double triangle_size(const std::array<Vec2, 3>& t, Cross cross, double delta) const override {
@@ -30,7 +28,7 @@ class Mixed final : public PointPlacement {
 }  // namespace
 
 int main(int argc, char** argv) {
-  add_stage(insertion_stage('M', "mixed insertion",
-                            [](const MeshingOptions&) { return std::make_unique<Mixed>(); }));
+  add_stage(
+      insertion_stage('M', "mixed insertion", [](const Options&) { return std::make_unique<Mixed>(); }));
   return run_program(argc, argv);
 }

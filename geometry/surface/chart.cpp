@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {

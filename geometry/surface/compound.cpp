@@ -10,9 +10,9 @@
 #include <numeric>
 #include <optional>
 
+#include "delquad/error.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/error.h"
 #include "mesh/nearest_triangle.h"
 
 namespace delquad {

@@ -154,14 +154,14 @@ std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& 
 }
 
 std::vector<int> sharp_tips(const Chart& chart) {
-  constexpr double kSharp = 0.5;  // radians missing around the tip
+  constexpr double kTipDefect = 0.5;  // radians missing around the tip
   constexpr std::size_t kMaxTips = 8;
   const std::vector<double> defects = angle_defects(chart);
   std::vector<int> tips;
   double in_tips = 0, all = 0;
   for (std::size_t v = static_cast<std::size_t>(chart.n_boundary); v < defects.size(); ++v) {
     all += std::abs(defects[v]);
-    if (defects[v] > kSharp) {
+    if (defects[v] > kTipDefect) {
       tips.push_back(static_cast<int>(v));
       in_tips += defects[v];
     }

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/loop_sweep.h"
-#include "mesh/predicates.h"
+#include "base/predicates.h"
+#include "geometry/planar/loop_sweep.h"
 
 namespace delquad {
 

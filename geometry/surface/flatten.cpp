@@ -9,12 +9,13 @@
 #include <set>
 #include <utility>
 
+#include "base/activity.h"
+#include "base/cancel.h"
+#include "base/parallel.h"
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
-#include "mesh/activity.h"
-#include "mesh/parallel.h"
 
 namespace delquad {
 
@@ -184,6 +185,7 @@ class Flattener {
         },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
+      check_cancelled();
       Chart& chart = charts[i];
       Outcome& outcome = outcomes[i];
       if (outcome.cut && round < kMaxRounds) {
@@ -210,7 +212,10 @@ class Flattener {
 
   void cut(const std::vector<Planned>& planned) {
     SurfaceEditor editor(model_);
-    for (const auto& [chart, outcome] : planned) apply(editor, chart, outcome);
+    for (const auto& [chart, outcome] : planned) {
+      check_cancelled();
+      apply(editor, chart, outcome);
+    }
     editor.finish();
     // Triangles that cuts of neighbours split are no longer those of their patch.
     open_.resize(mesh_.triangles.size(), 0);

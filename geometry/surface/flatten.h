@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "delquad/mesh.h"
 #include "geometry/surface/flat_check.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/patch.h"
 
 namespace delquad {
 

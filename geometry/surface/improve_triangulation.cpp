@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/cancel.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {
@@ -141,6 +142,7 @@ class Improver {
     queue_.erase(std::unique(queue_.begin(), queue_.end()), queue_.end());
     std::size_t budget = 20 * queue_.size();  // flips in space have no energy that falls
     while (!queue_.empty() && budget > 0) {
+      check_cancelled();
       const Edge e = next_in_queue();
       editor_.find_triangles_on(e.first, e.second, on_edge_);
       if (on_edge_.size() != 2) continue;
@@ -200,6 +202,7 @@ class Improver {
   void split_all() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
     while (!candidates_.empty()) {
+      check_cancelled();
       const auto [l, a, b] = candidates_.top();
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "delquad/error.h"
 #include "geometry/surface/surface_messages.h"
-#include "mesh/error.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {

@@ -2,18 +2,9 @@
 
 #include <string>
 
-#include "mesh/mesh.h"
+#include "delquad/model.h"
 
 namespace delquad {
-
-struct MirrorPlane {
-  Vec3 point, normal;  ///< the normal need not have unit length
-  double tolerance =
-      0;  ///< how far open edges may lie from the plane; a part of the model's diagonal, from 0
-  /// Both images of a triangle are in its region, so that faces run on through the plane; else the other half
-  /// has regions of its own, of the same names, and curves run along the plane.
-  bool join = true;
-};
 
 /// Half a model of triangles, completed with its mirror image, which runs the other way round so that both
 /// agree in orientation. Ends of open edges within the tolerance are moved onto the plane and belong to both

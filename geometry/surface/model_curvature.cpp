@@ -6,7 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "mesh/parallel.h"
+#include "base/box.h"
+#include "base/parallel.h"
 
 namespace delquad {
 
@@ -158,12 +159,10 @@ class FormEstimate {
 
 bool is_plane(const FacePiece& piece) {
   Vec3 sum;
-  Box<Vec3> box = Box<Vec3>::around({piece.points[0]});
   for (const auto& [a, b, c] : piece.triangles)
     sum = sum + cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]);
-  for (const Vec3& p : piece.points) box = {lower(box.low, p), upper(box.high, p)};
   const Vec3 normal = unit(sum);
-  const double tolerance = kPlane * norm(box.high - box.low);
+  const double tolerance = kPlane * diagonal(piece.points);
   return dot(normal, normal) > 0 && std::ranges::all_of(piece.points, [&](const Vec3& p) {
            return std::abs(dot(p - piece.points[0], normal)) <= tolerance;
          });

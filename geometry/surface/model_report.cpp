@@ -9,9 +9,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/box.h"
+#include "base/box_tree.h"
 #include "geometry/surface/chart.h"
 #include "geometry/surface/surface_messages.h"
-#include "mesh/box_tree.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {
@@ -95,12 +96,9 @@ class Reporter {
 
  private:
   void measure_box() {
-    report_.low = report_.high = mesh_.points.at(0);
-    for (const Vec3& p : mesh_.points) {
-      report_.low = lower(report_.low, p);
-      report_.high = upper(report_.high, p);
-    }
-    report_.diagonal = norm(report_.high - report_.low);
+    const auto box = Box<Vec3>::around(std::span(mesh_.points));
+    report_.low = box.low, report_.high = box.high;
+    report_.diagonal = norm(box.size());
     report_.vertices = static_cast<int>(model_.corners.size());
   }
 

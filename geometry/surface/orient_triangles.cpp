@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/box.h"
+#include "delquad/error.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/error.h"
 
 namespace delquad {
 
@@ -14,13 +15,13 @@ struct Component {
   std::vector<int> triangles;
   bool closed = true;
   double volume = 0;  ///< that it encloses, negative when its triangles face inwards
-  Vec3 low, high;     ///< bounding box
+  Box<Vec3> box;
 
   bool within_box_of(const Component& other) const {
-    return low.x > other.low.x && low.y > other.low.y && low.z > other.low.z && high.x < other.high.x &&
-           high.y < other.high.y && high.z < other.high.z;
+    return box.low.x > other.box.low.x && box.low.y > other.box.low.y && box.low.z > other.box.low.z &&
+           box.high.x < other.box.high.x && box.high.y < other.box.high.y && box.high.z < other.box.high.z;
   }
-  double box_volume() const { return (high.x - low.x) * (high.y - low.y) * (high.z - low.z); }
+  double box_volume() const { return box.size().x * box.size().y * box.size().z; }
 };
 
 /// Collects the component of triangle `seed`; `turn` says for each of its triangles (-1 before) whether it
@@ -58,14 +59,12 @@ Component collect(const Mesh& mesh, const std::vector<int>& twin, int seed, std:
 
 void measure(const Mesh& mesh, const std::vector<signed char>& turn, Component& component) {
   const Vec3 origin = mesh.points[mesh.triangles[component.triangles[0]][0]];
-  component.low = component.high = origin;
+  component.box = {origin, origin};
   for (const int t : component.triangles) {
     std::array<Vec3, 3> p;
     for (int k = 0; k < 3; ++k) {
       p[k] = mesh.points[mesh.triangles[t][k]];
-      Vec3 &low = component.low, &high = component.high;
-      low = {std::min(low.x, p[k].x), std::min(low.y, p[k].y), std::min(low.z, p[k].z)};
-      high = {std::max(high.x, p[k].x), std::max(high.y, p[k].y), std::max(high.z, p[k].z)};
+      component.box.add(p[k]);
     }
     const double volume = dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;
     component.volume += turn[t] ? -volume : volume;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/warning.h"
+#include "base/warning.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 /// Parts of messages about surfaces.
 namespace delquad {

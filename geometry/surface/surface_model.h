@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/warning.h"
+#include "base/warning.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -6,11 +6,12 @@
 #include <numeric>
 #include <set>
 
+#include "base/box.h"
+#include "delquad/error.h"
 #include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
-#include "mesh/error.h"
 #include "mesh/weld.h"
 
 namespace delquad {
@@ -290,16 +291,6 @@ void check_contents(const Mesh& mesh, const std::string& source) {
 }
 
 }  // namespace
-
-double diagonal(const std::vector<Vec3>& points) {
-  if (points.empty()) return 0;
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
 
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings) {

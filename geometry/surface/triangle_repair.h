@@ -3,13 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/warning.h"
+#include "base/warning.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
-
-/// Length of the diagonal of the bounding box.
-double diagonal(const std::vector<Vec3>& points);
 
 /// Makes a surface of triangles as files hold them: each edge in one or two triangles that agree in
 /// orientation, each vertex in one fan, each line on an edge, no quads, no triangle without area, none twice,

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/box.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/report_edges.h"
 #include "geometry/surface/surface_messages.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "mesh/parallel.h"
+#include "base/parallel.h"
 
 namespace delquad {
 

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
+#include "delquad/fields.h"
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/lp_energy.h"
 #include "smoothing/cvt/moving_delaunay.h"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cancel.h"
+#include "delquad/error.h"
 #include "smoothing/cvt/cell_minimiser.h"
 
 namespace delquad {
@@ -19,7 +21,13 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
       : problem_(problem), samples_(samples), start_(problem.seeds()) {}
 
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
-    const std::optional<double> energy = problem_.evaluate(seeds(parameters));
+    std::optional<double> energy;
+    // Nothing may be thrown through the solver. It gives up at what cannot be evaluated.
+    try {
+      energy = problem_.evaluate(seeds(parameters));
+    } catch (const Cancelled&) {
+      return false;
+    }
     samples_.push_back({0, energy.value_or(std::numeric_limits<double>::quiet_NaN()), false});
     if (!energy) return false;
     if (scale_ == 0) scale_ = problem_.newton_scale() / std::max(1.0, scaled_gradient_norm(problem_));
@@ -93,6 +101,7 @@ class LbfgsMinimiser final : public CellMinimiser {
     ceres::GradientProblemSolver::Summary summary;
     const std::size_t first = samples.size();
     ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
+    check_cancelled();
     samples[first].accepted = true;  // not marked where the search converges at once
 
     const std::vector<Vec2> best = energy->seeds(parameters.data());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 #include "smoothing/cvt/blocks.h"
 #include "smoothing/cvt/cell_walk.h"
 #include "smoothing/cvt/simplex_energy.h"

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
+#include "delquad/fields.h"
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/moving_delaunay.h"
 

@@ -6,9 +6,11 @@
 #include <atomic>
 #include <utility>
 
+#include "base/cancel.h"
+#include "base/predicates.h"
+#include "delquad/error.h"
 #include "mesh/constrained_delaunay.h"
-#include "mesh/error.h"
-#include "mesh/predicates.h"
+#include "mesh/tri_topology.h"
 #include "smoothing/cvt/blocks.h"
 
 namespace delquad {
@@ -123,6 +125,7 @@ void MovingDelaunay::make_delaunay() {
   for (auto block = found.rbegin(); block != found.rend(); ++block)
     stack_.insert(stack_.end(), block->rbegin(), block->rend());
   while (!stack_.empty()) {
+    check_cancelled();
     const int side = stack_.back();
     stack_.pop_back();
     if (illegal(side)) flip(side);
@@ -133,22 +136,7 @@ void MovingDelaunay::make_delaunay() {
 void MovingDelaunay::flip(int side) {
   ++flips_;
   const int t = side / 3, k = side % 3, u = tri_.neighbours[t][k];
-  auto &tv = tri_.triangles[t], &uv = tri_.triangles[u];
-  auto &tn = tri_.neighbours[t], &un = tri_.neighbours[u];
-  const int j = un[0] == t ? 0 : un[1] == t ? 1 : 2;
-  const int a = tv[k], b = tv[kNext[k]], c = tv[kLast[k]], d = uv[j];
-  const int beyond_ca = tn[kNext[k]], beyond_ab = tn[kLast[k]];
-  const int beyond_bd = un[kNext[j]], beyond_dc = un[kLast[j]];
-  tv = {a, b, d};
-  tn = {beyond_bd, u, beyond_ab};
-  uv = {a, d, c};
-  un = {beyond_dc, beyond_ca, t};
-  const auto rename = [&](int triangle, int from, int to) {
-    if (triangle >= 0)
-      *std::find(tri_.neighbours[triangle].begin(), tri_.neighbours[triangle].end(), from) = to;
-  };
-  rename(beyond_bd, u, t);
-  rename(beyond_ca, t, u);
+  swap_side(tri_, t, k);
   for (const int changed : {t, u})
     for (int i = 0; i < 3; ++i) {
       const int v = tri_.triangles[changed][i];

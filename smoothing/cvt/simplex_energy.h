@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 
-#include "mesh/error.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
 #include "smoothing/cvt/spatial_order.h"
 
 namespace delquad {
@@ -67,6 +67,39 @@ void check_at_least(const char* name, double value, double least) {
 
 }  // namespace
 
+const char* name_of(SmoothingTermination termination) {
+  switch (termination) {
+    case SmoothingTermination::kConverged:
+      return "converged";
+    case SmoothingTermination::kIterations:
+      return "iterations";
+    case SmoothingTermination::kStuck:
+      return "stuck";
+    case SmoothingTermination::kRefused:
+      return "refused";
+  }
+  return "";
+}
+
+void append_counter(std::vector<SummaryField>& fields, const char* key, SmoothingTermination value, Over,
+                    double) {
+  fields.push_back({key, std::map<std::string, long long>{{name_of(value), 1}}});
+}
+
+void append_counter(std::vector<SummaryField>& fields, const char* key,
+                    const std::vector<EnergySample>& samples, Over, double) {
+  std::vector<double> energies, firsts, accepted;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    energies.push_back(samples[i].energy);
+    if (i == 0 || samples[i].frames != samples[i - 1].frames) firsts.push_back(static_cast<double>(i));
+    if (samples[i].accepted) accepted.push_back(static_cast<double>(i));
+  }
+  using Lists = std::vector<std::vector<double>>;
+  fields.push_back({key, Lists{std::move(energies)}});
+  fields.push_back({"first_of_frames", Lists{std::move(firsts)}});
+  fields.push_back({"accepted_evaluations", Lists{std::move(accepted)}});
+}
+
 void check_options(const SmoothingOptions& options) {
   check_norm(options.p);
   check_at_least("outer_iterations", options.outer_iterations, 0);
@@ -79,7 +112,7 @@ void check_options(const SmoothingOptions& options) {
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const CellMinimiser& minimiser, const SmoothingOptions& options,
                        SmoothingSummary* summary) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   check_options(options);
   const std::vector<int> order = spatial_order(patch);
   CvtProblem problem(MovingDelaunay(reordered(patch, order)), options.p);
@@ -88,7 +121,7 @@ TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const Par
   smooth(problem, cross, size, minimiser, options, s);
   s.flips = problem.delaunay().flips();
   s.rebuilds = problem.delaunay().rebuilds();
-  s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  s.seconds = watch.seconds();
   if (summary != nullptr) *summary = std::move(s);
   std::vector<int> back(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)

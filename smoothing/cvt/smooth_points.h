@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/counters.h"
 #include "smoothing/cvt/cell_minimiser.h"
 
 namespace delquad {
@@ -38,6 +39,36 @@ struct SmoothingSummary {
   double gradient_norm = 0;  ///< see MinimiserOutcome
   double seconds = 0;
   std::vector<EnergySample> samples;  ///< all evaluations
+};
+
+const char* name_of(SmoothingTermination termination);
+/// How often patches ended in which way.
+void append_counter(std::vector<SummaryField>& fields, const char* key, SmoothingTermination value, Over,
+                    double);
+/// A list for each patch: the energies, NaN where the place was refused; the evaluations, counted from 0,
+/// that were the first with new frames, as "first_of_frames"; and those from where the points went on, as
+/// "accepted_evaluations".
+void append_counter(std::vector<SummaryField>& fields, const char* key,
+                    const std::vector<EnergySample>& samples, Over, double);
+
+template <>
+struct Counters<SmoothingSummary> {
+  using S = SmoothingSummary;
+  static constexpr const char* step = "smoothing";
+  static double weight(const S& summary) { return summary.cells; }
+  static constexpr auto all = std::tuple{counter("termination", &S::termination),
+                                         counter("cells", &S::cells),
+                                         counter("outer_iterations", &S::outer_iterations, Over::kMost),
+                                         counter("iterations", &S::iterations),
+                                         counter("evaluations", &S::evaluations),
+                                         counter("refused", &S::refused),
+                                         counter("flips", &S::flips),
+                                         counter("rebuilds", &S::rebuilds),
+                                         counter("first_energy", &S::first_energy, Over::kMean),
+                                         counter("final_energy", &S::final_energy, Over::kMean),
+                                         counter("gradient_norm", &S::gradient_norm, Over::kMost),
+                                         counter("seconds", &S::seconds),
+                                         counter("energy_by_evaluation", &S::samples)};
 };
 
 /// Moves the inner points of a patch so that their Voronoi cells become squares of side delta' along the

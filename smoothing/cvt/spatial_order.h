@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

@@ -3,6 +3,9 @@
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 
+#include "base/cancel.h"
+#include "delquad/error.h"
+
 namespace delquad {
 
 namespace {
@@ -17,7 +20,12 @@ class CeresEnergy final : public ceres::FirstOrderFunction {
  public:
   explicit CeresEnergy(const QuadEnergy<Vec>& energy) : energy_(energy) {}
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
-    return energy_.evaluate(parameters, *cost, gradient);
+    // Nothing may be thrown through the solver. It gives up at what cannot be evaluated.
+    try {
+      return energy_.evaluate(parameters, *cost, gradient);
+    } catch (const Cancelled&) {
+      return false;
+    }
   }
   int NumParameters() const override { return energy_.variables(); }
 
@@ -45,6 +53,7 @@ EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations) {
   ceres::GradientProblemSolver::Summary report;
   const ceres::GradientProblem problem(new CeresEnergy<Vec>(energy));
   ceres::Solve(options, problem, descent.x.data(), &report);
+  check_cancelled();
   descent.iterations = static_cast<int>(report.iterations.size());
   descent.evaluations = report.num_cost_evaluations + report.num_gradient_evaluations;
   descent.energy_before = report.initial_cost;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/counters.h"
+
 namespace delquad {
 
 struct OptimisationOptions {
@@ -9,6 +11,9 @@ struct OptimisationOptions {
   double alignment = 0.02;  ///< weight of the edges' directions
 };
 
+OptionGroup optimisation_group();
+OptimisationOptions optimisation_options(const Options& options);
+
 struct OptimisationSummary {
   int untangled = 0;   ///< inverted or flat quads of the input that are so no more
   int held = 0;        ///< vertices kept in place that could move, but for flat quads
@@ -17,6 +22,21 @@ struct OptimisationSummary {
   double energy_before = 0, energy_after = 0;  ///< of the pass over all quads
   double worst_before = 1, worst_after = 1;    ///< least eta of quads that can move, after untangling
   double seconds = 0;
+};
+
+template <>
+struct Counters<OptimisationSummary> {
+  using S = OptimisationSummary;
+  static constexpr const char* step = "optimisation";
+  static constexpr auto all = std::tuple{counter("untangled", &S::untangled),
+                                         counter("held", &S::held),
+                                         counter("iterations", &S::iterations),
+                                         counter("evaluations", &S::evaluations),
+                                         counter("energy_before", &S::energy_before),
+                                         counter("energy_after", &S::energy_after),
+                                         counter("worst_before", &S::worst_before, Over::kLeast),
+                                         counter("worst_after", &S::worst_after, Over::kLeast),
+                                         counter("seconds", &S::seconds)};
 };
 
 /// The least eta never falls below both this and what it was.

@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
-#include "geometry/planar_model.h"
-#include "mesh/patch.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
+#include "geometry/planar/planar_model.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
 namespace delquad {

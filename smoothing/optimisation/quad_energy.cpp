@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesh/parallel.h"
-#include "smoothing/optimisation/quad_corners.h"
+#include "base/parallel.h"
+#include "mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

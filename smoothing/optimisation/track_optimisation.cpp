@@ -6,9 +6,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "mesh/parallel.h"
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "mesh/quad_corners.h"
 #include "smoothing/optimisation/minimise_energy.h"
-#include "smoothing/optimisation/quad_corners.h"
 
 namespace delquad {
 
@@ -37,9 +38,6 @@ constexpr double kHopelessShape = 3;
 constexpr double kShortest = 0.2;
 /// Where a move makes a quad bad it is halved, and left out below this part of it.
 constexpr double kLeastPart = 0.2;
-
-double sine_for(double eta) { return std::sin(eta * std::numbers::pi / 2); }
-double eta_for(double sine) { return std::max(0.0, 2 / std::numbers::pi * std::asin(std::min(sine, 1.0))); }
 
 template <class Vec>
 class TrackOptimisation {
@@ -129,7 +127,7 @@ template <class Vec>
 std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   std::vector<char> near(points_.size(), 0);
   const std::vector<double> sines = least_sines();
-  const double good = sine_for(eta);
+  const double good = sine_of_eta(eta);
   for (std::size_t q = 0; q < quads_.size(); ++q)
     if (sines[q] < good)
       for (const int v : quads_[q]) near[v] = 1;
@@ -185,7 +183,7 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
 
 template <class Vec>
 void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
-  const double floor = sine_for(kOptimisedFloorEta), worst = std::min(least(), floor);
+  const double floor = sine_of_eta(kOptimisedFloorEta), worst = std::min(least(), floor);
   for (auto* values : {&kept_, &mesh.least_sine, &mesh.weight}) values->resize(quads_.size());
   parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
@@ -259,6 +257,7 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
   while (!looked_at.empty()) {
     std::vector<int> changed;
     for (const int q : looked_at) {
+      check_cancelled();
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
       if (movable_sine(q) >= kept_[q] && !too_short(q)) continue;
@@ -287,7 +286,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
       least[k] = kShortest * std::min({norm(b - a), tracks_.delta(a), tracks_.delta(b)});
     }
   }
-  summary_.worst_before = eta_for(least());
+  summary_.worst_before = std::max(0.0, eta_of_sine(least()));
   QuadEnergyWeights weights;
   weights.size = options_.size;
   weights.alignment = options_.alignment;
@@ -303,7 +302,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
     }
     if (descent.energy_before - descent.energy_after <= kLeastGain * std::abs(descent.energy_before)) break;
   }
-  summary_.worst_after = eta_for(least());
+  summary_.worst_after = std::max(0.0, eta_of_sine(least()));
   return summary_;
 }
 

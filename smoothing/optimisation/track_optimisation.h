@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/vec.h"
+#include "delquad/mesh.h"
 #include "smoothing/optimisation/optimisation_options.h"
 
 namespace delquad {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "smoothing/quad_relocation.h"
-#include "smoothing/short_edges.h"
-#include "smoothing/untangling.h"
+#include "smoothing/relocation/quad_relocation.h"
+#include "smoothing/relocation/short_edges.h"
+#include "smoothing/relocation/untangling.h"
 
 namespace delquad {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fields/size_field.h"
-#include "mesh/patch.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
 
 namespace delquad {
 

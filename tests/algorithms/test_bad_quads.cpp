@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/quad_cost.h"
 #include "algorithms/recombination/recombine.h"
-#include "algorithms/recombination/treatment.h"
+#include "algorithms/treatment/treatment.h"
+#include "delquad/extend.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/shapes.h"
@@ -30,8 +30,8 @@ double worst_eta(const QuadPatch& mesh) {
 /// eta worst after the treatment, of a case in which matching alone leaves quads of eta 0.
 double repaired(const PatchBoundary& boundary, double size) {
   const FunctionSize delta(size);
-  const QuadPatch raw =
-      recombine(mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0), delta), *make_lemon_solver());
+  const QuadPatch raw = recombine(mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0), delta),
+                                  *make_primal_dual_solver());
   EXPECT_LE(worst_eta(raw), 1e-12);
   const QuadPatch mesh = treat_paper(raw, delta);
   const auto wrong =

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <set>
 
-#include "algorithms/recombination/chord_split.h"
 #include "algorithms/recombination/hilbert.h"
 #include "algorithms/recombination/quad_cost.h"
+#include "algorithms/recombination/spanning_sides.h"
 #include "mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"
 #include "tests/support/tri_patches.h"
@@ -133,17 +133,17 @@ TEST(DualGraph, HolesHaveExtraEdgesTooAndNoTwoEdgesAreParallel) {
   }
 }
 
-TEST(SplitChords, LeavesNoneAndKeepsTheMeshSound) {
+TEST(SplitSpanningSides, LeavesNoneAndKeepsTheMeshSound) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, seed % 2 == 0 ? 0 : 0.3);
     TriPatch tri = constrained_delaunay(boundary);
     const std::size_t before = tri.triangles.size();
-    const int cuts = split_chords(tri);
+    const int cuts = split_spanning_sides(tri);
     EXPECT_GT(cuts, 0);
     EXPECT_EQ(tri.triangles.size(), before + 2 * cuts);
     EXPECT_EQ(tri.points.size(), boundary.points.size() + cuts);
     EXPECT_TRUE(check_invariants(tri).empty()) << seed << ": " << check_invariants(tri).front();
-    EXPECT_EQ(split_chords(tri), 0);
+    EXPECT_EQ(split_spanning_sides(tri), 0);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh/constrained_delaunay.h"
+#include "tests/algorithms/expect_resolved.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/shapes.h"
 
@@ -57,22 +58,8 @@ TEST(FrontalMesher, RandomPolygonsWithHolesStayValidAndKeepTheirDistances) {
       FrontalSummary summary;
       const FrontalOptions options;
       const TriPatch tri = mesh_frontal(boundary, *strategy, field, size, options, &summary);
-      ASSERT_TRUE(check_invariants(tri).empty()) << seed << strategy->name();
-      ASSERT_EQ(summary.termination, FrontalTermination::kResolved);
-      ASSERT_EQ(summary.inserted + static_cast<long long>(boundary.points.size()),
-                static_cast<long long>(tri.points.size()));
-      ASSERT_TRUE(std::equal(boundary.points.begin(), boundary.points.end(), tri.points.begin()));
-      // Edges to inserted points keep the rejection distance: the size varies by less than a third along an
-      // edge.
-      for (const auto& t : tri.triangles) {
-        for (int k = 0; k < 3; ++k) {
-          const int a = t[k], b = t[(k + 1) % 3];
-          if (std::max(a, b) < tri.n_boundary) continue;
-          int hint = -1;
-          EXPECT_GT(norm(tri.points[a] - tri.points[b]),
-                    0.6 * options.rejection * size.at(tri.points[b], hint));
-        }
-      }
+      SCOPED_TRACE(std::to_string(seed) + strategy->name());
+      expect_resolved(tri, boundary, size, options, summary);
     }
   }
 }

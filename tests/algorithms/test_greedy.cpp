@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/quad_cost.h"
+#include "algorithms/treatment/degree_treatment.h"
+#include "delquad/extend.h"
 #include "mesh/constrained_delaunay.h"
-#include "smoothing/quad_relocation.h"
+#include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/tri_patches.h"
@@ -17,26 +18,10 @@
 namespace delquad {
 namespace {
 
-using testing_support::check_quad_patch;
-using testing_support::count_loops;
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
-using testing_support::make_patch;
+using namespace testing_support;
 
 double eta(const QuadPatch& mesh, const std::array<int, 4>& q) {
   return signed_eta(mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]);
-}
-
-double worst_sine(const QuadPatch& mesh) {
-  const QuadTopology topology(mesh);
-  double least = 1;
-  for (int e = 0; e < topology.element_slots(); ++e) least = std::min(least, least_sine(topology, e));
-  return least;
-}
-
-void expect_sound(const QuadPatch& mesh, const PatchBoundary& boundary) {
-  const auto wrong = check_quad_patch(mesh, boundary, 2 - count_loops(boundary));
-  EXPECT_TRUE(wrong.empty()) << wrong.front();
 }
 
 /// Four triangles in a row, of which the middle two make a square: the others are then left.

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/insertion/point_placement.h"
+#include "delquad/extend.h"
 #include "mesh/constrained_delaunay.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/shapes.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "algorithms/insertion/point_placement.h"
+#include "delquad/extend.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {
@@ -32,6 +32,19 @@ RandomEdge random_edge(std::mt19937_64& random, int kind) {
   const Vec2 middle{2 * shapes::uniform(random) - 1, 2 * shapes::uniform(random) - 1};
   const Vec2 half = (0.1 + shapes::uniform(random)) * Vec2{std::cos(direction), std::sin(direction)};
   return {middle - half, middle + half, Frame::from_angle(theta)};
+}
+
+/// Random edges, none of them aligned, each with a point on its left (side 1) or right (-1).
+std::vector<std::pair<CanonicalEdge, Vec2>> random_triangles(int seed, int side) {
+  std::mt19937_64 random(seed);
+  std::vector<std::pair<CanonicalEdge, Vec2>> triangles;
+  for (int i = 0; i < 20000; ++i) {
+    const RandomEdge r = random_edge(random, 2 + i % 2);
+    const CanonicalEdge e(r.p, r.q, r.axes);
+    const Vec2 point{3 * shapes::uniform(random) - 1.5, side * 3 * shapes::uniform(random)};
+    if (side * cross({e.alpha, e.beta}, point) > 0) triangles.emplace_back(e, point);
+  }
+  return triangles;
 }
 
 double distance(const Frame& axes, Vec2 a, Vec2 b) { return linf_norm(axes.to_local(b - a)); }
@@ -163,13 +176,8 @@ TEST(LinfGeometry, CircumsquareAgreesWithBruteForce) {
 
 // The centre that circumradius_on_branch speaks of is on the bisector and at that distance from the apex too.
 TEST(LinfGeometry, CircumradiusOnTheBranchIsThatOfASquareThroughTheApex) {
-  std::mt19937_64 random(4);
   int on_branch = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const RandomEdge r = random_edge(random, 2 + i % 2);
-    const CanonicalEdge e(r.p, r.q, r.axes);
-    const Vec2 apex{3 * shapes::uniform(random) - 1.5, 3 * shapes::uniform(random)};
-    if (cross({e.alpha, e.beta}, apex) <= 0) continue;
+  for (const auto& [e, apex] : random_triangles(4, 1)) {
     const double rho = circumradius_on_branch(e, apex);
     if (std::isinf(rho) || rho < e.alpha) continue;
     ++on_branch;
@@ -180,13 +188,8 @@ TEST(LinfGeometry, CircumradiusOnTheBranchIsThatOfASquareThroughTheApex) {
 }
 
 TEST(LinfGeometry, BranchExitLiesOnTheResolvedTrianglesSquare) {
-  std::mt19937_64 random(5);
   int bounded = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const RandomEdge r = random_edge(random, 2 + i % 2);
-    const CanonicalEdge e(r.p, r.q, r.axes);
-    const Vec2 other{3 * shapes::uniform(random) - 1.5, -2 * shapes::uniform(random)};
-    if (cross({e.alpha, e.beta}, other) >= 0) continue;
+  for (const auto& [e, other] : random_triangles(5, -1)) {
     const double rho = branch_exit(e, other);
     EXPECT_LE(rho, e.length() * (1 + kRounding));
     const Circumsquare square =

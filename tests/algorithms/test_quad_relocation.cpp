@@ -1,4 +1,4 @@
-#include "smoothing/quad_relocation.h"
+#include "smoothing/relocation/quad_relocation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,20 +6,13 @@
 #include <numbers>
 
 #include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::FunctionSize;
-using testing_support::grid_patch;
-using testing_support::jittered;
-
-double worst(const QuadTopology& mesh) {
-  double least = 1;
-  for (int e = 0; e < mesh.element_slots(); ++e) least = std::min(least, least_sine(mesh, e));
-  return least;
-}
+using namespace testing_support;
 
 TEST(QuadRelocation, SinesOfCorners) {
   QuadPatch mesh;
@@ -51,7 +44,7 @@ TEST(QuadRelocation, RegularGridStays) {
 TEST(QuadRelocation, JitteredGridBecomesRegular) {
   const QuadPatch grid = grid_patch(8, 7);
   QuadTopology mesh(jittered(grid, 3, 0.6));  // beyond validity
-  EXPECT_LT(worst(mesh), 0);
+  EXPECT_LT(worst_sine(mesh), 0);
   const FunctionSize size(1);
   QuadRelocation relocation(mesh, size);
   relocation.activate_all();
@@ -78,7 +71,7 @@ TEST(QuadRelocation, UntanglesAVertexOutsideItsStar) {
   QuadPatch mesh = grid_patch(2, 2);
   mesh.points[8] = {1.6, 2.3};
   QuadTopology topology(mesh);
-  ASSERT_LT(worst(topology), 0);
+  ASSERT_LT(worst_sine(topology), 0);
   const FunctionSize size(1);
   QuadRelocation relocation(topology, size);
   relocation.activate_all();
@@ -104,7 +97,7 @@ TEST(QuadRelocation, HopelessSizesDoNotSpoilShapes) {
   QuadRelocation relocation(mesh, size);
   relocation.activate_all();
   relocation.relax(1e-3, 200);
-  EXPECT_GT(worst(mesh), 0.95);
+  EXPECT_GT(worst_sine(mesh), 0.95);
 }
 
 TEST(QuadRelocation, LiftImprovesTheWorstAndEnds) {
@@ -112,9 +105,9 @@ TEST(QuadRelocation, LiftImprovesTheWorstAndEnds) {
     QuadTopology mesh(jittered(grid_patch(6, 6), seed, 0.55));
     const FunctionSize size(1);
     QuadRelocation relocation(mesh, size);
-    const double before = worst(mesh);
+    const double before = worst_sine(mesh);
     EXPECT_GT(relocation.lift_worst(0.5, 20), 0);
-    EXPECT_GE(worst(mesh), before);
+    EXPECT_GE(worst_sine(mesh), before);
   }
 }
 

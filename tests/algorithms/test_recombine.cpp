@@ -32,7 +32,7 @@ double eta(const QuadPatch& mesh, const std::array<int, 4>& q) {
 
 /// Recombines and checks all that must hold for any input.
 QuadPatch checked(const TriPatch& tri, const PatchBoundary& boundary, RecombineSummary& summary) {
-  QuadPatch mesh = recombine(tri, *make_lemon_solver(), &summary);
+  QuadPatch mesh = recombine(tri, *make_primal_dual_solver(), &summary);
   const auto wrong = check_quad_patch(mesh, boundary, 2 - count_loops(boundary));
   EXPECT_TRUE(wrong.empty()) << wrong.front();
   EXPECT_EQ(mesh.triangles.size(), boundary.edges.size() % 2);
@@ -73,7 +73,7 @@ TEST(Recombine, EveryTriangulationOfSmallPolygonsBecomesQuads) {
   EXPECT_GT(duplications, 0);
 }
 
-TEST(Recombine, CutsChordsWhenThereIsNoPerfectMatching) {
+TEST(Recombine, CutsSpanningSidesWhenThereIsNoPerfectMatching) {
   // An inner hexagon of four triangles; on each of its sides a triangle and an ear. Taking away the middle
   // triangle and the six on the hexagon's sides leaves nine odd components.
   const int n = 18;
@@ -84,7 +84,8 @@ TEST(Recombine, CutsChordsWhenThereIsNoPerfectMatching) {
     triangles.push_back({i + 1, i + 2, (i + 3) % n});
   }
   const TriPatch tri = testing_support::make_patch(boundary.points, triangles, n);
-  ASSERT_EQ(make_lemon_solver()->solve(build_dual_graph(tri).graph).status, MatchingStatus::kNotPerfect);
+  ASSERT_EQ(make_primal_dual_solver()->solve(build_dual_graph(tri).graph).status,
+            MatchingStatus::kNotPerfect);
   RecombineSummary summary;
   checked(tri, boundary, summary);
   EXPECT_EQ(summary.split_chords, 15);
@@ -176,7 +177,7 @@ TEST(Recombine, EachComponentHasItsOwnParity) {
   const TriPatch tri =
       testing_support::make_patch(points, both.triangles, static_cast<int>(points.size()) - 1);
   RecombineSummary summary;
-  const QuadPatch mesh = recombine(tri, *make_lemon_solver(), &summary);
+  const QuadPatch mesh = recombine(tri, *make_primal_dual_solver(), &summary);
   EXPECT_EQ(mesh.quads.size(), 5u);
   ASSERT_EQ(mesh.triangles.size(), 1u);
   EXPECT_GE(mesh.triangles[0][0], inner);
@@ -185,16 +186,17 @@ TEST(Recombine, EachComponentHasItsOwnParity) {
   for (auto t : other.triangles) twice.push_back({t[0] + 5, t[1] + 5, t[2] + 5});
   points = other.points;
   for (const Vec2 p : other.points) points.push_back(p + Vec2{5, 0});
-  EXPECT_EQ(recombine(testing_support::make_patch(points, twice, 10), *make_lemon_solver()).triangles.size(),
-            2u);
+  EXPECT_EQ(
+      recombine(testing_support::make_patch(points, twice, 10), *make_primal_dual_solver()).triangles.size(),
+      2u);
 }
 
 TEST(Recombine, SameInputSameMeshAndNumberingDoesNotMatter) {
   const PatchBoundary boundary = shapes::random_polygon_with_holes(11, 0.1);
   TriPatch tri = constrained_delaunay(boundary, random_inner_points(boundary, 2, 800, 0.03));
   RecombineSummary summary, shuffled_summary;
-  const QuadPatch first = recombine(tri, *make_lemon_solver(), &summary);
-  const QuadPatch second = recombine(tri, *make_lemon_solver());
+  const QuadPatch first = recombine(tri, *make_primal_dual_solver(), &summary);
+  const QuadPatch second = recombine(tri, *make_primal_dual_solver());
   EXPECT_EQ(first.quads, second.quads);
   EXPECT_EQ(first.points, second.points);
   std::mt19937_64 random(1);

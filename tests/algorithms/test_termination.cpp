@@ -6,10 +6,10 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/insertion/point_placement.h"
 #include "algorithms/recombination/recombine.h"
-#include "algorithms/recombination/treatment.h"
-#include "algorithms/recombination/treatment_moves.h"
+#include "algorithms/treatment/treatment.h"
+#include "algorithms/treatment/treatment_moves.h"
+#include "delquad/extend.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
@@ -103,8 +103,8 @@ void mesh_random_patches(const char* name, const std::function<std::vector<Vec2>
     const FunctionSize delta(size);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
     expect_linear_work(
-        recombine(mesh_frontal(boundary, *placement, FunctionCross(0.3), delta), *make_lemon_solver()), delta,
-        std::string(name) + " " + std::to_string(seed));
+        recombine(mesh_frontal(boundary, *placement, FunctionCross(0.3), delta), *make_primal_dual_solver()),
+        delta, std::string(name) + " " + std::to_string(seed));
   }
 }
 

@@ -1,16 +1,17 @@
-#include "smoothing/untangling.h"
+#include "smoothing/relocation/untangling.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "smoothing/quad_relocation.h"
+#include "smoothing/relocation/quad_relocation.h"
+#include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::grid_patch;
+using namespace testing_support;
 
 std::vector<int> interior(const QuadTopology& mesh, int n_boundary) {
   std::vector<int> vertices(mesh.vertex_slots() - n_boundary);
@@ -18,19 +19,13 @@ std::vector<int> interior(const QuadTopology& mesh, int n_boundary) {
   return vertices;
 }
 
-double worst(const QuadTopology& mesh) {
-  double least = 1;
-  for (int e = 0; e < mesh.element_slots(); ++e) least = std::min(least, least_sine(mesh, e));
-  return least;
-}
-
 TEST(Untangling, RandomPlacesInAndOutsideTheOutline) {
   for (int seed = 0; seed < 20; ++seed) {
     const QuadPatch grid = testing_support::jittered(grid_patch(6, 5), seed, 4);
     QuadTopology mesh(grid);
-    ASSERT_LT(worst(mesh), -0.5);
+    ASSERT_LT(worst_sine(mesh), -0.5);
     EXPECT_TRUE(untangle(mesh, interior(mesh, grid.n_boundary))) << "seed " << seed;
-    EXPECT_GT(worst(mesh), 0) << "seed " << seed;
+    EXPECT_GT(worst_sine(mesh), 0) << "seed " << seed;
     for (int v = 0; v < grid.n_boundary; ++v) EXPECT_EQ(mesh.point(v), grid.points[v]);
   }
 }
@@ -42,11 +37,11 @@ TEST(Untangling, ArrowWhoseMiddleLiesOutside) {
   arrow.quads = {{0, 1, 2, 3}};
   arrow.n_boundary = 4;
   QuadTopology mesh(arrow);
-  ASSERT_LT(worst(mesh), 0);
+  ASSERT_LT(worst_sine(mesh), 0);
   mesh.pillow(std::array<int, 1>{0});
-  ASSERT_LT(worst(mesh), 0);
+  ASSERT_LT(worst_sine(mesh), 0);
   EXPECT_TRUE(untangle(mesh, interior(mesh, 4)));
-  EXPECT_GT(worst(mesh), 0.01);
+  EXPECT_GT(worst_sine(mesh), 0.01);
 }
 
 TEST(Untangling, OnlyTheGivenVerticesMove) {
@@ -55,7 +50,7 @@ TEST(Untangling, OnlyTheGivenVerticesMove) {
   grid.points[v] = {4.5, 4.5};
   QuadTopology mesh(grid);
   EXPECT_TRUE(untangle(mesh, std::array<int, 1>{v}));
-  EXPECT_GT(worst(mesh), 0);
+  EXPECT_GT(worst_sine(mesh), 0);
   for (int w = 0; w < mesh.vertex_slots(); ++w) {
     const Vec2 expected = w == v ? mesh.point(w) : grid.points[w];
     EXPECT_EQ(mesh.point(w), expected);
@@ -65,7 +60,7 @@ TEST(Untangling, OnlyTheGivenVerticesMove) {
 TEST(Untangling, WhatIsSoundStays) {
   const QuadPatch grid = testing_support::jittered(grid_patch(5, 4), 3, 0.2);
   QuadTopology mesh(grid);
-  ASSERT_GT(worst(mesh), 0);
+  ASSERT_GT(worst_sine(mesh), 0);
   EXPECT_TRUE(untangle(mesh, interior(mesh, grid.n_boundary)));
   EXPECT_EQ(mesh.to_patch().points, grid.points);
 }

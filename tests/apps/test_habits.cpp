@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -124,13 +125,20 @@ TEST(Habits, SizesThatAreEmptyOrTooLargeAreTold) {
   EXPECT_TRUE(contains(delquad({"info", solid, "--size", "30"}).out, "larger than the model"));
 }
 
+/// The square with round holes.
+std::string write_holes(const TemporaryFolder& folder,
+                        const std::vector<std::array<std::string, 3>>& names_centres_radii) {
+  std::string text = kSquareLoop;
+  for (const auto& [name, centre, radius] : names_centres_radii)
+    text += "[[loop]]\ncircle = { centre = " + centre + ", radius = " + radius + " }\nboundary = \"" + name +
+            "\"\n";
+  return write_text(folder / "model.toml", text);
+}
+
 TEST(Habits, CirclesWithFewEdgesAreTold) {
   const TemporaryFolder folder;
   const std::string model =
-      write_text(folder / "model.toml",
-                 kSquareLoop +
-                     "[[loop]]\ncircle = { centre = [0.3, 0.5], radius = 0.1 }\nboundary = \"small\"\n"
-                     "[[loop]]\ncircle = { centre = [0.7, 0.5], radius = 0.12 }\n");
+      write_holes(folder, {{"small", "[0.3, 0.5]", "0.1"}, {"large", "[0.7, 0.5]", "0.12"}});
   const auto mesh = [&](const char* size) {
     return delquad({"mesh", model, "-o", folder / "out.msh", "--size", size}).err;
   };
@@ -145,10 +153,7 @@ TEST(Habits, CirclesWithFewEdgesAreTold) {
 TEST(Habits, TouchingHolesAreRefused) {
   const TemporaryFolder folder;
   const std::string model =
-      write_text(folder / "model.toml",
-                 kSquareLoop +
-                     "[[loop]]\ncircle = { centre = [0.3, 0.5], radius = 0.1 }\nboundary = \"left hole\"\n"
-                     "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.1 }\n");
+      write_holes(folder, {{"left hole", "[0.3, 0.5]", "0.1"}, {"right hole", "[0.5, 0.5]", "0.1"}});
   const ProgramResult result = delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.03"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_TRUE(contains(result.err, "'left hole'") && contains(result.err, "touch at (0.4, 0.5"))

@@ -23,6 +23,15 @@ const std::string kExperiment =
     kSquare;
 const std::string kPublished = "source = \"Table 9\"\n[[row]]\nname = \"Theirs\"\neta_mean = 0.75\nd4 = 87\n";
 
+/// An experiment on squares with these names and sizes.
+fs::path write_squares(const TemporaryFolder& folder, const std::string& words,
+                       const std::vector<std::pair<std::string, std::string>>& squares) {
+  std::string text = "pipelines = [" + words + "]\n";
+  for (const auto& [name, size] : squares)
+    text += "[[case]]\nname = \"" + name + "\"\nsize = " + size + "\n" + kSquare;
+  return write_text(folder / "e.toml", text);
+}
+
 TEST(RunCommand, WritesCellsTablesAndPictures) {
   const TemporaryFolder folder;
   write_text(folder / "published.toml", kPublished);
@@ -67,10 +76,7 @@ TEST(RunCommand, SameBytesTwice) {
 
 TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {
   const TemporaryFolder folder;
-  const auto file = write_text(folder / "e.toml",
-                               "pipelines = [\"DB\"]\n"
-                               "[[case]]\nname = \"bad\"\nsize = \"x - 0.5\"\n" +
-                                   kSquare + "[[case]]\nname = \"good\"\nsize = 0.1\n" + kSquare);
+  const auto file = write_squares(folder, "\"DB\"", {{"bad", "\"x - 0.5\""}, {"good", "0.1"}});
   const fs::path stale = folder / "results/bad/DB";
   fs::create_directories(stale);
   write_text(stale / "mesh.msh", "from an earlier run");
@@ -88,10 +94,7 @@ TEST(RunCommand, FailedCellIsInTheTableAndTheRestGoesOn) {
 /// The larger meshes do not fit: their cells fail, with their reasons, and nothing of them is left.
 TEST(RunCommand, CellThatCannotBeWrittenFailsAlone) {
   const TemporaryFolder folder;
-  const auto file = write_text(folder / "e.toml",
-                               "pipelines = [\"F\", \"DB\"]\n"
-                               "[[case]]\nname = \"large\"\nsize = 0.02\n" +
-                                   kSquare + "[[case]]\nname = \"small\"\nsize = 0.25\n" + kSquare);
+  const auto file = write_squares(folder, "\"F\", \"DB\"", {{"large", "0.02"}, {"small", "0.25"}});
   const ProgramResult result =
       run_program(DELQUAD_PROGRAM, {{"run", file, "-o", folder / "results"}, 100'000, {}});
   EXPECT_EQ(result.exit_code, 2) << result.err;

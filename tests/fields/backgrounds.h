@@ -3,9 +3,8 @@
 #include <memory>
 #include <span>
 
+#include "delquad/mesh.h"
 #include "fields/background_mesh.h"
-#include "mesh/mesh.h"
-#include "mesh/patch.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/predicates.h"
+#include "delquad/error.h"
 #include "mesh/constrained_delaunay.h"
-#include "mesh/error.h"
-#include "mesh/predicates.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

@@ -4,8 +4,9 @@
 #include <complex>
 #include <numbers>
 
+#include "cases/formulas.h"
+#include "delquad/error.h"
 #include "fields/fields.h"
-#include "mesh/error.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "cases/formulas.h"
+#include "delquad/error.h"
 #include "fields/fields.h"
-#include "mesh/error.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

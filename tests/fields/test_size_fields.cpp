@@ -4,9 +4,11 @@
 #include <functional>
 #include <string>
 
+#include "cases/formulas.h"
+#include "delquad/error.h"
 #include "fields/fields.h"
-#include "mesh/error.h"
 #include "tests/fields/backgrounds.h"
+#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
@@ -14,15 +16,6 @@ namespace {
 double at(const SizeField& size, double x, double y, double z = 0) {
   int hint = -1;
   return size.at({x, y, z}, hint);
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(ConstantSize, IsConstantAndChecked) {

@@ -5,8 +5,8 @@
 /// The unit square as two triangles and four lines, in both versions of the format.
 namespace delquad::msh_files {
 
-inline const std::string kSquare41 = R"($MeshFormat
-4.1 0 8
+inline std::string begin_file(const std::string& version) {
+  return "$MeshFormat\n" + version + R"( 0 8
 $EndMeshFormat
 $PhysicalNames
 3
@@ -14,7 +14,10 @@ $PhysicalNames
 1 2 "all walls"
 2 1 "plate"
 $EndPhysicalNames
-$Entities
+)";
+}
+
+inline const std::string kSquare41 = begin_file("4.1") + R"($Entities
 1 2 1 0
 1 0 0 0 0
 7 0 0 0 1 1 0 2 1 2 2 1 -1
@@ -53,16 +56,7 @@ $Elements
 $EndElements
 )";
 
-inline const std::string kSquare22 = R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-3
-1 1 "wall one"
-1 2 "all walls"
-2 1 "plate"
-$EndPhysicalNames
-$Nodes
+inline const std::string kSquare22 = begin_file("2.2") + R"($Nodes
 4
 1 0 0 0
 2 1 0 0

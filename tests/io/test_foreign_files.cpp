@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
-#include "mesh/error.h"
+#include "mesh/split_polygon.h"
 #include "tests/io/msh_files.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
@@ -17,10 +17,7 @@
 namespace delquad {
 namespace {
 
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
+using namespace testing_support;
 
 std::filesystem::path write_gzip(const std::filesystem::path& path, const std::string& text) {
   const gzFile file = gzopen(path.c_str(), "wb");

@@ -2,30 +2,23 @@
 
 #include <random>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
 #include "metrics/metrics.h"
 #include "tests/io/msh_files.h"
+#include "tests/io/reader_test.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-class MshFuzz : public ::testing::TestWithParam<std::string> {
+class MshFuzz : public testing_support::ReaderTest<::testing::TestWithParam<std::string>> {
  protected:
-  /// Whether the text is read; nothing but InputError, with file and line, may come out otherwise.
-  bool reads(const std::string& text) {
-    try {
-      const Mesh mesh = read_msh(testing_support::write_text(folder_ / "case.msh", text));
-      evaluate_metrics(mesh, nullptr);
-      check_invariants(mesh);
-      return true;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("case.msh:"), std::string::npos) << error.what();
-      return false;
-    }
+  MshFuzz() : ReaderTest("case.msh") {}
+  void check(const Mesh& mesh) override {
+    evaluate_metrics(mesh, nullptr);
+    check_invariants(mesh);
   }
-  testing_support::TemporaryFolder folder_;
 };
 
 TEST_P(MshFuzz, EveryTruncationIsRefused) {

@@ -2,6 +2,7 @@
 
 #include "io/mesh_io.h"
 #include "tests/io/msh_files.h"
+#include "tests/io/reader_test.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -13,14 +14,9 @@ using msh_files::kSquare41;
 using msh_files::with;
 using Names = std::vector<std::string>;
 
-class MshReader : public ::testing::Test {
+class MshReader : public testing_support::ReaderTest<> {
  protected:
-  Mesh read(const std::string& text) {
-    return read_msh(testing_support::write_text(folder_ / "case.msh", text));
-  }
-  void expect_error(const std::string& text, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read(text); }, parts);
-  }
+  MshReader() : ReaderTest("case.msh") {}
   void expect_square(const Mesh& mesh) {
     EXPECT_EQ(check_invariants(mesh), Names());
     EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}))
@@ -37,7 +33,6 @@ class MshReader : public ::testing::Test {
     EXPECT_EQ(mesh.regions[0].tag, 3);
     EXPECT_EQ(mesh.regions[0].names, (Names{"plate"}));
   }
-  testing_support::TemporaryFolder folder_;
 };
 
 TEST_F(MshReader, Reads41) { expect_square(read(kSquare41)); }

@@ -1,18 +1,16 @@
 #include <gtest/gtest.h>
 
 #include "io/mesh_io.h"
+#include "tests/io/reader_test.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-class Obj : public ::testing::Test {
+class Obj : public testing_support::ReaderTest<> {
  protected:
-  Mesh read(const std::string& text) {
-    return read_obj(testing_support::write_text(folder_ / "case.obj", text));
-  }
-  testing_support::TemporaryFolder folder_;
+  Obj() : ReaderTest("case.obj") {}
 };
 
 TEST_F(Obj, ReadsWhatProgramsWrite) {

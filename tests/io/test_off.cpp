@@ -2,8 +2,9 @@
 
 #include <random>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
+#include "tests/io/reader_test.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -12,21 +13,9 @@ namespace {
 
 const std::string kSquare = "OFF\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
-class Off : public ::testing::Test {
+class Off : public testing_support::ReaderTest<> {
  protected:
-  Mesh read(const std::string& text) {
-    return read_mesh(testing_support::write_text(folder_ / "case.off", text));
-  }
-  bool reads(const std::string& text) {
-    try {
-      read(text);
-      return true;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("case.off:"), std::string::npos) << error.what();
-      return false;
-    }
-  }
-  testing_support::TemporaryFolder folder_;
+  Off() : ReaderTest("case.off") {}
 };
 
 TEST_F(Off, ReadsPlainFiles) {

@@ -11,10 +11,7 @@
 namespace delquad {
 namespace {
 
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::triangle_grid;
+using namespace testing_support;
 
 size_t count(const std::string& text, const std::string& part) {
   size_t n = 0;

@@ -28,10 +28,7 @@ Mesh bent() {
   return mesh;
 }
 
-TEST(AbaqusInp, IsTheDocumentedFormat) {
-  const TemporaryFolder folder;
-  write_inp(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
-  EXPECT_EQ(read_text(folder / "a.inp"), R"(*HEADING
+const char* const kGridInp = R"(*HEADING
 Quad mesh by Delquad
 *NODE
 1, 0, 0, 0
@@ -96,7 +93,12 @@ _north_S3, S3
 _south_S1, S1
 *SURFACE, NAME=west, TYPE=ELEMENT
 _west_S4, S4
-)");
+)";
+
+TEST(AbaqusInp, IsTheDocumentedFormat) {
+  const TemporaryFolder folder;
+  write_inp(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
+  EXPECT_EQ(read_text(folder / "a.inp"), kGridInp);
 }
 
 TEST(AbaqusInp, NamesBecomeLabels) {

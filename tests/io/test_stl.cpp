@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <random>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesh/error.h"
+#include "tests/io/reader_test.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -52,26 +53,12 @@ std::string binary_file(const std::vector<Facet>& facets, std::string header = "
   return bytes;
 }
 
-class Stl : public ::testing::Test {
+class Stl : public testing_support::ReaderTest<> {
  protected:
-  Mesh read(const std::string& content) {
-    return read_stl(testing_support::write_text(folder_ / "case.stl", content));
+  Stl() : ReaderTest("case.stl") {}
+  void check(const Mesh& mesh) override {
+    for (const Vec3& p : mesh.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
   }
-  void expect_error(const std::string& content, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read(content); }, parts);
-  }
-  /// Whether it is read; nothing but an InputError that names the file may come out otherwise.
-  bool reads(const std::string& content) {
-    try {
-      const Mesh mesh = read(content);
-      for (const Vec3& p : mesh.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
-      return true;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("case.stl:"), std::string::npos) << error.what();
-      return false;
-    }
-  }
-  testing_support::TemporaryFolder folder_;
 };
 
 TEST_F(Stl, TextAndBinaryGiveOneClosedMesh) {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
+#include "base/predicates.h"
 #include "mesh/constrained_delaunay.h"
-#include "mesh/predicates.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

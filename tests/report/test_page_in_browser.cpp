@@ -78,6 +78,16 @@ void expect_moved_together(const std::string& browser, const TemporaryFolder& fo
             "<title>moved by plus left up drag worst whole wheel");
 }
 
+/// The report of two meshes says something so many times, and its pictures move.
+void expect_page(const std::string& browser, const TemporaryFolder& folder, const char* results,
+                 const char* part, std::size_t times) {
+  ASSERT_EQ(delquad({"report", folder / results, "-o", folder / "r.html"}).exit_code, 0);
+  const ProgramResult shown = open_page(browser, folder, "r.html");
+  expect_sound(shown, 2);
+  EXPECT_EQ(count(shown.out, part), times);
+  expect_moved_together(browser, folder);
+}
+
 #define NEEDS_BROWSER(browser)                \
   const std::string browser = find_browser(); \
   if (browser.empty()) GTEST_SKIP() << "Chromium is not installed"
@@ -105,11 +115,7 @@ TEST(PageInBrowser, DrawsSurfaces) {
                                       "title = \"A surface\"\npipelines = [\"D\", \"DB\"]\nsize = 0.2\n"
                                       "[[case]]\nname = \"tetrahedron\"\nmodel = \"t.off\"\n");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
-  const ProgramResult shown = open_page(browser, folder, "r.html");
-  expect_sound(shown, 2);
-  EXPECT_EQ(count(shown.out, "watertight: yes"), 2u);
-  expect_moved_together(browser, folder);
+  expect_page(browser, folder, "results", "watertight: yes", 2);
 }
 
 TEST(PageInBrowser, ShowsPeers) {
@@ -125,11 +131,7 @@ TEST(PageInBrowser, ShowsPeers) {
                "\"1.5\"]\ncommand = [\"sh\", \"-c\", \"cp '" +
                    mesh + "' {output} # {input}\"]\n" + square);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  ASSERT_EQ(delquad({"report", folder / "results/peers", "-o", folder / "r.html"}).exit_code, 0);
-  const ProgramResult shown = open_page(browser, folder, "r.html");
-  expect_sound(shown, 2);
-  EXPECT_EQ(count(shown.out, "another mesher, version 1.5"), 1u);
-  expect_moved_together(browser, folder);
+  expect_page(browser, folder, "results/peers", "another mesher, version 1.5", 1);
 }
 
 /// The test would notice: a script that fails, and one that asks the network.

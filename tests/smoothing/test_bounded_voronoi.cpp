@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/predicates.h"
+#include "base/predicates.h"
 #include "smoothing/cvt/cell_walk.h"
 #include "tests/smoothing/seeds.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/parallel.h"
+#include "base/context.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/expect_input_error.h"
 
@@ -127,12 +127,10 @@ TEST(LpEnergies, AreTheSameBytesOnAnyNumberOfThreads) {
   ASSERT_GT(seeds.size(), 3000u);
   const SeedFrames frames = random_frames(boundary.points.size() + seeds.size(), 5);
   std::vector<EnergyAndGradient> results;
-  const int usual = thread_count();
   for (const int threads : {1, 2, 4}) {
-    set_thread_count(threads);
+    const RunScope run({.threads = threads});
     results.push_back(energy_of(boundary, seeds, frames, 6));
   }
-  set_thread_count(usual);
   for (const EnergyAndGradient& other : results) {
     EXPECT_EQ(other.energy, results[0].energy);
     EXPECT_EQ(other.gradient, results[0].gradient);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "mesh/predicates.h"
+#include "base/predicates.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/expect_input_error.h"
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/curves.h"
+#include "delquad/model.h"
 #include "smoothing/optimisation/untangle_flat.h"
-#include "smoothing/quad_relocation.h"
+#include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
@@ -17,21 +17,9 @@
 namespace delquad {
 namespace {
 
-using testing_support::check_quad_patch;
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
-using testing_support::grid_patch;
-using testing_support::jittered;
-using testing_support::scrambled;
+using namespace testing_support;
 
 const double kFloorSine = std::sin(kOptimisedFloorEta * std::numbers::pi / 2);
-
-double worst(const QuadPatch& mesh) {
-  const QuadTopology topology(mesh);
-  double least = 1;
-  for (int e = 0; e < topology.element_slots(); ++e) least = std::min(least, least_sine(topology, e));
-  return least;
-}
 
 /// Untangles and optimises a mesh of one patch; its boundary points have the `places`, or stay.
 QuadPatch optimise_vertices(QuadPatch mesh, const ParametricSize& size, const CrossField& cross,
@@ -97,7 +85,7 @@ TEST(QuadOptimisation, NeverWorseThanTheWorstBeforeNorTheFloor) {
     EXPECT_EQ(result.quads, mesh.quads);
     const auto wrong = check_quad_patch(result, shapes::rectangle(10, 9, 10, 9), 1);
     EXPECT_TRUE(wrong.empty()) << wrong.front();
-    EXPECT_GE(worst(result), std::min(worst(mesh), kFloorSine));
+    EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), kFloorSine));
     const QuadPatch again = optimise_vertices(mesh, size, FunctionCross(0.1));
     EXPECT_EQ(again.points, result.points);
   }
@@ -105,12 +93,12 @@ TEST(QuadOptimisation, NeverWorseThanTheWorstBeforeNorTheFloor) {
 
 TEST(QuadOptimisation, UntanglesFirst) {
   const QuadPatch mesh = jittered(grid_patch(8, 8), 5, 2);
-  ASSERT_LT(worst(mesh), -0.5);
+  ASSERT_LT(worst_sine(mesh), -0.5);
   OptimisationSummary summary;
   const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), &summary);
   EXPECT_GT(summary.untangled, 0);
   EXPECT_EQ(summary.held, 0);
-  EXPECT_GT(worst(result), 0.98);
+  EXPECT_GT(worst_sine(result), 0.98);
 }
 
 TEST(QuadOptimisation, WhatCannotBeUntangledIsHeld) {
@@ -129,7 +117,7 @@ TEST(QuadOptimisation, WhatCannotBeUntangledIsHeld) {
   }
   mesh = topology.to_patch();
   const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0));
-  EXPECT_GE(worst(result), std::min(worst(mesh), kFloorSine));
+  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), kFloorSine));
   EXPECT_NE(result.points, mesh.points);
 }
 
@@ -140,7 +128,7 @@ TEST(QuadOptimisation, WorstQuadIsLifted) {
   OptimisationSummary summary;
   const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), &summary);
   EXPECT_GT(summary.worst_after, summary.worst_before + 0.2);
-  EXPECT_NEAR(summary.worst_after, 2 / std::numbers::pi * std::asin(worst(result)), 1e-12);
+  EXPECT_NEAR(summary.worst_after, 2 / std::numbers::pi * std::asin(worst_sine(result)), 1e-12);
 }
 
 TEST(QuadOptimisation, NothingToMove) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "mesh/parallel.h"
-#include "smoothing/quad_relocation.h"
+#include "base/context.h"
+#include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
@@ -30,8 +30,25 @@ QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, d
   return {std::move(mesh), weights};
 }
 
+/// The gradient agrees with central differences.
+template <class Energy>
+void expect_gradient(const Energy& energy, const std::vector<double>& at) {
+  constexpr double kStep = 1e-6;
+  std::vector<double> gradient(at.size());
+  double value = 0;
+  ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    std::vector<double> high = at, low = at;
+    high[i] += kStep, low[i] -= kStep;
+    double above = 0, below = 0;
+    ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
+    ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
+    const double difference = (above - below) / (2 * kStep);
+    EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
+  }
+}
+
 TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
-  const double step = 1e-6;
   for (int seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
     const QuadPatch mesh = jittered(grid_patch(5, 4), seed, 0.2);
@@ -40,26 +57,15 @@ TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
                                      {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {30, 3, 0.4, 0.1, 0.1}};
     for (const QuadEnergyWeights& weights : all) {
       const QuadEnergy energy = energy_of(mesh, 0.8, 0.2, 0.05, weights);
-      std::vector<double> at(energy.variables()), gradient(at.size());
+      std::vector<double> at(energy.variables());
       std::mt19937_64 random(seed);
       for (double& x : at) x = 0.04 * (shapes::uniform(random) - 0.5);
-      double value = 0;
-      ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        std::vector<double> high = at, low = at;
-        high[i] += step, low[i] -= step;
-        double above = 0, below = 0;
-        ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
-        ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
-        const double difference = (above - below) / (2 * step);
-        EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
-      }
+      expect_gradient(energy, at);
     }
   }
 }
 
 TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
-  const double step = 1e-6;
   for (int seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
     const QuadPatch patch = jittered(grid_patch(5, 4), seed, 0.2);
@@ -79,19 +85,9 @@ TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
     mesh.least_sine.assign(patch.quads.size(), 0.02);
     mesh.weight.assign(patch.quads.size(), 0.7);
     const QuadEnergy<Vec3> energy(mesh, {});
-    std::vector<double> at(energy.variables()), gradient(at.size());
+    std::vector<double> at(energy.variables());
     for (double& x : at) x = 0.04 * number();
-    double value = 0;
-    ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      std::vector<double> high = at, low = at;
-      high[i] += step, low[i] -= step;
-      double above = 0, below = 0;
-      ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
-      ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
-      const double difference = (above - below) / (2 * step);
-      EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
-    }
+    expect_gradient(energy, at);
   }
 }
 
@@ -102,17 +98,16 @@ TEST(QuadEnergy, TheSameOnAnyNumberOfThreads) {
   std::mt19937_64 random(1);
   for (double& x : at) x = 0.04 * (shapes::uniform(random) - 0.5);
   double value = 0;
-  set_thread_count(1);
+  const RunScope one_thread({.threads = 1});
   ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
   for (const int threads : {2, 3}) {
-    set_thread_count(threads);
+    const RunScope run({.threads = threads});
     std::vector<double> again(at.size());
     double same = 0;
     ASSERT_TRUE(energy.evaluate(at.data(), same, again.data()));
     EXPECT_EQ(same, value);
     EXPECT_EQ(again, gradient);
   }
-  set_thread_count(1);
   // Vertices that several threads share move, too.
   const double step = 1e-5;
   for (std::size_t i = 0; i < at.size(); i += 97) {

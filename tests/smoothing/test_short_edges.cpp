@@ -1,8 +1,8 @@
-#include "smoothing/short_edges.h"
+#include "smoothing/relocation/short_edges.h"
 
 #include <gtest/gtest.h>
 
-#include "smoothing/quad_relocation.h"
+#include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patches.h"
 

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "algorithms/insertion/frontal_mesher.h"
+#include "base/context.h"
+#include "base/predicates.h"
+#include "boundaries/surface_domain.h"
 #include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "mesh/parallel.h"
-#include "mesh/predicates.h"
 #include "smoothing/cvt/cell_walk.h"
-#include "surfaces/surface_domain.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/expect_input_error.h"
@@ -238,13 +238,11 @@ TEST(Smoothing, IsTheSameBytesOnAnyNumberOfThreads) {
   const FunctionSize size(0.02);
   const std::vector<Vec2> seeds = inner_points(frontal(boundary, cross, size));
   ASSERT_GT(seeds.size(), 5000u);  // several blocks
-  const int usual = thread_count();
   std::vector<TriPatch> results;
   for (const int threads : {1, 2, 3}) {
-    set_thread_count(threads);
+    const RunScope run({.threads = threads});
     results.push_back(smooth(boundary, seeds, cross, size).patch);
   }
-  set_thread_count(usual);
   for (const TriPatch& other : results) {
     EXPECT_EQ(other.points, results[0].points);
     EXPECT_EQ(other.triangles, results[0].triangles);
@@ -298,7 +296,8 @@ TEST(Smoothing, WorksInTheParameterPlaneOfASurface) {
   improve_triangulation(model);
   const SurfaceSize size(make_constant_size(0.08));
   Flattening flattening = flatten(model);
-  const SurfaceDomain domain = make_surface_domain(model, std::move(flattening), size, *make_lemon_solver());
+  const SurfaceDomain domain =
+      make_surface_domain(model, std::move(flattening), size, *make_primal_dual_solver());
   for (const SurfacePatch& patch : domain.patches) {
     const HarmonicCrossField cross(patch.background);
     const SurfacePatchSize delta(patch, model.fine, size);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "smoothing/optimisation/quad_corners.h"
+#include "mesh/quad_corners.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {

@@ -3,8 +3,7 @@
 #include <functional>
 #include <utility>
 
-#include "fields/cross_field.h"
-#include "fields/size_field.h"
+#include "delquad/fields.h"
 
 /// Fields given by functions, for tests.
 namespace delquad::testing_support {

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "mesh/error.h"
+#include "delquad/error.h"
 
 namespace delquad {
 
@@ -22,6 +22,17 @@ void expect_input_error(Call&& call, std::initializer_list<const char*> parts) {
     return;
   }
   ADD_FAILURE() << "no InputError";
+}
+
+/// What it says of wrong input; empty: it throws no InputError.
+template <typename Call>
+std::string message_of(Call&& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace delquad

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/predicates.h"
 #include "geometry/surface/flatten.h"
 #include "mesh/constrained_delaunay.h"
-#include "mesh/predicates.h"
 
 namespace delquad::testing_support {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 /// Structured meshes of [0, width] x [0, height]: curves "south", "east", "north", "west" (tags 1 to 4), one
 /// region "inside" (tag 1).
@@ -28,29 +28,30 @@ inline Mesh grid_outline(int nx, int ny, double width, double height) {
   return mesh;
 }
 
+/// Calls f(a, d) for the cells, with their lower left and upper left points.
+template <class F>
+void for_each_cell(int nx, int ny, F f) {
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) f(j * (nx + 1) + i, (j + 1) * (nx + 1) + i);
+}
+
 inline Mesh quad_grid(int nx, int ny, double width = 1, double height = 1) {
   Mesh mesh = grid_outline(nx, ny, width, height);
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const int a = j * (nx + 1) + i, d = a + nx + 1;
-      mesh.quads.push_back({a, a + 1, d + 1, d});
-      mesh.quad_region.push_back(0);
-    }
-  }
+  for_each_cell(nx, ny, [&](int a, int d) {
+    mesh.quads.push_back({a, a + 1, d + 1, d});
+    mesh.quad_region.push_back(0);
+  });
   return mesh;
 }
 
 /// Each cell cut from its lower left to its upper right corner.
 inline Mesh triangle_grid(int nx, int ny, double width = 1, double height = 1) {
   Mesh mesh = grid_outline(nx, ny, width, height);
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const int a = j * (nx + 1) + i, d = a + nx + 1;
-      mesh.triangles.push_back({a, a + 1, d + 1});
-      mesh.triangles.push_back({a, d + 1, d});
-      mesh.triangle_region.insert(mesh.triangle_region.end(), 2, 0);
-    }
-  }
+  for_each_cell(nx, ny, [&](int a, int d) {
+    mesh.triangles.push_back({a, a + 1, d + 1});
+    mesh.triangles.push_back({a, d + 1, d});
+    mesh.triangle_region.insert(mesh.triangle_region.end(), 2, 0);
+  });
   return mesh;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -7,7 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
+#include "mesh/quad_corners.h"
+#include "mesh/quad_topology.h"
 
 /// What must hold for any quad mesh of a patch, whatever its geometry.
 namespace delquad::testing_support {
@@ -76,5 +80,19 @@ inline int count_loops(const PatchBoundary& boundary) {
   }
   return loops;
 }
+
+/// What check_quad_patch() finds, as failures of the test.
+inline void expect_sound(const QuadPatch& mesh, const PatchBoundary& boundary) {
+  const auto wrong = check_quad_patch(mesh, boundary, 2 - count_loops(boundary));
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+}
+
+/// Least sine over all corners: eta worst = 2/pi asin of it.
+inline double worst_sine(const QuadTopology& mesh) {
+  double least = 1;
+  for (int e = 0; e < mesh.element_slots(); ++e) least = std::min(least, least_sine(mesh, e));
+  return least;
+}
+inline double worst_sine(const QuadPatch& mesh) { return worst_sine(QuadTopology(mesh)); }
 
 }  // namespace delquad::testing_support

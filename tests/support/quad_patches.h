@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "smoothing/quad_topology.h"
+#include "mesh/quad_topology.h"
 #include "tests/support/shapes.h"
 
 /// Quad meshes of patches made in code.
@@ -26,6 +26,15 @@ inline QuadPatch grid_patch(int nx, int ny) {
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
       mesh.quads.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)});
+  return mesh;
+}
+
+/// One triangle, on the boundary shapes::disk(1, 3).
+inline QuadPatch triangle_patch() {
+  QuadPatch mesh;
+  mesh.points = shapes::disk(1, 3).points;
+  mesh.triangles = {{0, 1, 2}};
+  mesh.n_boundary = 3;
   return mesh;
 }
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/patch.h"
+#include "delquad/mesh.h"
 
 /// Boundaries made in code: points in loop order, the outer loop first (counterclockwise), then the holes
 /// (clockwise); each side or circle is a curve of its own, and each point is its own node.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -11,22 +13,9 @@
 
 namespace delquad::testing_support {
 
-/// What breaks the promises of SurfaceModel, one line each.
-inline std::vector<std::string> violations(const SurfaceModel& model) {
+/// Chains: each line begins where the one before it ended, and only their ends are corners.
+inline void check_chains(const SurfaceModel& model, std::vector<std::string>& wrong) {
   const Mesh& mesh = model.fine;
-  std::vector<std::string> wrong = check_invariants(mesh);
-  std::set<std::array<int, 2>> lines;
-  for (const auto& [a, b] : mesh.lines) lines.insert({std::min(a, b), std::max(a, b)});
-  const auto sides = sorted_half_edges(mesh);
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    const bool inside =
-        edge.size() == 2 && mesh.triangle_region[edge[0].element] == mesh.triangle_region[edge[1].element];
-    if (!inside && !lines.contains({edge[0].lo, edge[0].hi})) {
-      wrong.push_back("no line between faces at point " + std::to_string(edge[0].lo));
-    }
-  });
-
-  // Chains: each line begins where the one before it ended, and only their ends are corners.
   std::map<int, std::vector<std::array<int, 2>>> chains;
   for (size_t i = 0; i < mesh.lines.size(); ++i) chains[mesh.line_curve[i]].push_back(mesh.lines[i]);
   if (chains.size() != mesh.curves.size()) wrong.push_back("a curve without lines");
@@ -57,15 +46,18 @@ inline std::vector<std::string> violations(const SurfaceModel& model) {
   for (const int point : model.corners) {
     if (!lines_at.contains(point)) wrong.push_back("no curve at corner " + std::to_string(point));
   }
+}
 
-  // Faces hang together across sides that are no lines.
+/// Faces hang together across sides that are none of these lines.
+inline void check_faces(const Mesh& mesh, const std::set<std::array<int, 2>>& lines,
+                        std::vector<std::string>& wrong) {
   std::vector<int> part(mesh.triangles.size());
   for (size_t t = 0; t < part.size(); ++t) part[t] = static_cast<int>(t);
   const auto find = [&](int t) {
     while (part[t] != t) t = part[t] = part[part[t]];
     return t;
   };
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
     if (edge.size() == 2 && !lines.contains({edge[0].lo, edge[0].hi}))
       part[find(edge[0].element)] = find(edge[1].element);
   });
@@ -75,6 +67,24 @@ inline std::vector<std::string> violations(const SurfaceModel& model) {
     if (some.size() > 1) wrong.push_back("face " + std::to_string(face) + " is in pieces");
   }
   if (parts.size() != mesh.regions.size()) wrong.push_back("a face without triangles");
+}
+
+/// What breaks the promises of SurfaceModel, one line each.
+inline std::vector<std::string> violations(const SurfaceModel& model) {
+  const Mesh& mesh = model.fine;
+  std::vector<std::string> wrong = check_invariants(mesh);
+  std::set<std::array<int, 2>> lines;
+  for (const auto& [a, b] : mesh.lines) lines.insert({std::min(a, b), std::max(a, b)});
+  const auto sides = sorted_half_edges(mesh);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const bool inside =
+        edge.size() == 2 && mesh.triangle_region[edge[0].element] == mesh.triangle_region[edge[1].element];
+    if (!inside && !lines.contains({edge[0].lo, edge[0].hi})) {
+      wrong.push_back("no line between faces at point " + std::to_string(edge[0].lo));
+    }
+  });
+  check_chains(model, wrong);
+  check_faces(mesh, lines, wrong);
   return wrong;
 }
 
@@ -85,6 +95,14 @@ inline double volume(const Mesh& mesh) {
     sum += dot(mesh.points[v[0]], cross(mesh.points[v[1]], mesh.points[v[2]])) / 6;
   }
   return sum;
+}
+
+/// The model is sound and has so many of each.
+inline void expect_counts(const SurfaceModel& model, size_t faces, size_t curves, size_t corners) {
+  EXPECT_EQ(model.fine.regions.size(), faces);
+  EXPECT_EQ(model.fine.curves.size(), curves);
+  EXPECT_EQ(model.corners.size(), corners);
+  EXPECT_EQ(violations(model), std::vector<std::string>{});
 }
 
 }  // namespace delquad::testing_support

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/patch.h"
-#include "mesh/predicates.h"
+#include "base/predicates.h"
+#include "delquad/mesh.h"
 #include "tests/support/shapes.h"
 
 /// Triangulations made in code.

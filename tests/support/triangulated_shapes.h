@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "delquad/mesh.h"
 
 /// Closed surfaces of triangles with normals outwards, one region a side; nodes are shared.
 namespace delquad::testing_support {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pipeline/prepare.h"
+#include "cases/problem.h"
+#include "mesher/prepare.h"
 #include "sweep/experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -23,10 +24,10 @@ TEST_F(Matrix, EveryCombinationIsAVariant) {
   ASSERT_EQ(e.n_variants(), 6u);
   EXPECT_EQ(e.n_cells(), 24u);
   const Case first = e.read_variant(0, 0), last = e.read_variant(0, 5);
-  EXPECT_EQ(first.options.frontal.h_max, 1.3);
+  EXPECT_EQ(first.options.number("insertion.h_max"), 1.3);
   EXPECT_EQ(first.size.base, "0.1");
   EXPECT_EQ(first.folder, "a@h_max=1.3,size=0.1");
-  EXPECT_EQ(last.options.frontal.h_max, 1.5);
+  EXPECT_EQ(last.options.number("insertion.h_max"), 1.5);
   EXPECT_EQ(last.size.base, "0.1 + x");
   EXPECT_EQ(last.folder, "a@h_max=1.5,size=0.1_+_x");
   EXPECT_EQ(last.name, "a");
@@ -36,7 +37,7 @@ TEST_F(Matrix, EveryCombinationIsAVariant) {
 TEST_F(Matrix, KeysMayBeQuoted) {
   const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"cleanup\".seed = [2]\n");
   ASSERT_EQ(e.n_variants(), 2u);
-  EXPECT_EQ(e.read_variant(0, 1).options.frontal.h_max, 1.4);
+  EXPECT_EQ(e.read_variant(0, 1).options.number("insertion.h_max"), 1.4);
   EXPECT_EQ(e.read_variant(0, 1).folder, "a@seed=2,h_max=1.4");
   expect_input_error([&] { read("[matrix]\n\"a.b\" = [1]\na.b = [2]\n"); }, {"e.toml:", "'a.b'", "twice"});
 }
@@ -44,8 +45,8 @@ TEST_F(Matrix, KeysMayBeQuoted) {
 TEST_F(Matrix, OtherKeysOfATableStay) {
   const Experiment e = read("[matrix]\ninsertion.h_max = [1.3]\n",
                             kSquare + "size = 0.1\ninsertion = { rejection = 0.5, h_max = 1.2 }\n");
-  EXPECT_EQ(e.read_variant(0).options.frontal.h_max, 1.3);
-  EXPECT_EQ(e.read_variant(0).options.frontal.rejection, 0.5);
+  EXPECT_EQ(e.read_variant(0).options.number("insertion.h_max"), 1.3);
+  EXPECT_EQ(e.read_variant(0).options.number("insertion.rejection"), 0.5);
 }
 
 TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
@@ -65,7 +66,8 @@ TEST_F(Matrix, MistakesAreNamed) {
                      {"e.toml:2", "'case.insertion.h_mx'", "'h_max'"});
   expect_input_error([&] { read("[matrix]\nsize.gradation = [0.3]\n"); },
                      {"e.toml:2", "'size' is no table at", "e.toml:6"});
-  expect_input_error([&] { read("[matrix]\ninsertion.h_max = [9]\n"); }, {"e.toml:2", "'h_max' is 9"});
+  expect_input_error([&] { read("[matrix]\ninsertion.h_max = [9]\n"); },
+                     {"e.toml:2", "'insertion.h_max' is 9"});
 }
 
 /// Another place for every node, but the same domain.
@@ -74,8 +76,8 @@ TEST_F(Matrix, SeedsTurnAndShiftADomain) {
     return prepare_case(
         read("", kSquare + "size = \"0.05 + 0.05*x\"\ncross = \"x\"\n" + seed).read_variant(0));
   };
-  const PreparedCase plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
-                     again = prepared("seed = 5\n");
+  const PreparedProblem plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
+                        again = prepared("seed = 5\n");
   EXPECT_EQ(plain.patches[0].boundary.points, same.patches[0].boundary.points);
   EXPECT_EQ(other.patches[0].boundary.points, again.patches[0].boundary.points);
   EXPECT_NE(plain.patches[0].boundary.points, other.patches[0].boundary.points);

@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "io/mesh_io.h"
-#include "pipeline/run_program.h"
 #include "sweep/rerun.h"
 #include "sweep/result_records.h"
 #include "sweep/run_experiment.h"
+#include "sweep/run_program.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"

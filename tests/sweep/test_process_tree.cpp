@@ -10,8 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "mesh/error.h"
-#include "mesh/parallel.h"
+#include "base/context.h"
+#include "base/parallel.h"
+#include "delquad/error.h"
 #include "sweep/process_tree.h"
 
 namespace delquad {
@@ -140,7 +141,7 @@ TEST_F(ProcessTree, MemoryIsLimited) {
 
 /// A process that has started threads forks, and both go on with threads of their own.
 TEST_F(ProcessTree, ThreadsSurviveForks) {
-  set_thread_count(2);
+  const RunScope scope({.threads = 2});
   const auto add = [this] {
     parallel_for(8, [this](std::size_t) {
       std::this_thread::sleep_for(2ms);

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "mesh/error.h"
-#include "pipeline/case_keys.h"
+#include "cases/case_keys.h"
+#include "delquad/error.h"
 #include "sweep/experiment.h"
 #include "sweep/schema.h"
 #include "tests/support/run_program.h"
@@ -20,20 +20,16 @@ using Json = nlohmann::json;
 
 /// A table of an experiment with scalar keys: what stands before and after one of them.
 struct Place {
-  const char* path;  ///< empty: the top
-  const TomlKeys& keys;
-  const char* beside;  ///< other keys that it needs
+  std::string path;  ///< empty: the top
+  TomlKeys keys;
+  std::string beside;  ///< other keys that it needs
 };
 
-const std::vector<Place>& places() {
-  static const std::vector<Place> all = {{"", case_keys(), ""},
-                                         {"size", size_keys(), "base = 1, curvature = 20, max = 100"},
-                                         {"insertion", insertion_keys(), ""},
-                                         {"smoothing", smoothing_keys(), ""},
-                                         {"recombination", recombination_keys(), ""},
-                                         {"cleanup", cleanup_keys(), ""},
-                                         {"optimisation", optimisation_keys(), ""},
-                                         {"surface", surface_keys(), ""}};
+std::vector<Place> places() {
+  std::vector<Place> all = {{"", case_keys(), ""},
+                            {"size", size_keys(), "base = 1, curvature = 20, max = 100"},
+                            {"surface", surface_keys(), ""}};
+  for (const OptionGroup& group : option_groups()) all.push_back({group.name, keys_of(group), ""});
   return all;
 }
 
@@ -42,15 +38,15 @@ class Schema : public testing::Test {
   /// What the program says to a key with this value; empty: nothing.
   std::string complaint(const Place& place, const std::string& key, const std::string& value) {
     std::string line = key + " = " + value;
-    if (*place.path != 0) {
+    if (!place.path.empty()) {
       std::string beside;
-      for (std::size_t from = 0, to; from < std::string(place.beside).size(); from = to + 2) {
-        const std::string all = place.beside;
+      for (std::size_t from = 0, to; from < place.beside.size(); from = to + 2) {
+        const std::string& all = place.beside;
         to = std::min(all.find(", ", from), all.size());
         const std::string other = all.substr(from, to - from);
         if (!other.starts_with(key + " ")) beside += ", " + other;
       }
-      line = std::string(place.path) + " = { " + line + beside + " }";
+      line = place.path + " = { " + line + beside + " }";
     }
     const std::string size = line.starts_with("size =") ? "" : "size = 1\n";
     const auto file =
@@ -84,7 +80,7 @@ TEST_F(Schema, SaysOfValuesWhatTheProgramSays) {
   for (const Place& place : places())
     for (const TomlKey& key : place.keys) {
       if (key.type.empty() || key.name == "compare" || key.name == "compound") continue;
-      if (*place.path == 0 && key.name != "size" && key.name != "cross" && key.name != "seed") continue;
+      if (place.path.empty() && key.name != "size" && key.name != "cross" && key.name != "seed") continue;
       SCOPED_TRACE(key.name);
       const Json type = Json::parse(key.type);
       ++checked;
@@ -125,7 +121,7 @@ void for_each_table(const TomlKeys& keys, const std::string& name,
                     const std::function<void(const std::string&, const TomlKeys&)>& visit) {
   visit(name, keys);
   for (const TomlKey& key : keys)
-    if (key.table != nullptr) for_each_table(*key.table, key.name, visit);
+    if (key.table != nullptr) for_each_table(key.table(), key.name, visit);
 }
 
 /// Keys that the schema has and the program does not know would be refused as unknown.
@@ -133,9 +129,8 @@ TEST_F(Schema, HasNoKeyThatTheProgramLacks) {
   for (const Place& place : places())
     for (const TomlKey& key : place.keys) {
       const std::string said = complaint(place, key.name, "{ nonsense = 1 }");
-      EXPECT_EQ(
-          said.find("unknown key '" + (*place.path ? std::string(place.path) + "." : "") + key.name + "'"),
-          std::string::npos)
+      EXPECT_EQ(said.find("unknown key '" + (place.path.empty() ? "" : place.path + ".") + key.name + "'"),
+                std::string::npos)
           << said;
     }
 }
@@ -145,6 +140,7 @@ TEST_F(Schema, DocumentationHasEveryKey) {
   for_each_table(experiment_keys(), "the top", [&](const std::string& table, const TomlKeys& keys) {
     for (const TomlKey& key : keys)
       EXPECT_TRUE(text.find("`" + key.name + "`") != std::string::npos ||
+                  text.find("." + key.name + "`") != std::string::npos ||
                   text.find("`" + key.name + " = ") != std::string::npos ||
                   text.find(" " + key.name + " = ") != std::string::npos ||
                   text.find("[" + key.name + "]") != std::string::npos)

@@ -3,7 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/case_file.h"
+#include "cases/case_file.h"
+#include "smoothing/cvt/cvt_options.h"
 #include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -36,29 +37,30 @@ class SmoothingStage : public testing::Test {
 };
 
 TEST_F(SmoothingStage, OptionsAreRead) {
-  EXPECT_EQ(read("{}").options.smoothing_options.p, 6);
-  EXPECT_EQ(read("{}").options.smoothing, SmoothingMethod::kLpCvt);
-  const MeshingOptions o =
-      read(
-          "{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, rank = 5, "
-          "function_tolerance = 1e-3, gradient_tolerance = 0.5 }")
-          .options;
-  EXPECT_EQ(o.smoothing, SmoothingMethod::kLloyd);
-  EXPECT_EQ(o.smoothing_options.p, 8);
-  EXPECT_EQ(o.smoothing_options.outer_iterations, 2);
-  EXPECT_EQ(o.smoothing_options.inner.iterations, 7);
-  EXPECT_EQ(o.smoothing_options.inner.rank, 5);
-  EXPECT_EQ(o.smoothing_options.inner.function_tolerance, 1e-3);
-  EXPECT_EQ(o.smoothing_options.inner.gradient_tolerance, 0.5);
+  EXPECT_EQ(cvt_options(read("{}").options).smoothing.p, 6);
+  EXPECT_EQ(cvt_options(read("{}").options).method, SmoothingMethod::kLpCvt);
+  const CvtOptions o =
+      cvt_options(read("{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, rank = 5, "
+                       "function_tolerance = 1e-3, gradient_tolerance = 0.5 }")
+                      .options);
+  EXPECT_EQ(o.method, SmoothingMethod::kLloyd);
+  EXPECT_EQ(o.smoothing.p, 8);
+  EXPECT_EQ(o.smoothing.outer_iterations, 2);
+  EXPECT_EQ(o.smoothing.inner.iterations, 7);
+  EXPECT_EQ(o.smoothing.inner.rank, 5);
+  EXPECT_EQ(o.smoothing.inner.function_tolerance, 1e-3);
+  EXPECT_EQ(o.smoothing.inner.gradient_tolerance, 0.5);
 }
 
 TEST_F(SmoothingStage, MistakesAreNamed) {
-  expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "p is 5", "even"});
-  expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "2 to 16"});
-  expect_input_error([&] { read("{ method = \"newton\" }"); }, {"c.toml:3", "'newton'", "lloyd"});
-  expect_input_error([&] { read("{ inner_iterations = -1 }"); }, {"c.toml:3", "'inner_iterations' is -1"});
-  expect_input_error([&] { read("{ rank = 0 }"); }, {"'rank' is 0", "1 to"});
-  expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'function_tolerance' is -1"});
+  expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "'smoothing.p' is 5", "2, 4, 6"});
+  expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "14 or 16"});
+  expect_input_error([&] { read("{ method = \"newton\" }"); },
+                     {"c.toml:3", "\"newton\"", "\"lpcvt\" or \"lloyd\""});
+  expect_input_error([&] { read("{ inner_iterations = -1 }"); },
+                     {"c.toml:3", "'smoothing.inner_iterations' is -1"});
+  expect_input_error([&] { read("{ rank = 0 }"); }, {"'smoothing.rank' is 0", "from 1 to"});
+  expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'smoothing.function_tolerance' is -1"});
   expect_input_error([&] { read("{ q = 4 }"); }, {"'smoothing.q'"});
 }
 
@@ -73,6 +75,10 @@ TEST_F(SmoothingStage, RecordsAndDrawsItsConvergence) {
   EXPECT_EQ(s["energy_by_evaluation"].size(), 1u);
   EXPECT_EQ(s["energy_by_evaluation"][0].size(), s["evaluations"]);
   EXPECT_EQ(s["energy_by_evaluation"][0][0], s["first_energy"]);
+  EXPECT_EQ(s["first_of_frames"][0].size(), s["outer_iterations"]);
+  EXPECT_GE(s["accepted_evaluations"][0].size(), s["iterations"]);
+  EXPECT_LE(s["accepted_evaluations"][0].size(), s["evaluations"]);
+  EXPECT_EQ(s["termination"].size(), 1u);
   EXPECT_EQ(fl["options"]["smoothing"]["outer_iterations"], 2);
   EXPECT_TRUE(fl["seconds"].contains("smoothing"));
   EXPECT_TRUE(fs::exists(folder_ / "out" / "disk" / "DLB" / "convergence.svg"));

@@ -1,0 +1,163 @@
+#include "algorithms/treatment/local_remeshing.h"
+
+#include <algorithm>
+
+#include "smoothing/relocation/untangling.h"
+
+namespace delquad {
+
+namespace {
+
+/// Sweeps of relocation and of lifting after untangling.
+constexpr int kRelocationSweeps = 8, kLiftSweeps = 3;
+
+/// Rings around a quad that are untangled after edits of it, of its neighbours, and at the last attempt, when
+/// a whole tangle may have to move.
+constexpr int kNearRings = 2, kFarRings = 3, kMostRings = 20;
+/// A region grows by no more rings once it has so many vertices; and at the last attempt.
+constexpr int kLargeRegion = 40, kHugeRegion = 1500;
+
+/// Vertices that may be settled, counting each time, for each element of the mesh; and in any mesh. Patches
+/// whose bad quads are few need a tenth of it.
+constexpr long long kSettlementsPerElement = 200, kLeastSettlements = 20000;
+
+void sort_unique(std::vector<int>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+}  // namespace
+
+LocalRemeshing::LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, ShapePenalty& penalty)
+    : mesh_(mesh),
+      relocation_(relocation),
+      penalty_(penalty),
+      settlements_(kLeastSettlements + kSettlementsPerElement * mesh.element_slots()) {}
+
+bool LocalRemeshing::improve(int quad, double least_relief) {
+  collect_region(quad, kNearRings, kLargeRegion);
+  list_near_edits(quad);
+  if (try_all(least_relief, false)) return true;
+  if (least_sine(mesh_, quad) > kFlatSine) return false;
+  collect_region(quad, kFarRings, kLargeRegion);
+  list_far_edits(quad);
+  if (try_all(least_relief, true)) return true;
+  collect_region(quad, kMostRings, kHugeRegion);
+  edits_.assign(1, {});
+  add_pillow({quad});
+  return try_all(least_relief, true);
+}
+
+/// The elements that share a side (or a corner) with one of these, and these.
+std::vector<int> LocalRemeshing::neighbours(std::span<const int> elements, bool across_corners) const {
+  std::vector<int> all(elements.begin(), elements.end());
+  for (const int e : elements)
+    for (int k = 0; k < (mesh_.is_quad(e) ? 4 : 3); ++k) {
+      const int h = 4 * e + k;
+      if (across_corners)
+        mesh_.for_each_out(mesh_.origin(h), [&](int g) { all.push_back(QuadTopology::element(g)); });
+      else if (mesh_.twin(h) >= 0)
+        all.push_back(QuadTopology::element(mesh_.twin(h)));
+    }
+  sort_unique(all);
+  return all;
+}
+
+void LocalRemeshing::collect_region(int quad, int rings, int enough) {
+  std::vector<int> elements{quad};
+  for (int ring = 0;; ++ring) {
+    region_.clear();
+    for (const int e : elements)
+      for (int k = 0; k < 4; ++k)
+        if (const int v = mesh_.corner(e, k); v >= 0) region_.push_back(v);
+    sort_unique(region_);
+    if (ring == rings || static_cast<int>(region_.size()) > enough) return;
+    elements = neighbours(elements, true);
+  }
+}
+
+void LocalRemeshing::add_moves(int element) {
+  for_each_move(mesh_, element, [&](const TreatmentMove& move) {
+    if (is_legal(mesh_, move)) edits_.push_back({move, {}});
+  });
+}
+
+void LocalRemeshing::add_pillow(std::vector<int> quads) {
+  std::erase_if(quads, [&](int e) { return !mesh_.is_quad(e); });
+  if (!quads.empty() && mesh_.can_pillow(quads) && !ring_divides_sharp_corner(mesh_, quads))
+    edits_.push_back({{}, std::move(quads)});
+}
+
+void LocalRemeshing::list_near_edits(int quad) {
+  edits_.assign(1, {});
+  add_moves(quad);
+  add_pillow({quad});
+}
+
+void LocalRemeshing::list_far_edits(int quad) {
+  edits_.assign(1, {});
+  const std::array<int, 1> self{quad};
+  for (const int e : neighbours(self, false)) {
+    add_moves(e);
+    add_pillow({e});
+    if (e != quad) add_pillow({quad, e});
+  }
+  add_pillow(neighbours(self, false));
+  for (int k = 0; k < 4; ++k) {
+    std::vector<int> fan;
+    mesh_.for_each_out(mesh_.corner(quad, k), [&](int h) { fan.push_back(QuadTopology::element(h)); });
+    add_pillow(std::move(fan));
+  }
+  const std::vector<int> ring = neighbours(self, true);
+  add_pillow(ring);
+  add_pillow(neighbours(ring, true));
+}
+
+void LocalRemeshing::perform(const Edit& edit) {
+  const int first = mesh_.vertex_slots();
+  if (!edit.pillow.empty())
+    mesh_.pillow(edit.pillow);
+  else if (edit.move.at >= 0)
+    apply(mesh_, edit.move);
+  if (first < mesh_.vertex_slots()) relocation_.adopt_new_vertices(first);
+  for (int v = first; v < mesh_.vertex_slots(); ++v) region_.push_back(v);
+  free_.clear();
+  for (const int v : region_)
+    if (mesh_.vertex_alive(v) && !mesh_.on_boundary(v)) free_.push_back(v);
+  settle();
+}
+
+void LocalRemeshing::settle() {
+  settlements_ -= static_cast<long long>(free_.size());
+  untangle(mesh_, free_);
+  for (int sweep = 0; sweep < kRelocationSweeps; ++sweep)
+    for (const int v : free_) relocation_.step(v);
+  const double enough = sine_of_eta(kPoorEta);
+  for (int sweep = 0; sweep < kLiftSweeps; ++sweep)
+    for (const int v : free_) relocation_.lift(v, enough);
+}
+
+bool LocalRemeshing::try_all(double least_relief, bool first_will_do) {
+  const double before = penalty_.around(region_);
+  const std::size_t n_region = region_.size();
+  const auto start = mesh_.mark();
+  double best = before - least_relief;
+  const Edit* choice = nullptr;
+  for (const Edit& edit : edits_) {
+    if (settlements_ <= 0) break;
+    perform(edit);
+    const double after = penalty_.around(region_);
+    if (after < best) best = after, choice = &edit;
+    mesh_.rollback(start);
+    region_.resize(n_region);
+    if (first_will_do && choice != nullptr) break;
+  }
+  if (choice == nullptr) return false;
+  const int slots = mesh_.vertex_slots();
+  perform(*choice);
+  ring_quads_ = mesh_.vertex_slots() - slots;
+  move_ = choice->move;
+  return true;
+}
+
+}  // namespace delquad

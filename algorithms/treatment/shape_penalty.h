@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include "base/marks.h"
+#include "smoothing/relocation/quad_relocation.h"
+
+namespace delquad {
+
+/// Below this eta an element is poor: moves for the valences may not add to the penalty around, and any move
+/// that takes from it is welcome.
+inline constexpr double kPoorEta = 0.3;
+/// A corner whose sine is at most this is flat, reflex or turned over: eta 0.
+inline constexpr double kFlatSine = 1e-7;
+
+/// How bad the shapes of a part of a mesh are, for comparison before and after an edit.
+class ShapePenalty {
+ public:
+  explicit ShapePenalty(const QuadTopology& mesh) : mesh_(mesh) {}
+
+  /// Of the corners of the elements around the vertices (dead ones are skipped), the sum of (what the sine
+  /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. Each
+  /// element of eta 0 counts as much as any number of others.
+  double around(std::span<const int> vertices);
+
+ private:
+  const QuadTopology& mesh_;
+  Marks elements_met_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/counters.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+struct TreatmentOptions {
+  int max_rounds = 20;  ///< rounds of topology and relocation; stops earlier when a round changes no topology
+};
+
+struct TreatmentSummary {
+  int rounds = 0;
+  int doublets = 0;          ///< interior vertices between two quads, removed
+  int diamonds = 0;          ///< quads removed by merging two opposite corners
+  int swaps = 0;             ///< edges rotated within the hexagon of their two quads
+  int openings = 0;          ///< pairs of quads added so that a boundary vertex gets its second one
+  int boundary_repairs = 0;  ///< times that a ring of new quads was put around bad ones
+  int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
+  int relocated = 0;         ///< moves of vertices
+  long long looks = 0;       ///< QuadRelocation::looks(): at most linear in the number of elements
+  double seconds = 0;
+};
+
+template <>
+struct Counters<TreatmentSummary> {
+  using S = TreatmentSummary;
+  static constexpr const char* step = "treatment";
+  static constexpr auto all = std::tuple{counter("rounds", &S::rounds, Over::kMost),
+                                         counter("doublets", &S::doublets),
+                                         counter("diamonds", &S::diamonds),
+                                         counter("swaps", &S::swaps),
+                                         counter("openings", &S::openings),
+                                         counter("boundary_repairs", &S::boundary_repairs),
+                                         counter("ring_quads", &S::ring_quads),
+                                         counter("relocated", &S::relocated),
+                                         counter("looks", &S::looks),
+                                         counter("seconds", &S::seconds)};
+};
+
+/// The treatment after matching that the paper's tables include [Remacle et al. 2012, section 7; its
+/// Blossom-Quad]: doublets, diamonds, swaps of poor pairs, vertex relocation.
+///
+/// Differs from the paper:
+/// - an edit is chosen by what it takes off the sum of (valence - ideal)^2, largest first, boundary vertices
+///   with their own ideal; two edits may be tried together where the first alone gains nothing;
+/// - it is kept only if, after local relocation, the elements around are not poorer (eta below 0.3) than
+///   before;
+/// - a flat boundary vertex with one quad, which rotations would only hand to the next, gets its second by an
+///   opening, see QuadTopology::open;
+/// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) a ring of new
+///   quads; those of eta 0 are in the end remeshed with their neighbourhood, see LocalRemeshing;
+/// - relocation weighs angles and edge lengths, and a last pass lifts the worst quads.
+///
+/// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
+/// topology type; quads stay quads and leftover triangles triangles. Throws std::invalid_argument where the
+/// input is not conforming. Quads of eta 0 may be left where edges of the boundary are some hundred times as
+/// long as the quads beside them, or where corners of about one degree crowd.
+QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
+                      TreatmentSummary* summary = nullptr);
+
+}  // namespace delquad

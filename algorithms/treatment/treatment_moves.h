@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/quad_topology.h"
+#include "smoothing/relocation/quad_relocation.h"
+
+namespace delquad {
+
+/// One edit of the quad mesh that the treatment or the clean-up may choose.
+struct TreatmentMove {
+  enum Kind : int {
+    kRotateForward,
+    kRotateBackward,
+    kCollapse,
+    kDoublet,
+    kInset,
+    kSplit,
+    kOpenForward,
+    kOpenBackward
+  };
+  Kind kind;
+  int at;       ///< half-edge; for a doublet its vertex
+  int to = -1;  ///< second half-edge of a split
+  friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
+};
+
+/// Vertices that a move touches.
+struct TouchedVertices {
+  std::array<int, 6> v;
+  int n = 0;
+  const int* begin() const { return v.data(); }
+  const int* end() const { return v.data() + n; }
+};
+
+/// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle /
+/// 90 degrees, rounded and at least 1, on the boundary. To this comes what a valence costs that forces an
+/// element of less than eta 1/2, as a doublet or a single quad in a boundary angle of more than 135 degrees:
+/// 1 to 12, the most at eta 0. A valence of 6 or 3 forces none.
+class ValenceEnergy {
+ public:
+  explicit ValenceEnergy(const QuadTopology& mesh);
+
+  int of(int v, int valence) const {
+    if (mesh_.on_boundary(v)) return misfit(valence, ideal_[v]);
+    return static_cast<std::size_t>(valence) < inside_.size() ? inside_[valence] : misfit(valence, kInside);
+  }
+  int of(int v) const { return of(v, mesh_.valence(v)); }
+  /// What the move takes off the sum. Not for insets, which are never chosen for it.
+  int gain(const TreatmentMove& move) const;
+
+ private:
+  struct Ideal {
+    double angle;  ///< of the elements around the vertex, in right angles
+    int valence;
+  };
+  static constexpr Ideal kInside{4, 4};
+  static int misfit(int valence, const Ideal& ideal);
+  int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
+
+  const QuadTopology& mesh_;
+  std::vector<Ideal> ideal_;    ///< of boundary vertices
+  std::array<int, 16> inside_;  ///< of interior vertices, by valence
+};
+
+/// Whether a ring of quads laid around these would divide a sharp corner of the boundary that one of them
+/// fills.
+bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads);
+
+bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
+void apply(QuadTopology& mesh, const TreatmentMove& move);
+/// The same; vertices that it creates can then be relocated, and are added to `touched`.
+void apply(QuadTopology& mesh, QuadRelocation& relocation, const TreatmentMove& move,
+           std::vector<int>& touched);
+/// The vertices whose valences the move changes or whose elements it replaces, without those that it removes
+/// or creates.
+TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move);
+
+/// Calls f(move) for the moves at an element: rotations of its sides, its two collapses, its doublets.
+/// Legality is not checked, except that rotated sides lie between quads.
+template <class F>
+void for_each_move(const QuadTopology& mesh, int element, F&& f) {
+  if (!mesh.alive(element)) return;
+  const int n = mesh.is_quad(element) ? 4 : 3;
+  for (int h = 4 * element; h < 4 * element + n; ++h) {
+    const int v = mesh.origin(h);
+    if (mesh.valence(v) == 2 && !mesh.on_boundary(v)) f(TreatmentMove{TreatmentMove::kDoublet, v});
+    if (n == 3) continue;
+    if (const int t = mesh.twin(h); t >= 0 && mesh.is_quad(QuadTopology::element(t))) {
+      f(TreatmentMove{TreatmentMove::kRotateForward, t < h ? t : h});
+      f(TreatmentMove{TreatmentMove::kRotateBackward, t < h ? t : h});
+    }
+    // The corner that goes is interior; of two interior ones the kept one is the first.
+    const int opposite = mesh.next(mesh.next(h));
+    const bool goes = !mesh.on_boundary(mesh.origin(opposite));
+    if (goes && (mesh.on_boundary(v) || h < opposite)) f(TreatmentMove{TreatmentMove::kCollapse, h});
+  }
+}
+
+/// Calls f(move) for the openings of sides of an element that give one of its boundary vertices an edge more.
+/// Legality is not checked. Unlike rotations they take none from the next boundary vertex.
+template <class F>
+void for_each_opening(const QuadTopology& mesh, int element, F&& f) {
+  if (!mesh.is_quad(element)) return;
+  for (int h = 4 * element; h < 4 * element + 4; ++h) {
+    if (mesh.twin(h) < 0) continue;
+    if (mesh.on_boundary(mesh.target(mesh.next(h)))) f(TreatmentMove{TreatmentMove::kOpenForward, h});
+    if (mesh.on_boundary(mesh.origin(mesh.prev(h)))) f(TreatmentMove{TreatmentMove::kOpenBackward, h});
+  }
+}
+
+/// Calls f(move) for the splits of a vertex. Legality is not checked, except that both parts keep a valence
+/// of 3 at least. The treatment does not use them.
+template <class F>
+void for_each_split(const QuadTopology& mesh, int v, F&& f) {
+  if (mesh.valence(v) < 4) return;
+  for (int from = mesh.out(v), n = 0; n < mesh.valence(v) - 1; ++n, from = mesh.around(from)) {
+    int to = mesh.around(from);
+    for (int m = n + 2; m < mesh.valence(v); ++m) {
+      to = mesh.around(to);
+      const bool whole = !mesh.on_boundary(v) && n + mesh.valence(v) - m < 2;
+      if (!whole) f(TreatmentMove{TreatmentMove::kSplit, from, to});
+    }
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,261 @@
+#include "base/activity.h"
+
+#include <pthread.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "base/run.h"
+
+namespace delquad {
+
+/// What an entry says, without its texts copied.
+struct SeenFace {
+  const char *stage, *kind;
+  int tag;
+  long long since;
+};
+
+namespace {
+
+constexpr std::size_t kMostTold = 4;  // faces in a text for people
+
+constexpr long long kTick = 1'000'000'000;  // nanoseconds
+
+long long read_clock(clockid_t clock) {
+  timespec t = {};
+  return clock_gettime(clock, &t) == 0 ? t.tv_sec * kTick + t.tv_nsec : 0;
+}
+
+double seconds_of(long long nanoseconds) { return static_cast<double>(nanoseconds) / kTick; }
+
+/// Characters put together without memory of their own.
+class Text {
+ public:
+  Text(char* to, std::size_t size) : to_(to), room_(size > 0 ? size - 1 : 0) {}
+  void add(const char* text) {
+    while (*text != 0 && n_ < room_) to_[n_++] = *text++;
+  }
+  void add(std::int64_t number) {
+    char digits[24];
+    std::size_t k = sizeof digits;
+    digits[--k] = 0;
+    const bool negative = number < 0;
+    std::uint64_t rest =
+        negative ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
+    do digits[--k] = static_cast<char>('0' + rest % 10);
+    while ((rest /= 10) > 0);
+    if (negative) digits[--k] = '-';
+    add(digits + k);
+  }
+  /// " (4.2 s)"
+  void add_age(long long since) {
+    const std::int64_t tenths = (read_clock(CLOCK_MONOTONIC) - since) / (kTick / 10);
+    add(" (");
+    add(tenths / 10);
+    add(".");
+    add(tenths % 10);
+    add(" s)");
+  }
+  /// What stands for the faces behind the first few of `n`.
+  void add_others(int n) {
+    const int others = n - static_cast<int>(kMostTold);
+    if (others <= 0) return;
+    add(" and ");
+    add(std::int64_t{others});
+    add(others == 1 ? " other" : " others");
+  }
+  std::size_t finish() {
+    to_[n_] = 0;
+    return n_;
+  }
+
+ private:
+  char* to_;
+  std::size_t room_, n_ = 0;
+};
+
+}  // namespace
+
+struct Activities::Entry {
+  std::atomic<bool> taken{false}, filled{false};
+  std::atomic<const char*> stage{nullptr}, kind{nullptr};
+  std::atomic<int> tag{0};
+  std::atomic<long long> since{0}, cpu_since{0};
+  std::atomic<clockid_t> cpu_clock{0};
+  std::atomic<bool> is_elsewhere{false};
+
+  bool look(SeenFace& seen) const {
+    if (!filled.load(std::memory_order_acquire)) return false;
+    seen = {stage, kind, tag, since};
+    return seen.kind != nullptr;
+  }
+};
+static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<long long>::is_always_lock_free,
+              "signal handlers read them");
+
+Activities::Activities(int most_faces) : entries_(static_cast<std::size_t>(std::max(most_faces, 1))) {}
+Activities::~Activities() = default;
+
+/// -1: so many faces that of this one is not told.
+int Activities::take_entry(int tag, const char* kind, const char* stage, bool is_of_this_thread) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    bool free = false;
+    if (entry.taken.load(std::memory_order_relaxed) || !entry.taken.compare_exchange_strong(free, true))
+      continue;
+    entry.stage = stage;
+    entry.kind = kind;
+    entry.tag = tag;
+    entry.since = read_clock(CLOCK_MONOTONIC);
+    entry.is_elsewhere = !is_of_this_thread;
+    clockid_t clock = CLOCK_THREAD_CPUTIME_ID;
+    pthread_getcpuclockid(pthread_self(), &clock);
+    entry.cpu_clock = clock;
+    entry.cpu_since = read_clock(clock);
+    entry.filled.store(true, std::memory_order_release);
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void Activities::release(int i) {
+  Entry& entry = entries_[static_cast<std::size_t>(i)];
+  entry.filled = false;
+  entry.taken = false;
+}
+
+/// The faces that have been at work for longest, at most so many, and how many there are.
+int Activities::longest(std::size_t most, SeenFace* first) const {
+  std::size_t n = 0;
+  for (const Entry& entry : entries_) {
+    SeenFace seen;
+    if (!entry.look(seen)) continue;
+    std::size_t at = std::min(n, most);
+    for (; at > 0 && first[at - 1].since > seen.since; --at)
+      if (at < most) first[at] = first[at - 1];
+    if (at < most) first[at] = seen;
+    ++n;
+  }
+  return static_cast<int>(n);
+}
+
+std::vector<FaceAtWork> Activities::faces() const {
+  std::vector<FaceAtWork> faces;
+  const long long now = read_clock(CLOCK_MONOTONIC);
+  for (const Entry& entry : entries_) {
+    SeenFace seen;
+    if (!entry.look(seen)) continue;
+    const double cpu = entry.is_elsewhere ? 0 : seconds_of(read_clock(entry.cpu_clock) - entry.cpu_since);
+    faces.push_back(
+        {seen.stage != nullptr ? seen.stage : "", seen.kind, seen.tag, seconds_of(now - seen.since), cpu});
+  }
+  std::ranges::stable_sort(faces, std::ranges::greater{}, &FaceAtWork::seconds);
+  return faces;
+}
+
+std::size_t Activities::describe(char* text, std::size_t size) const noexcept {
+  std::array<SeenFace, kMostTold> first;
+  const int n = longest(kMostTold, first.data());
+  Text out(text, size);
+  if (n == 0) {
+    const char* stage = stage_;
+    out.add(stage != nullptr ? stage : "starting");
+    if (stage != nullptr) out.add_age(since_);
+  }
+  const char* last = nullptr;
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostTold); ++i) {
+    const SeenFace& seen = first[i];
+    if (i > 0) out.add(", ");
+    if (seen.stage != nullptr && seen.stage != last) {
+      out.add(seen.stage);
+      out.add(" of ");
+    }
+    last = seen.stage;
+    out.add(seen.kind);
+    out.add(" ");
+    out.add(std::int64_t{seen.tag});
+    out.add_age(seen.since);
+  }
+  out.add_others(n);
+  return out.finish();
+}
+
+std::string Activities::text() const {
+  char text[400];  // some faces with their stages
+  return {text, describe(text, sizeof text)};
+}
+
+std::string Activities::faces_text() const {
+  std::array<SeenFace, kMostTold> first;
+  const int n = longest(kMostTold, first.data());
+  char text[200];
+  Text out(text, sizeof text);
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostTold); ++i) {
+    if (i > 0) out.add(", ");
+    out.add(first[i].kind);
+    out.add(" ");
+    out.add(std::int64_t{first[i].tag});
+  }
+  out.add_others(n);
+  return {text, out.finish()};
+}
+
+std::string Activities::stage() const {
+  const char* stage = stage_;
+  return stage != nullptr ? stage : "";
+}
+
+void Activities::clear() {
+  stage_ = nullptr;
+  for (std::size_t i = 0; i < entries_.size(); ++i) release(static_cast<int>(i));
+}
+
+DoingStage::DoingStage(const char* name) : name_(nullptr) {
+  Activities* activities = current_activities();
+  if (activities == nullptr) return;
+  const int entry = this_thread().entry;
+  name_ = entry < 0 ? &activities->stage_ : &activities->entries_[static_cast<std::size_t>(entry)].stage;
+  before_ = name_->exchange(name);
+  if (entry >= 0) return;
+  activities->since_ = read_clock(CLOCK_MONOTONIC);
+  if (activities->on_stage) activities->on_stage(name);
+}
+
+DoingStage::~DoingStage() {
+  if (name_ != nullptr) *name_ = before_;
+}
+
+DoingFace::DoingFace(int tag, const char* kind) : activities_(current_activities()), tag_(tag) {
+  if (activities_ == nullptr) return;
+  ThreadState& thread = this_thread();
+  const char* stage = thread.entry < 0
+                          ? activities_->stage_.load()
+                          : activities_->entries_[static_cast<std::size_t>(thread.entry)].stage.load();
+  before_ = thread.entry;
+  entry_ = activities_->take_entry(tag, kind, stage, true);
+  if (entry_ >= 0) thread.entry = entry_;
+  if (activities_->on_face) activities_->on_face(tag, true);
+}
+
+DoingFace::~DoingFace() {
+  if (activities_ == nullptr) return;
+  if (entry_ >= 0) {
+    activities_->release(entry_);
+    this_thread().entry = before_;
+  }
+  if (activities_->on_face) activities_->on_face(tag_, false);
+}
+
+FaceElsewhere::FaceElsewhere(int tag, const char* stage) : activities_(current_activities()) {
+  if (activities_ != nullptr) entry_ = activities_->take_entry(tag, "face", stage, false);
+}
+
+FaceElsewhere::~FaceElsewhere() {
+  if (entry_ >= 0) activities_->release(entry_);
+}
+
+}  // namespace delquad

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+inline double coordinate(const Vec2& p, int axis) { return axis == 0 ? p.x : p.y; }
+inline double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+inline Vec2 lower(const Vec2& a, const Vec2& b) { return {std::min(a.x, b.x), std::min(a.y, b.y)}; }
+inline Vec2 upper(const Vec2& a, const Vec2& b) { return {std::max(a.x, b.x), std::max(a.y, b.y)}; }
+inline Vec3 lower(const Vec3& a, const Vec3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline Vec3 upper(const Vec3& a, const Vec3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+/// A box along the axes of the plane or of space.
+template <class V>
+struct Box {
+  static constexpr int kAxes = sizeof(V) / sizeof(double);
+  V low, high;
+
+  /// The smallest one around some points, at least one.
+  static Box around(std::initializer_list<V> points) { return around(std::span(points)); }
+  static Box around(std::span<const V> points) {
+    Box box{points[0], points[0]};
+    for (const V& p : points) box.add(p);
+    return box;
+  }
+  /// Makes it larger where the point lies outside.
+  void add(const V& p) { low = lower(low, p), high = upper(high, p); }
+  V size() const { return high - low; }
+  /// Whether both share a point.
+  bool overlaps(const Box& other) const {
+    for (int k = 0; k < kAxes; ++k)
+      if (coordinate(low, k) > coordinate(other.high, k) || coordinate(other.low, k) > coordinate(high, k))
+        return false;
+    return true;
+  }
+  /// Square of the distance to x, 0 inside.
+  double distance2(const V& x) const {
+    double sum = 0;
+    for (int k = 0; k < kAxes; ++k) {
+      const double d =
+          std::max({coordinate(low, k) - coordinate(x, k), 0.0, coordinate(x, k) - coordinate(high, k)});
+      sum += d * d;
+    }
+    return sum;
+  }
+};
+
+/// Of the bounding box of some points; 0 without points.
+template <class V>
+double diagonal(const std::vector<V>& points) {
+  return points.empty() ? 0 : norm(Box<V>::around(std::span(points)).size());
+}
+
+}  // namespace delquad

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "delquad/options.h"
+
+namespace delquad {
+
+/// A member of a step's summary, by its key in records, and how patches add up.
+template <class Summary, class Value>
+struct CounterField {
+  const char* key;
+  Value Summary::*member;
+  Over over;
+};
+
+template <class Summary, class Value>
+constexpr CounterField<Summary, Value> counter(const char* key, Value Summary::*member,
+                                               Over over = Over::kSum) {
+  return {key, member, over};
+}
+
+/// Stands beside each summary: `step`, its name in records, `all`, every member in the order of records, and,
+/// where there are means, `weight(summary)`.
+template <class Summary>
+struct Counters;
+
+/// How a member becomes fields; overloads for other types stand beside these.
+template <class Value>
+requires std::is_arithmetic_v<Value>
+void append_counter(std::vector<SummaryField>& fields, const char* key, Value value, Over over,
+                    double weight) {
+  if constexpr (std::is_floating_point_v<Value>)
+    fields.push_back({key, value, over, weight});
+  else
+    fields.push_back({key, static_cast<long long>(value), over, weight});
+}
+
+/// Fields that came from elsewhere stay what they are.
+inline void append_counter(std::vector<SummaryField>& fields, const char*,
+                           const std::vector<SummaryField>& others, Over, double) {
+  fields.insert(fields.end(), others.begin(), others.end());
+}
+
+namespace counters_detail {
+struct Anything {
+  template <class T>
+  operator T() const;  // NOLINT: converts to the type of any member
+};
+/// How many members an aggregate has.
+template <class T, class... Members>
+consteval std::size_t n_members() {
+  if constexpr (requires { T{Members{}..., Anything{}}; })
+    return n_members<T, Members..., Anything>();
+  else
+    return sizeof...(Members);
+}
+}  // namespace counters_detail
+
+/// Calls visit(field) for every member of a summary. One that is missing from the list does not compile.
+template <class Summary, class Visit>
+void for_each_counter(Visit&& visit) {
+  static_assert(std::tuple_size_v<decltype(Counters<Summary>::all)> == counters_detail::n_members<Summary>(),
+                "a member of the summary is not in its list of counters");
+  std::apply([&](const auto&... field) { (visit(field), ...); }, Counters<Summary>::all);
+}
+
+/// What a summary says, for Summaries::add(Counters<Summary>::step, ...).
+template <class Summary>
+std::vector<SummaryField> fields_of(const Summary& summary) {
+  double weight = 1;
+  if constexpr (requires { Counters<Summary>::weight(summary); }) weight = Counters<Summary>::weight(summary);
+  std::vector<SummaryField> fields;
+  for_each_counter<Summary>([&](const auto& field) {
+    append_counter(fields, field.key, summary.*field.member, field.over, weight);
+  });
+  return fields;
+}
+
+}  // namespace delquad

@@ -1,0 +1,42 @@
+#include "base/nearest_name.h"
+
+#include <algorithm>
+
+namespace delquad {
+namespace {
+
+/// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours cost 1 each.
+int edit_distance(const std::string& a, const std::string& b) {
+  const int n = static_cast<int>(a.size()), m = static_cast<int>(b.size());
+  std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
+  for (int i = 0; i <= n; ++i) d[i][0] = i;
+  for (int j = 0; j <= m; ++j) d[0][j] = j;
+  for (int i = 1; i <= n; ++i)
+    for (int j = 1; j <= m; ++j) {
+      const int substitution = d[i - 1][j - 1] + (a[i - 1] != b[j - 1] ? 1 : 0);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, substitution});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[n][m];
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongestName = 64;  // no key is longer: no slip to look for
+  if (given.size() > kLongestName) return std::nullopt;
+  std::optional<std::string> best;
+  int best_distance = 0;
+  for (const std::string& name : known) {
+    const int distance = edit_distance(given, name);
+    if (distance <= std::max<int>(1, static_cast<int>(name.size()) / 2) &&
+        (!best || distance < best_distance)) {
+      best = name;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace delquad

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// The name among `known` nearest to `given` (Damerau-Levenshtein distance), when it is near enough to be a
+/// slip.
+std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known);
+
+}  // namespace delquad

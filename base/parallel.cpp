@@ -1,0 +1,121 @@
+#include "base/parallel.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <numeric>
+#include <vector>
+
+#include "base/context.h"
+#include "base/run.h"
+
+namespace delquad {
+
+namespace {
+
+std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::size_t)>& cost) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!cost) return order;
+  std::vector<double> costs;
+  for (std::size_t i = 0; i < n; ++i) costs.push_back(cost(i));
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) { return costs[i]; });
+  return order;
+}
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+thread_local double surplus = 0;
+/// In the process: finish_threads() has nothing to do without them.
+std::atomic<bool> threads_started = false;
+
+/// Calls run(worker) for each worker on the threads of the run, or of an arena of their own outside of runs.
+void work_together(int workers, const std::function<void(int)>& run) {
+  threads_started = true;
+  const ThreadState state = this_thread();
+  const auto all = [&] {
+    tbb::parallel_for(
+        0, workers,
+        [&](int worker) {
+          const WorksFor works(state.run);
+          this_thread().in_arena = true;
+          run(worker);
+        },
+        tbb::simple_partitioner());
+  };
+  // Isolated, so that a thread that waits for the inner calls does not begin another of the outer ones.
+  if (state.in_arena) {
+    tbb::this_task_arena::isolate(all);
+  } else if (state.run != nullptr) {
+    state.run->arena().execute(all);
+  } else {
+    tbb::task_arena arena(workers);
+    arena.execute(all);
+  }
+}
+
+}  // namespace
+
+double parallel_surplus() { return surplus; }
+
+void finish_threads() {
+  if (!threads_started.exchange(false)) return;
+  if (Run* run = current_run()) run->end_arenas();
+  tbb::task_scheduler_handle handle{tbb::attach{}};
+  tbb::finalize(handle);
+}
+
+int thread_count() {
+  const Run* run = current_run();
+  return run != nullptr ? run->settings.threads : core_count();
+}
+
+void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
+                  const std::function<double(std::size_t)>& cost) {
+  const int workers = static_cast<int>(std::min(n, static_cast<std::size_t>(thread_count())));
+  const std::vector<std::size_t> order = by_cost(n, cost);
+  std::vector<std::exception_ptr> errors(n);
+  std::atomic<std::size_t> next = 0;
+  const Clock::time_point begin = Clock::now();
+  const double surplus_before = surplus;
+  std::vector<double> worked(static_cast<std::size_t>(std::max(workers, 1)), 0);
+  const auto run = [&](int worker) {
+    const Clock::time_point start = Clock::now();
+    const double before = surplus;
+    for (std::size_t k = next++; k < n; k = next++) {
+      try {
+        check_cancelled();
+        work(order[k]);
+      } catch (...) {
+        errors[order[k]] = std::current_exception();
+        if (is_cancelled()) next = n;
+      }
+    }
+    worked[static_cast<std::size_t>(worker)] = seconds_since(start) + (surplus - before);
+  };
+  if (workers <= 1) {
+    run(0);
+  } else {
+    work_together(workers, run);
+  }
+  surplus = surplus_before + std::accumulate(worked.begin(), worked.end(), 0.0) - seconds_since(begin);
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work) {
+  constexpr std::size_t kLength = 1024;
+  parallel_for((n + kLength - 1) / kLength,
+               [&](std::size_t i) { work(i * kLength, std::min(n, (i + 1) * kLength)); });
+}
+
+}  // namespace delquad

@@ -1,0 +1,146 @@
+#include "bindings/python/arrays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delquad/error.h"
+
+namespace delquad::python {
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+std::string shape_of(const py::array& array) { return py::str(array.attr("shape")); }
+
+/// Any array at all; ragged lists are none.
+py::array as_array(const py::handle& object, const std::string& what, const char* expected) {
+  const py::array array = py::array::ensure(object);
+  if (!array) PyErr_Clear();
+  // Kinds of numpy: booleans, whole numbers, floating-point numbers.
+  if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos)
+    throw InputError(fmt::format(
+        "{}: expected {}, got {}", what, expected,
+        array && array.dtype().kind() != 'O'
+            ? "an array of type " + std::string(py::str(array.dtype()))
+            : "a " + std::string(py::str(py::type::of(object).attr("__name__"))) + " that is no such array"));
+  return array;
+}
+
+InputError bad_shape(const std::string& what, const char* expected, const py::array& array) {
+  return InputError(
+      fmt::format("{}: expected {}, got an array of shape {}", what, expected, shape_of(array)));
+}
+
+template <class V>
+void require_finite(const std::vector<V>& points, const std::string& what) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+      throw InputError(fmt::format("{}: point {} is ({}, {}): finite coordinates were expected", what, i,
+                                   points[i].x, points[i].y));
+}
+
+int checked_int(std::int64_t value, const std::string& what) {
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    throw InputError(fmt::format("{}: {} is out of range", what, value));
+  return static_cast<int>(value);
+}
+
+Integers as_integers(const py::handle& object, const std::string& what, const char* expected) {
+  const py::array array = as_array(object, what, expected);
+  if (array.dtype().kind() == 'f' && array.size() > 0)
+    throw InputError(fmt::format("{}: expected {}, got an array of type {}", what, expected,
+                                 std::string(py::str(array.dtype()))));
+  return Integers(array);
+}
+
+std::vector<double> read_vector(const py::handle& object, std::size_t n, const std::string& what) {
+  std::vector<double> numbers = read_numbers(object, what);
+  if (numbers.size() != n)
+    throw InputError(fmt::format("{}: expected {} numbers, got {}", what, n, numbers.size()));
+  for (const double x : numbers)
+    if (!std::isfinite(x))
+      throw InputError(fmt::format("{}: is {}: finite coordinates were expected", what, x));
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<Vec3> read_points(const py::handle& object, const std::string& what) {
+  constexpr const char* kExpected = "numbers of shape (n, 2) or (n, 3)";
+  const Doubles array(as_array(object, what, kExpected));
+  if (array.ndim() == 1 && array.size() == 0) return {};
+  if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3))
+    throw bad_shape(what, kExpected, array);
+  const auto a = array.unchecked<2>();
+  std::vector<Vec3> points;
+  for (py::ssize_t i = 0; i < a.shape(0); ++i)
+    points.push_back({a(i, 0), a(i, 1), a.shape(1) == 3 ? a(i, 2) : 0});
+  return points;
+}
+
+std::vector<Vec2> read_plane_points(const py::handle& object, const std::string& what) {
+  constexpr const char* kExpected = "numbers of shape (n, 2)";
+  const Doubles array(as_array(object, what, kExpected));
+  if (array.ndim() == 1 && array.size() == 0) return {};
+  if (array.ndim() != 2 || array.shape(1) != 2) throw bad_shape(what, kExpected, array);
+  const auto a = array.unchecked<2>();
+  std::vector<Vec2> points;
+  for (py::ssize_t i = 0; i < a.shape(0); ++i) points.push_back({a(i, 0), a(i, 1)});
+  require_finite(points, what);
+  return points;
+}
+
+Vec2 read_vec2(const py::handle& object, const std::string& what) {
+  const std::vector<double> v = read_vector(object, 2, what);
+  return {v[0], v[1]};
+}
+
+Vec3 read_vec3(const py::handle& object, const std::string& what) {
+  const std::vector<double> v = read_vector(object, 3, what);
+  return {v[0], v[1], v[2]};
+}
+
+std::vector<double> read_numbers(const py::handle& object, const std::string& what) {
+  constexpr const char* kExpected = "numbers of shape (n,)";
+  const Doubles array(as_array(object, what, kExpected));
+  if (array.ndim() != 1) throw bad_shape(what, kExpected, array);
+  return {array.data(), array.data() + array.size()};
+}
+
+std::vector<int> read_integers(const py::handle& object, const std::string& what) {
+  constexpr const char* kExpected = "whole numbers of shape (n,)";
+  const Integers array = as_integers(object, what, kExpected);
+  if (array.ndim() != 1) throw bad_shape(what, kExpected, array);
+  std::vector<int> numbers;
+  for (py::ssize_t i = 0; i < array.size(); ++i) numbers.push_back(checked_int(array.data()[i], what));
+  return numbers;
+}
+
+void read_values(const py::handle& object, double* target, std::size_t n, const std::string& what) {
+  const std::string expected = fmt::format("{} numbers, one for each point", n);
+  const Doubles array(as_array(object, what, expected.c_str()));
+  if (array.ndim() == 0) {
+    std::fill_n(target, n, *array.data());
+  } else if (array.ndim() == 1 && static_cast<std::size_t>(array.size()) == n) {
+    std::copy_n(array.data(), n, target);
+  } else {
+    throw bad_shape(what, expected.c_str(), array);
+  }
+}
+
+std::vector<int> read_table(const py::handle& object, int columns, const std::string& what) {
+  const std::string expected = fmt::format("whole numbers of shape (n, {})", columns);
+  const Integers array = as_integers(object, what, expected.c_str());
+  if (array.ndim() == 1 && array.size() == 0) return {};
+  if (array.ndim() != 2 || array.shape(1) != columns) throw bad_shape(what, expected.c_str(), array);
+  std::vector<int> numbers;
+  for (py::ssize_t i = 0; i < array.size(); ++i) numbers.push_back(checked_int(array.data()[i], what));
+  return numbers;
+}
+
+}  // namespace delquad::python

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+// Arrays of numpy from and to lists of points and elements. `what` names an argument in messages. All that
+// reads throws InputError for other shapes and types.
+
+namespace delquad::python {
+
+namespace py = pybind11;
+
+/// (n, 2) or (n, 3) numbers; z is 0 where there is none.
+std::vector<Vec3> read_points(const py::handle& object, const std::string& what);
+/// (n, 2) finite numbers.
+std::vector<Vec2> read_plane_points(const py::handle& object, const std::string& what);
+/// Two, and three, finite numbers.
+Vec2 read_vec2(const py::handle& object, const std::string& what);
+Vec3 read_vec3(const py::handle& object, const std::string& what);
+/// n numbers.
+std::vector<double> read_numbers(const py::handle& object, const std::string& what);
+/// n whole numbers.
+std::vector<int> read_integers(const py::handle& object, const std::string& what);
+/// n numbers into `target`: what a callback returned. One number will do for all.
+void read_values(const py::handle& object, double* target, std::size_t n, const std::string& what);
+
+/// (n, columns) whole numbers, one row after the other.
+std::vector<int> read_table(const py::handle& object, int columns, const std::string& what);
+template <std::size_t N>
+std::vector<std::array<int, N>> read_elements(const py::handle& object, const std::string& what) {
+  const std::vector<int> flat = read_table(object, N, what);
+  std::vector<std::array<int, N>> elements(flat.size() / N);
+  for (std::size_t i = 0; i < flat.size(); ++i) elements[i / N][i % N] = flat[i];
+  return elements;
+}
+
+/// A view of numbers that lie one row after the other, which keeps `owner` alive. It cannot be written to.
+template <class T>
+py::array view(const T* data, std::vector<py::ssize_t> shape, const py::object& owner) {
+  // Arrays of nothing have no address, without which numpy would allocate them.
+  static const T kNothing{};
+  py::array_t<T> array(std::move(shape), data == nullptr ? &kNothing : data, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+template <std::size_t N>
+py::array view(const std::vector<std::array<int, N>>& elements, const py::object& owner) {
+  return view<std::int32_t>(elements.empty() ? nullptr : elements[0].data(),
+                            {static_cast<py::ssize_t>(elements.size()), N}, owner);
+}
+inline py::array view(const std::vector<int>& numbers, const py::object& owner) {
+  return view<std::int32_t>(numbers.data(), {static_cast<py::ssize_t>(numbers.size())}, owner);
+}
+inline py::array view(const std::vector<Vec3>& points, const py::object& owner) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return view<double>(points.empty() ? nullptr : &points[0].x, {static_cast<py::ssize_t>(points.size()), 3},
+                      owner);
+}
+
+}  // namespace delquad::python

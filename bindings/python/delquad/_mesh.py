@@ -1,0 +1,179 @@
+"""mesh(), and models that are given as Python values."""
+
+import os
+
+from . import _core
+
+_MAX_ELEMENTS = 50_000_000
+
+
+class UnsoundError(RuntimeError):
+    """The mesh is not one of its model, or not fit to be computed with; `result` has it."""
+
+    def __init__(self, message, result):
+        super().__init__(message)
+        self.result = result
+
+
+def polygons(polygons):
+    """A planar domain bounded by polygons, each of shape (n, 2), without its first corner repeated.
+
+    Polygons inside others are holes. Every corner gets a node.
+    """
+    return _core.polygons(list(polygons))
+
+
+def planar(loops):
+    """A planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region."""
+    return _core.planar([l if isinstance(l, _core.Loop) else _core.loop(list(l)) for l in loops])
+
+
+def cad(source):
+    """A STEP or BREP model, from a path or from bytes."""
+    return _core.cad(source) if isinstance(source, bytes) else _core.read_model(os.fspath(source))
+
+
+def _as_model(model):
+    if isinstance(model, _core.Model):
+        return model
+    if isinstance(model, _core.Mesh):
+        return _core.from_mesh(model)
+    if isinstance(model, (str, os.PathLike)):
+        return _core.read_model(os.fspath(model))
+    raise TypeError(
+        f"model: expected a delquad.Model, a delquad.Mesh or the path of a file, got {type(model).__name__}"
+    )
+
+
+def _set_field(problem, what, value):
+    """A size or cross: a text, a function, or values at the points of a mesh."""
+    if isinstance(value, str):
+        getattr(problem, what + "_text")(value)
+    elif callable(value):
+        getattr(problem, what + "_function")(value)
+    elif isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], _core.Mesh):
+        getattr(problem, what + "_nodal")(*value)
+    else:
+        return False
+    return True
+
+
+def _set_size(problem, size):
+    if _set_field(problem, "size", size):
+        return
+    try:
+        number = float(size)
+    except (TypeError, ValueError):
+        raise TypeError(
+            "size: expected a number, a function of points, a text, or a mesh and values at its points, got "
+            + type(size).__name__
+        ) from None
+    problem.size_number(number)
+
+
+def _set_cross(problem, cross):
+    if not _set_field(problem, "cross", cross):
+        raise TypeError(
+            "cross: expected 'boundary', 'size-aware', 'gradient', an angle as text, a function of points, or a "
+            "mesh and angles at its points, got " + type(cross).__name__
+        )
+
+
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror):
+    if isinstance(compounds, str):
+        problem.compounds_named(compounds)
+    elif compounds is not None:
+        problem.compounds([[int(tag) for tag in group] for group in compounds])
+    if feature_angle is not None:
+        problem.feature_angle(feature_angle)
+    if weld is not None:
+        problem.weld(weld)
+    if merge_curves is not None:
+        problem.merge_curves(merge_curves)
+    if mirror is not None:
+        point, normal = mirror
+        problem.mirror(point, normal)
+
+
+def _bar(stage, part):
+    """Writes a line that the next one replaces."""
+    end = "\n" if part >= 1 else ""
+    print(f"\r{100 * part:3.0f} %  {stage:30}", end=end, flush=True)
+
+
+def mesh(
+    model,
+    size=None,
+    *,
+    word=None,
+    quality=None,
+    cross=None,
+    sources=(),
+    gradation=None,
+    curvature=None,
+    min_size=None,
+    max_size=None,
+    compounds=None,
+    feature_angle=None,
+    weld=None,
+    merge_curves=None,
+    mirror=None,
+    options=None,
+    name=None,
+    seed=None,
+    max_elements=_MAX_ELEMENTS,
+    keep_going=False,
+    allow_unsound=False,
+    threads=0,
+    time_limit=0,
+    progress=None,
+):
+    """Meshes a model and returns a Result.
+
+    model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, whose triangles and quads
+        or else lines count; or the path of a file: .step, .brep, .stl, .obj, .off, .msh or .toml.
+    size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z
+        or "boundary" as text, or (mesh, values at its points).
+    word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
+    cross: "boundary", "size-aware", "gradient", or angles in radians: a function of points of shape (n, 2), a
+        formula, or (mesh, values at its points).
+    sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
+    gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
+        curved surfaces, the least size for that, the largest size.
+    compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
+        point and a normal.
+    threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
+    progress: True, or a function of the stage and the part that is done, from 0 to 1.
+    options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
+
+    Raises InputError, UnsoundError (unless allow_unsound), TimeIsUp, and what callbacks raise.
+    """
+    if word is not None and quality is not None:
+        raise _core.InputError("word and quality exclude each other: a quality stands for a word")
+    problem = _core.Problem(_as_model(model))
+    if size is not None:
+        _set_size(problem, size)
+    for source in sources:
+        problem.add_source(*source)
+    problem.size_limits(gradation, curvature, min_size, max_size)
+    if cross is not None:
+        _set_cross(problem, cross)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror)
+    if word is None:
+        word = problem.quality(quality or "good")
+    for key, value in (options or {}).items():
+        problem.option(key, value.item() if hasattr(value, "item") else value)
+    if name is not None:
+        problem.name(name)
+    if seed is not None:
+        problem.seed(seed)
+    problem.max_elements(max_elements)
+    problem.keep_going(keep_going)
+    if progress:
+        problem.progress(_bar if progress is True else progress)
+    result = problem.mesh(word, threads, time_limit)
+    if progress is True:
+        _bar("done", 1)
+    if not result.sound and not allow_unsound:
+        raise UnsoundError("the mesh is not sound: " + "; ".join(result.unsound), result)
+    return result

@@ -1,0 +1,286 @@
+#include <pybind11/stl.h>
+
+#include "base/located.h"
+#include "bindings/python/arrays.h"
+#include "bindings/python/problem.h"
+#include "cases/formulas.h"
+#include "mesh/check_mesh.h"
+
+namespace delquad::python {
+
+namespace {
+
+using py::arg;
+
+py::list list_of(const std::vector<Entity>& entities) {
+  py::list list;
+  for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));
+  return list;
+}
+
+std::vector<Entity> entities_of(const std::vector<std::pair<int, std::vector<std::string>>>& list) {
+  std::vector<Entity> entities;
+  for (const auto& [tag, names] : list) entities.push_back({tag, names});
+  return entities;
+}
+
+/// A list of the mesh as a property: a view that keeps the mesh.
+template <class List>
+auto view_of(List Mesh::*member) {
+  return [member](const py::object& self) { return view(self.cast<const Mesh&>().*member, self); };
+}
+
+Mesh make_mesh(const py::object& points, const py::object& lines, const py::object& line_curve,
+               const py::object& triangles, const py::object& triangle_region, const py::object& quads,
+               const py::object& quad_region,
+               const std::vector<std::pair<int, std::vector<std::string>>>& curves,
+               const std::vector<std::pair<int, std::vector<std::string>>>& regions) {
+  Mesh mesh;
+  mesh.points = read_points(points, "points");
+  mesh.lines = read_elements<2>(lines, "lines");
+  mesh.line_curve = read_integers(line_curve, "line_curve");
+  mesh.triangles = read_elements<3>(triangles, "triangles");
+  mesh.triangle_region = read_integers(triangle_region, "triangle_region");
+  mesh.quads = read_elements<4>(quads, "quads");
+  mesh.quad_region = read_integers(quad_region, "quad_region");
+  mesh.curves = entities_of(curves);
+  mesh.regions = entities_of(regions);
+  require_readable(mesh, "mesh");
+  return mesh;
+}
+
+void write(const Mesh& mesh, const std::string& path, bool binary) {
+  const py::gil_scoped_release released;
+  MshOptions options;
+  options.binary = binary;
+  write_mesh(path, mesh, options);
+}
+
+Mesh read(const std::string& path) {
+  const py::gil_scoped_release released;
+  return read_mesh(path);
+}
+
+void define_mesh(py::module_& m) {
+  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh", "Points and elements; indices count from 0.")
+      .def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
+           arg("triangle_region"), arg("quads"), arg("quad_region"), arg("curves"), arg("regions"))
+      .def_property_readonly("points", view_of(&Mesh::points), "(n, 3) coordinates")
+      .def_property_readonly("lines", view_of(&Mesh::lines), "(n, 2) points of edges on curves")
+      .def_property_readonly("triangles", view_of(&Mesh::triangles), "(n, 3) points")
+      .def_property_readonly("quads", view_of(&Mesh::quads), "(n, 4) points")
+      .def_property_readonly("line_curve", view_of(&Mesh::line_curve), "index into curves of each line")
+      .def_property_readonly("triangle_region", view_of(&Mesh::triangle_region), "index into regions")
+      .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions")
+      .def_property_readonly(
+          "curves", [](const Mesh& mesh) { return list_of(mesh.curves); }, "(tag, names)")
+      .def_property_readonly(
+          "regions", [](const Mesh& mesh) { return list_of(mesh.regions); }, "(tag, names)")
+      .def("write_file", &write, arg("path"), arg("binary") = false);
+  m.def("read_mesh", &read, arg("path"));
+}
+
+py::dict dict_of(const Summaries& summaries) {
+  py::dict all;
+  for (const SummaryStep& step : summaries.steps()) {
+    py::dict fields;
+    for (const SummaryField& field : step.fields)
+      fields[py::str(field.key)] =
+          std::visit([](const auto& value) -> py::object { return py::cast(value); }, field.value);
+    all[py::str(step.name)] = fields;
+  }
+  return all;
+}
+
+py::dict dict_of(const std::vector<std::pair<std::string, double>>& seconds) {
+  py::dict all;
+  for (const auto& [step, s] : seconds) all[py::str(step)] = s;
+  return all;
+}
+
+void define_result(py::module_& m) {
+  py::class_<Result, Mesh, std::shared_ptr<Result>>(m, "Result", "A mesh, and what is known of it.")
+      .def_property_readonly("metrics", [](const Result& r) { return r.rest.metrics.values; })
+      .def_property_readonly(
+          "valences", [](const Result& r) { return r.rest.metrics.valences; },
+          "interior points by number of elements around them")
+      .def_property_readonly("summaries", [](const Result& r) { return dict_of(r.rest.summaries); })
+      .def_property_readonly(
+          "seconds", [](const Result& r) { return dict_of(r.rest.seconds); },
+          "by step, of all threads added up")
+      .def_property_readonly("wall_seconds", [](const Result& r) { return r.rest.wall_seconds; })
+      .def_property_readonly("expected_quads", [](const Result& r) { return r.rest.expected_quads; })
+      .def_property_readonly("warnings",
+                             [](const Result& r) {
+                               std::vector<std::string> texts;
+                               for (const Warning& warning : r.rest.warnings) texts.push_back(warning.text);
+                               return texts;
+                             })
+      .def_property_readonly(
+          "failures",
+          [](const Result& r) {
+            std::vector<std::pair<int, std::string>> failures;
+            for (const FaceFailure& failure : r.rest.failures)
+              failures.emplace_back(failure.face, failure.reason);
+            return failures;
+          },
+          "(index into regions, reason) of faces that were left out")
+      .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.sound(); })
+      .def_property_readonly(
+          "unsound", [](const Result& r) { return r.rest.soundness.reasons; }, "why it is not sound");
+}
+
+Compounds compounds_named(const std::string& name) {
+  if (name == "all") return Compounds::kAll;
+  if (name == "tangent") return Compounds::kTangent;
+  throw InputError("compounds: '" + name + "': expected 'all', 'tangent' or lists of faces' tags");
+}
+
+/// A problem that Python fills in.
+struct Problem : ModelHandle {
+  explicit Problem(const ModelHandle& model) : ModelHandle(model) {}
+  Callbacks callbacks{py::none(), py::none(), py::none()};
+
+  /// What the model's file says of its size does not count any more.
+  SizeSpec& new_size() { return problem.size = {}; }
+  CrossSpec& new_cross(CrossKind kind) {
+    has_cross = true;
+    problem.cross = {};
+    problem.cross.kind = kind;
+    return problem.cross;
+  }
+};
+
+void define_size(py::class_<Problem>& c) {
+  c.def("size_number",
+        [](Problem& p, double size) {
+          p.new_size().field = located("size", [&] { return make_constant_size(size); });
+        })
+      .def("size_text",
+           [](Problem& p, const std::string& text) {
+             SizeSpec& size = p.new_size();
+             size.from_boundary = text == "boundary";
+             if (!size.from_boundary)
+               size.field = located("size", [&] { return make_expression_size(text); });
+           })
+      .def("size_function",
+           [](Problem& p, py::object function) {
+             p.new_size();
+             p.callbacks.size = std::move(function);
+           })
+      .def("size_nodal",
+           [](Problem& p, const Mesh& mesh, const py::object& values) {
+             p.new_size().field =
+                 located("size", [&] { return make_nodal_size(mesh, read_numbers(values, "values")); });
+           })
+      .def("add_source",
+           [](Problem& p, const py::object& a, const py::object& b, double size_near, double size_far,
+              double radius_near, double radius_far) {
+             p.problem.size.sources.push_back({read_vec3(a, "sources: a point"),
+                                               read_vec3(b, "sources: a point"), size_near, size_far,
+                                               radius_near, radius_far});
+           })
+      .def("size_limits",
+           [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
+              const std::optional<double>& min, const std::optional<double>& max) {
+             SizeSpec& size = p.problem.size;
+             if (gradation) size.gradation = *gradation;
+             if (curvature) size.curvature = *curvature;
+             if (min) size.min = *min;
+             if (max) size.max = *max;
+           });
+}
+
+void define_cross(py::class_<Problem>& c) {
+  c.def("cross_text",
+        [](Problem& p, const std::string& text) {
+          if (text == "boundary") {
+            p.new_cross(CrossKind::kBoundary);
+          } else if (text == "size-aware") {
+            p.new_cross(CrossKind::kSizeAware);
+          } else if (text == "gradient") {
+            p.new_cross(CrossKind::kGradient);
+          } else {
+            p.new_cross(CrossKind::kField).field =
+                located("cross", [&] { return make_expression_cross(text); });
+          }
+        })
+      .def("cross_function",
+           [](Problem& p, py::object function) {
+             p.new_cross(CrossKind::kField);
+             p.callbacks.cross = std::move(function);
+           })
+      .def("cross_nodal",
+           [](Problem& p, const Mesh& mesh, const py::object& values) {
+             p.new_cross(CrossKind::kField).field =
+                 located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
+           })
+      .def("quality", [](Problem& p, const std::string& name) {
+        const Quality& quality = quality_named(name);
+        if (!p.has_cross) p.new_cross(quality.cross);
+        return quality.word;
+      });
+}
+
+void define_surface(py::class_<Problem>& c) {
+  c.def("compounds_named",
+        [](Problem& p, const std::string& name) { p.problem.surface.compounds = compounds_named(name); })
+      .def("compounds",
+           [](Problem& p, const std::vector<std::vector<int>>& groups) {
+             p.problem.surface.compounds = Compounds::kGroups;
+             p.problem.surface.groups = groups;
+           })
+      .def("mirror",
+           [](Problem& p, const py::object& point, const py::object& normal) {
+             p.problem.surface.mirror = MirrorPlane{read_vec3(point, "mirror: the point"),
+                                                    read_vec3(normal, "mirror: the normal"), 0};
+           })
+      .def("feature_angle", [](Problem& p, double degrees) { p.problem.surface.feature_angle = degrees; })
+      .def("weld", [](Problem& p, double tolerance) { p.problem.surface.weld_tolerance = tolerance; })
+      .def("merge_curves", [](Problem& p, double length) { p.problem.surface.merge_curves = length; });
+}
+
+void define_problem(py::module_& m) {
+  py::class_<Problem> c(m, "Problem", "A model with all that is asked of its mesh.");
+  c.def(py::init<const ModelHandle&>());
+  define_size(c);
+  define_cross(c);
+  define_surface(c);
+  c.def("option", [](Problem& p, const std::string& name, const OptionValue& value) {
+    p.problem.options.set(name, value);
+  });
+  c.def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
+      .def("seed", [](Problem& p, long long seed) { p.problem.seed = seed; })
+      .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
+      .def("keep_going", [](Problem& p, bool yes) { p.problem.keep_going = yes; })
+      .def("progress", [](Problem& p, py::object function) { p.callbacks.progress = std::move(function); })
+      // Python itself throws UnsoundError, which has the mesh.
+      .def(
+          "mesh",
+          [](Problem& p, const std::string& word, int threads, double time_limit) {
+            p.problem.allow_unsound = true;
+            return mesh(p.problem, p.callbacks, word, threads, time_limit);
+          },
+          arg("word"), arg("threads"), arg("time_limit"));
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "The part of delquad that is written in C++; see the package delquad.";
+  // What stands later is tried first.
+  py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+  const auto& cancelled = py::register_exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
+  py::register_exception<TimeIsUp>(m, "TimeIsUp", cancelled);
+  define_mesh(m);
+  define_result(m);
+  define_models(m);
+  define_problem(m);
+  m.def("qualities", [] {
+    py::dict all;
+    for (const Quality& quality : quality_registry()) all[py::str(quality.name)] = quality.word;
+    return all;
+  });
+}
+
+}  // namespace delquad::python

@@ -1,0 +1,58 @@
+#include "bindings/python/problem.h"
+
+#include <utility>
+
+#include "bindings/python/arrays.h"
+
+namespace delquad::python {
+
+namespace {
+
+/// A view of points for a callback, which has to return before they go: Python gets a copy, for it may keep
+/// it.
+template <class V>
+py::array points_for_python(std::span<const V> points) {
+  constexpr py::ssize_t kColumns = sizeof(V) / sizeof(double);
+  return py::array_t<double>({static_cast<py::ssize_t>(points.size()), kColumns}, &points[0].x);
+}
+
+/// A function of Python as one of a batch of points; `what` names it in messages.
+template <class V>
+std::function<void(std::span<const V>, std::span<double>)> as_function(const py::object& function,
+                                                                       CallingThread& python,
+                                                                       const std::string& what) {
+  if (function.is_none()) return {};
+  return [&function, &python, what](std::span<const V> points, std::span<double> values) {
+    python.call([&] {
+      read_values(function(points_for_python(points)), values.data(), values.size(),
+                  "what " + what + " returned");
+    });
+  };
+}
+
+}  // namespace
+
+std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, const std::string& word,
+                             int threads, double time_limit) {
+  CallingThread python;
+  if (!callbacks.size.is_none())
+    problem.size.function = as_function<Vec3>(callbacks.size, python, "the size function");
+  if (!callbacks.cross.is_none())
+    problem.cross.function = as_function<Vec2>(callbacks.cross, python, "the cross function");
+  Context context;
+  context.threads = threads;
+  context.time_limit = time_limit;
+  if (!callbacks.progress.is_none())
+    context.progress = [&](const ProgressReport& report) {
+      python.call([&] { callbacks.progress(report.stage, report.part); });
+    };
+  auto result = std::make_shared<Result>();
+  python.run([&](std::stop_token cancel) {
+    context.cancel = std::move(cancel);
+    result->rest = delquad::mesh(problem, word, context);
+    static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
+  });
+  return result;
+}
+
+}  // namespace delquad::python

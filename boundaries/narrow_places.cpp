@@ -1,0 +1,86 @@
+#include "boundaries/narrow_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace delquad {
+
+namespace {
+
+/// Distance between the places from which one looks, as a part of the size.
+constexpr double kSpacing = 0.25;
+constexpr int kMostPlaces = 400;  // on a fine line
+/// Two curves make a strip when each faces the other along this part of its length, and their lengths differ
+/// by this factor at most.
+constexpr double kStripPart = 0.7, kStripRatio = 1.6;
+
+/// A place from which the boundary on the other side is near.
+struct Gap {
+  int patch;
+  int chain, facing;  ///< curves on this side and on the other
+  double length;      ///< of the piece of boundary that it stands for
+};
+
+/// Looks across from places along all curves.
+std::vector<Gap> collect_gaps(const Mesh& fine, const std::vector<CurveChain>& chains,
+                              const AcrossView& across, const SizeField& size) {
+  std::vector<Gap> gaps;
+  int hint = -1;
+  for (size_t c = 0; c < chains.size(); ++c)
+    for (size_t line = 0; line + 1 < chains[c].points.size(); ++line) {
+      const Vec3 a = fine.points[chains[c].points[line]], b = fine.points[chains[c].points[line + 1]];
+      const double length = norm(b - a);
+      const double spacing =
+          kSpacing * std::min({size.at(a, hint), size.at(b, hint), size.at(0.5 * (a + b), hint)});
+      const int n = static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, double(kMostPlaces)));
+      for (int i = 0; i < n; ++i) {
+        const double t = (i + 0.5) / n;
+        const Vec3 x = a + t * (b - a);
+        for (const Opposite& o :
+             across.look(static_cast<int>(c), static_cast<double>(line) + t, kReach * size.at(x, hint)))
+          gaps.push_back({o.patch, static_cast<int>(c), o.chain, length / n});
+      }
+    }
+  return gaps;
+}
+
+double length_of(const Mesh& fine, const CurveChain& chain) {
+  double sum = 0;
+  for (size_t i = 0; i + 1 < chain.points.size(); ++i)
+    sum += norm(fine.points[chain.points[i + 1]] - fine.points[chain.points[i]]);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                     const AcrossView& across, const SizeField& size) {
+  const std::vector<Gap> gaps = collect_gaps(fine, chains, across, size);
+  std::map<std::array<int, 3>, double> along;  // patch, curve, curve that it faces
+  for (const Gap& g : gaps) along[{g.patch, g.chain, g.facing}] += g.length;
+  std::vector<int> group(chains.size());
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int c) {
+    while (group[c] != c) c = group[c];
+    return c;
+  };
+  for (const auto& [key, length] : along) {
+    const auto [patch, a, b] = key;
+    const auto back = along.find({patch, b, a});
+    if (a >= b || back == along.end()) continue;
+    const double length_a = length_of(fine, chains[a]), length_b = length_of(fine, chains[b]);
+    if (length < kStripPart * length_a || back->second < kStripPart * length_b ||
+        std::max(length_a, length_b) > kStripRatio * std::min(length_a, length_b))
+      continue;
+    const auto [first, second] = std::minmax({root(a), root(b)});
+    group[second] = first;
+  }
+  for (size_t c = 0; c < chains.size(); ++c) group[c] = root(static_cast<int>(c));
+  return group;
+}
+
+}  // namespace delquad

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "boundaries/surface_curves.h"
+#include "matching/matching.h"
+
+namespace delquad {
+
+/// Nodes on the curves and the boundaries that they make in the patches' parameter planes.
+struct PatchBoundaries {
+  std::vector<int> counts;       ///< of each chain's edges
+  std::vector<int> odd_patches;  ///< that no curve can make even
+  SurfaceNodes nodes;
+  std::vector<PatchBoundary> boundaries;
+  std::vector<std::vector<int>> at_fault;  ///< of each patch, the curves that keep it from enclosing quads
+};
+
+PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
+                                 const AcrossView& across, const CurveDemands& wanted, const SizeField& size,
+                                 const MatchingSolver& solver);
+
+}  // namespace delquad

@@ -1,0 +1,149 @@
+#include "boundaries/surface_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "boundaries/narrow_places.h"
+#include "boundaries/tube_sizes.h"
+
+namespace delquad {
+
+namespace {
+
+/// A cut to the tip of a cone has a node besides its ends.
+constexpr int kFewestTipEdges = 2;
+/// Curves shorter than this part of the size are warned of.
+constexpr double kShort = 0.5;
+
+/// What tubes allow at each point of each curve; empty for curves that bound none.
+std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
+  std::vector<std::vector<double>> limits(curves.chains.size());
+  for (size_t p = 0; p < curves.maps.size(); ++p) {
+    if (curves.tube_sizes[p].empty()) continue;
+    for (const auto& loop : curves.outlines[p])
+      for (const CurveSide& side : loop) {
+        auto& of_chain = limits[side.chain];
+        of_chain.resize(curves.chains[side.chain].points.size(), std::numeric_limits<double>::max());
+        const auto [first, second] =
+            std::pair(side.forward ? side.from : side.to, side.forward ? side.to : side.from);
+        of_chain[side.line] = std::min(of_chain[side.line], curves.tube_sizes[p][first]);
+        of_chain[side.line + 1] = std::min(of_chain[side.line + 1], curves.tube_sizes[p][second]);
+      }
+  }
+  return limits;
+}
+
+/// The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
+void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDemand>& demands) {
+  std::vector<std::map<int, int>> sharp_ends(curves.chains.size());  // of each curve, by patch
+  for (const FaceCorner& corner : curves.corners)
+    if (corner.is_tip())
+      demands[corner.after].minimum = std::max(demands[corner.after].minimum, kFewestTipEdges);
+    else if (corner.angle < kOneQuadAngle)
+      ++sharp_ends[corner.before][corner.patch], ++sharp_ends[corner.after][corner.patch];
+  for (size_t c = 0; c < curves.chains.size(); ++c)
+    for (const auto& [patch, ends] : sharp_ends[c])
+      demands[c].minimum = std::max(demands[c].minimum, 1 + ends);
+}
+
+/// Of curves between the same two ends, one at most may be a single edge; closed ones need a loop of quads.
+void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vector<SizeIntegral>& integrals,
+                           std::vector<CurveDemand>& demands) {
+  std::map<std::pair<int, int>, size_t> single;
+  for (size_t c = 0; c < chains.size(); ++c) {
+    if (chains[c].closed()) {
+      if (demands[c].patches.size() == 2) demands[c].minimum = std::max(demands[c].minimum, kFewestLoopEdges);
+      continue;
+    }
+    const auto ends = std::minmax(chains[c].points.front(), chains[c].points.back());
+    const auto [it, first] = single.try_emplace(ends, c);
+    if (first) continue;
+    size_t longer = c;
+    if (integrals[it->second].total() > integrals[c].total()) std::swap(longer, it->second);
+    demands[longer].minimum = std::max(demands[longer].minimum, 2);
+  }
+}
+
+}  // namespace
+
+std::string face_name(const Mesh& fine, const FlatPatch& map) {
+  return fmt::format("face {}", fine.regions[map.face].tag);
+}
+
+void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
+                    const std::function<void(std::size_t)>& work) {
+  parallel_for(
+      maps.size(),
+      [&](std::size_t p) {
+        const DoingFace face(fine.regions[maps[p].face].tag);
+        work(p);
+      },
+      [&](std::size_t p) { return static_cast<double>(maps[p].flat.points.size()); });
+}
+
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size) {
+  const Mesh& fine = model.fine;
+  SurfaceCurves curves;
+  curves.maps = std::move(flattening.patches);
+  curves.cut_face.assign(fine.curves.size(), -1);
+  for (const SurfaceCut& cut : flattening.cuts) curves.cut_face[cut.curve] = cut.face;
+  curves.chains = curve_chains(model);
+  const LineIndex lines(curves.chains);
+  for (const FlatPatch& map : curves.maps)
+    curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
+  curves.corners = face_corners(fine, curves.chains, curves.maps, curves.outlines);
+  curves.tube_sizes = tube_sizes(fine, curves.chains, curves.maps, curves.outlines, size);
+  return curves;
+}
+
+CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
+                            const SizeField& size, const SizeField& asked) {
+  const std::vector<CurveChain>& chains = curves.chains;
+  const std::vector<std::vector<double>> limits = limits_on_curves(curves);
+  CurveDemands wanted;
+  int hint = -1;
+  const PointSize delta = [&](const Vec3& x) { return size.at(x, hint); };
+  const PointSize delta_asked = [&](const Vec3& x) { return asked.at(x, hint); };
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    wanted.integrals.push_back(size_integral(fine, chains[c], delta, limits[c]));
+    const double total = wanted.integrals.back().total();
+    const bool same = limits[c].empty() && &asked == &size;
+    wanted.lengths.push_back(same ? total : size_integral(fine, chains[c], delta_asked).total());
+    wanted.demands.push_back({total, chains[c].closed() ? 3 : 1, {}});
+  }
+  for (std::size_t p = 0; p < curves.maps.size(); ++p)
+    for (const auto& loop : curves.outlines[p])
+      for (const CurveSide& side : loop)
+        if (side.begins(chains[side.chain]))
+          wanted.demands[side.chain].patches.push_back(static_cast<int>(p));
+  // The curves of a strip want the mean of what each wants alone.
+  wanted.group = group_facing_curves(fine, chains, across, size);
+  std::vector<double> sum(chains.size(), 0), members(chains.size(), 0);
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    sum[wanted.group[c]] += std::log(wanted.demands[c].integral), ++members[wanted.group[c]];
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
+  demand_edges_at_corners(curves, wanted.demands);
+  demand_edges_of_loops(chains, wanted.integrals, wanted.demands);
+  return wanted;
+}
+
+std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                          const CurveDemands& wanted) {
+  std::vector<Warning> warnings;
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    if (const double length = wanted.lengths[c]; length < kShort)
+      warnings.push_back({fmt::format("curves shorter than {:g} times the size", kShort), 1 / length,
+                          fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
+                                      fine.curves[chains[c].curve].tag, length, wanted.demands[c].minimum)});
+  return warnings;
+}
+
+}  // namespace delquad

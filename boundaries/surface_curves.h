@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "boundaries/across_view.h"
+#include "boundaries/curve_nodes.h"
+#include "boundaries/face_corners.h"
+#include "boundaries/patch_outline.h"
+#include "delquad/fields.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// A boundary loop of quads needs four edges to enclose an area.
+inline constexpr int kFewestLoopEdges = 4;
+
+/// The curves of a flattened model and how they bound its patches: all that stays while they get their edges.
+struct SurfaceCurves {
+  std::vector<FlatPatch> maps;
+  std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
+  std::vector<CurveChain> chains;
+  std::vector<PatchOutline> outlines;  ///< of each map
+  std::vector<FaceCorner> corners;
+  std::vector<std::vector<double>> tube_sizes;  ///< at the vertices of each map
+};
+
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size);
+
+/// How many edges curves want and must have, by chain.
+struct CurveDemands {
+  std::vector<SizeIntegral> integrals;
+  std::vector<double> lengths;  ///< in sizes as asked
+  std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
+  std::vector<CurveDemand> demands;
+};
+
+/// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
+CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
+                            const SizeField& size, const SizeField& asked);
+
+/// One for each curve that is much shorter than the size.
+std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                          const CurveDemands& wanted);
+
+std::string face_name(const Mesh& fine, const FlatPatch& map);
+
+/// Calls work(patch), in parallel.
+void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
+                    const std::function<void(std::size_t)>& work);
+
+}  // namespace delquad

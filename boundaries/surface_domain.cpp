@@ -1,0 +1,140 @@
+#include "boundaries/surface_domain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "base/activity.h"
+#include "boundaries/corner_caps.h"
+#include "boundaries/narrow_seeds.h"
+#include "boundaries/patch_boundaries.h"
+#include "boundaries/surface_curves.h"
+#include "boundaries/tip_caps.h"
+#include "delquad/error.h"
+
+namespace delquad {
+
+namespace {
+
+/// So many times curves are refined to keep boundary polygons from crossing.
+constexpr int kRefinements = 8;
+
+/// Demands more edges of the curves that keep boundaries from enclosing quads, until none do.
+PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
+                                       const AcrossView& across, CurveDemands& wanted, const SizeField& size,
+                                       const MatchingSolver& solver) {
+  for (int attempt = 0;; ++attempt) {
+    PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver);
+    const FlatPatch* crossing = nullptr;
+    for (size_t p = 0; p < curves.maps.size(); ++p) {
+      if (!placed.at_fault[p].empty()) crossing = &curves.maps[p];
+      for (const int c : placed.at_fault[p]) wanted.demands[c].minimum = 2 * placed.counts[c];
+    }
+    if (crossing == nullptr) return placed;
+    if (attempt == kRefinements)
+      throw FaceError(
+          crossing->face,
+          fmt::format("{}: its boundary crosses itself in the parameter plane however fine its curves are",
+                      face_name(model.fine, *crossing)));
+  }
+}
+
+/// Nodes of a patch where two curves meet that have it on one side only.
+std::set<int> corners_between_curves(int p, const std::vector<FaceCorner>& corners,
+                                     const std::vector<CurveDemand>& demands, const SurfaceNodes& nodes) {
+  const auto is_seam = [&](int chain) { return std::ranges::count(demands[chain].patches, p) > 1; };
+  std::set<int> found;
+  for (const FaceCorner& c : corners) {
+    if (c.patch != p || is_seam(c.before) || is_seam(c.after)) continue;
+    const auto& on_curve = nodes.on_curve[c.after];
+    found.insert((c.after_ends ? on_curve.back() : on_curve.front()).node);
+  }
+  return found;
+}
+
+/// Takes pointed tips and sharp corners out of a patch, and the nodes that this drops from their curves.
+void cap_patch(int p, const SurfaceModel& model, const SurfaceCurves& curves,
+               const std::vector<CurveDemand>& demands, SurfaceDomain& domain) {
+  SurfaceNodes& nodes = domain.nodes;
+  SurfacePatch& patch = domain.patches[p];
+  const auto add = [&](const Vec3& x) {
+    nodes.points.push_back(x);
+    return static_cast<int>(nodes.points.size()) - 1;
+  };
+  int hint = -1;
+  auto caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model, u, hint)); });
+  for (const BoundaryCap& cap : caps)
+    for (auto& on_curve : nodes.on_curve)
+      std::erase_if(on_curve, [&](const CurveNode& n) {
+        return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
+      });
+  const std::set<int> corners = corners_between_curves(p, curves.corners, demands, nodes);
+  const CapNodes cap_nodes{
+      [&](int node) { return corners.contains(node); }, [&](int node) { return nodes.points[node]; },
+      [&](const Vec3& x, Vec2 u) {
+        return model.projector ? model.projector->to_face(patch.map.face, x) : lift(patch, model, u, hint);
+      },
+      [&](Vec2 u) { return fine_normal(patch, model.fine, u, hint); }, add};
+  for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
+  for (BoundaryCap& cap : caps) domain.caps.push_back({p, std::move(cap)});
+}
+
+/// Nodes, lines, curves and regions, once the nodes are those that remain.
+Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, const SurfaceNodes& nodes) {
+  Mesh boundary;
+  boundary.curves = fine.curves;
+  boundary.regions = fine.regions;
+  for (size_t c = 0; c < chains.size(); ++c)
+    for (size_t i = 0; i + 1 < nodes.on_curve[c].size(); ++i) {
+      boundary.lines.push_back({nodes.on_curve[c][i].node, nodes.on_curve[c][i + 1].node});
+      boundary.line_curve.push_back(chains[c].curve);
+    }
+  boundary.points = nodes.points;
+  return boundary;
+}
+
+}  // namespace
+
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                                  const MatchingSolver& solver, const SizeField* asked) {
+  const Mesh& fine = model.fine;
+  SurfaceCurves curves = find_curves(model, std::move(flattening), size);
+  const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
+  CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
+  SurfaceDomain domain;
+  domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
+  PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver);
+  for (const int p : placed.odd_patches)
+    domain.warnings.push_back(
+        {"faces with an odd boundary that no curve can make even", 0,
+         face_name(fine, curves.maps[p]) + " has an odd boundary that no curve can make even"});
+
+  std::vector<std::shared_ptr<BackgroundMesh>> backgrounds(curves.maps.size());
+  for_each_patch(fine, curves.maps,
+                 [&](size_t p) { backgrounds[p] = std::make_shared<BackgroundMesh>(curves.maps[p].flat); });
+  domain.nodes = std::move(placed.nodes);
+  domain.sharp_corners =
+      find_sharp_corners(curves.corners, curves.chains, curves.maps, domain.nodes, kBadEta);
+  for (size_t p = 0; p < curves.maps.size(); ++p) {
+    domain.patches.push_back({std::move(curves.maps[p]), std::move(curves.outlines[p]),
+                              std::move(placed.boundaries[p]), std::move(backgrounds[p]),
+                              std::move(curves.tube_sizes[p])});
+    SurfacePatch& patch = domain.patches[p];
+    const DoingFace face(fine.regions[patch.map.face].tag);
+    try {
+      cap_patch(static_cast<int>(p), model, curves, wanted.demands, domain);
+      seed_narrow_places(patch.boundary);
+    } catch (const InputError& error) {
+      throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(fine, patch.map), error.what()));
+    }
+  }
+  domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
+  domain.chains = std::move(curves.chains);
+  domain.cut_face = std::move(curves.cut_face);
+  return domain;
+}
+
+}  // namespace delquad

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boundaries/boundary_cap.h"
+#include "boundaries/face_corners.h"
+#include "boundaries/patch_outline.h"
+#include "delquad/mesh.h"
+#include "fields/fields.h"
+#include "fields/surface/surface_size.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/surface_model.h"
+#include "matching/matching.h"
+
+namespace delquad {
+
+/// A quad below this eta is bad.
+inline constexpr double kBadEta = 0.1;
+
+/// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
+struct SurfacePatch {
+  FlatPatch map;
+  PatchOutline outline;
+  PatchBoundary boundary;
+  std::shared_ptr<const BackgroundMesh> background;  ///< the map's triangulation
+  std::vector<double> tube_size;  ///< at the map's vertices, see tube_sizes(); may be empty
+};
+
+/// Quads that belong to a patch but are not within its boundary.
+struct PatchCap {
+  int patch;
+  BoundaryCap cap;
+};
+
+struct SurfaceDomain {
+  Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
+  std::vector<SurfacePatch> patches;
+  std::vector<CurveChain> chains;
+  std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
+  SurfaceNodes nodes;                      ///< those of `boundary`
+  std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
+  std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
+  std::vector<Warning> warnings;
+};
+
+/// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
+/// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
+/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
+/// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
+/// Throws FaceError when no refinement gives a valid boundary, naming the face.
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                                  const MatchingSolver& solver, const SizeField* asked = nullptr);
+
+/// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
+/// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
+/// +1/4), averaged to the map's vertices so that it is continuous.
+class SurfacePatchSize final : public ParametricSize {
+ public:
+  SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size);
+  double at(Vec2 u, int& hint) const override;
+
+ private:
+  const SurfacePatch& patch_;
+  const Mesh& fine_;
+  const SurfaceSize& size_;
+  std::vector<double> stretch_;  ///< of each vertex of the map
+};
+
+/// The point of the fine triangulation at u.
+Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
+
+/// Outward normal of the fine triangles about u, any length: the large ones count most, since the slivers of
+/// a sharp corner may be turned over.
+Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
+
+/// The point of space at u: on the fine triangulation, then projected to the true surface where there is one.
+Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint);
+
+}  // namespace delquad

@@ -1,0 +1,197 @@
+#include "cases/case_file.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+
+#include "base/located.h"
+#include "cases/case_keys.h"
+#include "cases/model_file.h"
+#include "cases/problem.h"
+#include "cases/surface_spec.h"
+#include "geometry/cad/example_models.h"
+#include "io/mesh_io.h"
+#include "mesher/check_problem.h"
+
+namespace delquad {
+namespace {
+
+double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
+  const double value = table.number(key, absent);
+  if (table.has(key) && value < least)
+    throw InputError(
+        fmt::format("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least));
+  return value;
+}
+
+/// A whole number between `least` and `most`.
+long long integer_between(const TomlTable& table, const std::string& key, long long least, long long most,
+                          long long absent) {
+  if (!table.has(key)) return absent;
+  const long long value = table.integer(key);
+  if (value >= least && value <= most) return value;
+  throw InputError(
+      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, value, least, most));
+}
+
+OptionValue read_value(const TomlTable& table, const OptionKey& key) {
+  if (std::holds_alternative<bool>(key.value)) return table.flag(key.name, false);
+  if (std::holds_alternative<double>(key.value)) return table.number(key.name);
+  if (std::holds_alternative<std::string>(key.value)) return table.text(key.name);
+  return table.integer(key.name);
+}
+
+void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
+  for (const OptionKey& key : group.keys)
+    if (table.has(key.name))
+      located(table.where(key.name),
+              [&] { return options.set(group.name + "." + key.name, read_value(table, key)); });
+  table.finish(keys_of(group));
+}
+
+SizeSource read_source(const TomlTable& table) {
+  const Vec3 at = table.space_point("at");
+  SizeSource source{at,
+                    table.has("to") ? table.space_point("to") : at,
+                    table.positive_number("near"),
+                    table.positive_number("far"),
+                    number_at_least(table, "radius_near", 0, 0),
+                    table.positive_number("radius_far")};
+  if (source.radius_far <= source.radius_near)
+    throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
+  table.finish(source_keys());
+  return source;
+}
+
+SizeText read_size(const TomlTable& table) {
+  SizeText size;
+  size.where = table.where("size");
+  if (table.kind("size") != TomlKind::kTable) {
+    size.base = table.expression("size");
+    return size;
+  }
+  const TomlTable fields = table.table("size");
+  if (fields.has("base")) size.base = fields.expression("base");
+  for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
+  if (fields.has("gradation")) size.gradation = fields.positive_number("gradation");
+  size.curvature = number_at_least(fields, "curvature", kLeastPerTurn, 0);
+  if (fields.has("min")) size.min = fields.positive_number("min");
+  if (fields.has("max")) size.max = fields.positive_number("max");
+  fields.finish(size_keys());
+  check_size_limits(size.curvature, size.min, size.max, size.where);
+  return size;
+}
+
+void drop_model(Case& target) {
+  target.model.reset();
+  target.mesh_file.clear();
+  target.surface_file.clear();
+  target.example.clear();
+  target.may_be_absent = false;
+}
+
+/// A file of lines, triangles or CAD as the case's model, if its extension says so.
+bool set_model_file(const std::filesystem::path& file, Case& target) {
+  drop_model(target);
+  const bool is_msh = kind_of_file(file) == ".msh";
+  if (!is_msh && !is_surface_file(file)) return false;
+  (is_msh ? target.mesh_file : target.surface_file) = file;
+  return true;
+}
+
+void read_data(const TomlTable& table, Case& target) {
+  if (target.data_folder.empty())
+    throw InputError(table.where("data") + ": 'data' is for cases of experiments: expected 'model'");
+  const std::filesystem::path file = target.data_folder / table.text("data");
+  if (!set_model_file(file, target))
+    throw InputError(table.where("data") + ": '" + file.string() +
+                     "' is no data: expected a .msh, .step, .stp, .brep, .stl, .obj or .off file");
+  target.may_be_absent = true;
+}
+
+void read_model_keys(const TomlTable& table, Case& target) {
+  const std::filesystem::path folder = table.file().parent_path();
+  const bool drawn = has_planar_model(table);
+  if (table.has("mesh") && drawn)
+    throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
+  int models = (drawn || table.has("mesh")) ? 1 : 0;
+  for (const char* key : {"model", "data", "example"})
+    if (table.has(key) && ++models > 1)
+      throw InputError(fmt::format("{}: '{}' and another model exclude each other", table.where(key), key));
+  if (table.has("data")) {
+    read_data(table, target);
+  } else if (table.has("model")) {
+    Case other =
+        located(table.where("model"), [&] { return read_model_case(folder / table.text("model"), target); });
+    other.name = target.name;
+    other.where = target.where;
+    target = std::move(other);
+  } else if (table.has("example")) {
+    drop_model(target);
+    target.example = table.text("example");
+    located(table.where("example"), [&] { check_example(target.example); });
+  } else if (table.has("mesh")) {
+    drop_model(target);
+    target.mesh_file = folder / table.text("mesh");
+    if (kind_of_file(target.mesh_file) != ".msh")
+      throw InputError(table.where("mesh") + ": '" + target.mesh_file.string() + "' is not a .msh file");
+  } else if (drawn) {
+    PlanarModel model = read_planar_model(table);
+    drop_model(target);
+    target.model = std::move(model);
+  }
+}
+
+}  // namespace
+
+bool has_model(const Case& c) {
+  return c.model || !c.mesh_file.empty() || !c.surface_file.empty() || !c.example.empty();
+}
+
+std::optional<double> as_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+const std::filesystem::path& model_path(const Case& c) {
+  return c.surface_file.empty() ? c.mesh_file : c.surface_file;
+}
+
+void read_case_keys(const TomlTable& table, Case& target) {
+  read_model_keys(table, target);
+  if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
+  if (table.has("size")) target.size = read_size(table);
+  if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
+  target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
+  for (const OptionGroup& group : option_groups())
+    if (const auto given = table.optional_table(group.name)) read_options(*given, group, target.options);
+  if (const auto compare = table.optional_table("compare"))
+    for (const std::string& word : compare->keys()) target.compare[word] = compare->text(word);
+}
+
+Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
+  Case result = defaults;
+  result.name = file.stem().string();
+  result.where = file.string();
+  if (set_model_file(file, result)) return result;
+  if (kind_of_file(file) != ".toml")
+    throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
+                     "'; known: .toml (curves and loops), .msh (lines or triangles), .step, .stp, .brep, "
+                     ".stl, .obj, .off");
+  const TomlTable table = TomlTable::read(file);
+  if (table.has("case"))
+    throw InputError(table.where("case") +
+                     ": this is an experiment with cases of its own: run it with 'delquad run'");
+  if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
+    throw InputError(table.where("model") + ": a model file cannot take its model from another one");
+  read_case_keys(table, result);
+  table.finish();
+  if (!has_model(result))
+    throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh', 'model' or 'example'");
+  return result;
+}
+
+}  // namespace delquad

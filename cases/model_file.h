@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cases/toml_reader.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// Reads `curve`, `loop` and `pattern` of a table (docs/experiments.md has the schema). Throws InputError
+/// with file and line.
+PlanarModel read_planar_model(const TomlTable& table);
+/// Whether the table has any of these keys.
+bool has_planar_model(const TomlTable& table);
+
+}  // namespace delquad

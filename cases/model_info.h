@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case.h"
+#include "geometry/surface/model_report.h"
+
+namespace delquad {
+
+/// What a case's model consists of.
+struct ModelInfo {
+  SurfaceModel model;
+  ModelReport report;
+};
+
+/// Reads and measures the model of a case. A planar model is measured between points on its curves, at most a
+/// 2000th of its diagonal apart; a mesh of lines as it is. Throws InputError for models that cannot be read.
+ModelInfo model_info(const Case& c);
+
+/// What a size (length) is too coarse for, as indices.
+struct SmallFeatures {
+  std::vector<int> curves;  ///< shorter than the size
+  std::vector<int> faces;   ///< narrower, see FaceReport::width
+};
+SmallFeatures smaller_than(const ModelReport& report, double size);
+
+/// Corners below 30 degrees, the sharpest first. A quad in a corner of angle a has at best an eta of a / 90.
+std::vector<CornerReport> sharp_corners(const ModelReport& report);
+
+/// The report as JSON; `size` 0: not given.
+std::string info_record(const ModelInfo& info, double size);
+
+}  // namespace delquad

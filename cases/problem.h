@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cases/case.h"
+#include "delquad/mesher.h"
+#include "mesher/prepare.h"
+
+namespace delquad {
+
+/// Whether the file holds a surface by its extension: CAD (.step, .stp, .brep) or triangles (.stl, .obj,
+/// .off).
+bool is_surface_file(const std::filesystem::path& path);
+
+/// How cases write it: "boundary", "size-aware", "gradient"; "angle" of fields.
+std::string text_of(CrossKind kind);
+
+/// What a case asks for: its files read (but for CAD), its formulas parsed. Throws InputError with file and
+/// line.
+MeshProblem make_problem(const Case& c);
+
+/// Boundary, background mesh and fields of a case: prepare(make_problem(c)), with the time of reading.
+PreparedProblem prepare_case(const Case& c);
+
+/// The size field of a mesh that is there already: `text` is a number, an expression or "boundary", as --size
+/// gives it.
+std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
+
+}  // namespace delquad

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "delquad/error.h"
+#include "fields/check_size.h"
+#include "fields/fields.h"
+#include "mesh/check_mesh.h"
+#include "mesh/nearest_triangle.h"
+
+namespace delquad {
+
+namespace {
+
+/// Triangles, and quads as two.
+std::vector<std::array<int, 3>> triangles_of(const Mesh& mesh) {
+  std::vector<std::array<int, 3>> triangles = mesh.triangles;
+  for (const auto& [a, b, c, d] : mesh.quads) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+  return triangles;
+}
+
+/// Where a point is in the mesh that has the data.
+class Nodes {
+ public:
+  explicit Nodes(const Mesh& mesh) : triangles_(mesh.points, triangles_of(mesh)) {}
+
+  struct Found {
+    const std::array<int, 3>& nodes;
+    std::array<double, 3> weights;
+  };
+  Found at(const Vec3& x, int& hint) const {
+    const auto found = triangles_.find_from(hint, x);
+    hint = found.triangle;
+    return {triangles_.triangle(found.triangle), found.weights};
+  }
+
+ private:
+  NearestTriangle triangles_;
+};
+
+class NodalSize final : public SizeField {
+ public:
+  NodalSize(const Mesh& mesh, std::vector<double> delta) : nodes_(mesh), delta_(std::move(delta)) {}
+  double at(const Vec3& x, int& hint) const override {
+    const auto [v, w] = nodes_.at(x, hint);
+    return w[0] * delta_[v[0]] + w[1] * delta_[v[1]] + w[2] * delta_[v[2]];
+  }
+
+ private:
+  Nodes nodes_;
+  std::vector<double> delta_;
+};
+
+class NodalCross final : public CrossField {
+ public:
+  NodalCross(const Mesh& mesh, std::vector<Cross> crosses) : nodes_(mesh), crosses_(std::move(crosses)) {}
+  Cross at(Vec2 u, int& hint) const override {
+    const auto [v, w] = nodes_.at({u.x, u.y, 0}, hint);
+    Cross sum{0, 0};
+    for (int k = 0; k < 3; ++k) {
+      const Cross& cross = crosses_[v[k]];
+      sum = sum + Cross{w[k] * cross.c, w[k] * cross.s};
+    }
+    return sum;
+  }
+
+ private:
+  Nodes nodes_;
+  std::vector<Cross> crosses_;
+};
+
+/// `what`: "size", "cross".
+void check_nodal(const Mesh& mesh, std::size_t n_values, const std::string& what) {
+  const std::string where = "the mesh of the nodal " + what;
+  require_readable(mesh, where);
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    throw InputError(where + " has neither triangles nor quads");
+  if (n_values != mesh.points.size())
+    throw InputError(
+        fmt::format("{} has {} points, but there are {} values", where, mesh.points.size(), n_values));
+}
+
+}  // namespace
+
+std::unique_ptr<SizeField> make_nodal_size(const Mesh& mesh, std::vector<double> delta) {
+  check_nodal(mesh, delta.size(), "size");
+  for (std::size_t i = 0; i < delta.size(); ++i)
+    if (!is_size(delta[i])) throw bad_size(fmt::format("the nodal size {}", i), mesh.points[i], delta[i]);
+  return std::make_unique<NodalSize>(mesh, std::move(delta));
+}
+
+std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<double> theta) {
+  check_nodal(mesh, theta.size(), "cross");
+  Mesh flat = mesh;
+  std::vector<Cross> crosses;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const Vec3 p = mesh.points[i];
+    if (p.z != mesh.points[0].z)
+      throw InputError(
+          fmt::format("the mesh of the nodal cross is not planar: point {} has z = {}, point 0 {}", i, p.z,
+                      mesh.points[0].z));
+    if (!std::isfinite(theta[i]))
+      throw InputError(fmt::format("the nodal angle {} is {} at ({:.6g}, {:.6g}); an angle must be finite", i,
+                                   theta[i], p.x, p.y));
+    flat.points[i].z = 0;
+    crosses.push_back(Cross::from_angle(theta[i]));
+  }
+  return std::make_unique<NodalCross>(flat, std::move(crosses));
+}
+
+}  // namespace delquad

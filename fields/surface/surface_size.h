@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "geometry/surface/model_curvature.h"
+#include "geometry/surface/surface_model.h"
+#include "mesh/nearest_triangle.h"
+
+namespace delquad {
+
+/// What is asked of the sizes on a surface.
+struct WantedSize {
+  std::shared_ptr<const SizeField> base;            ///< in space; the largest size anywhere
+  std::shared_ptr<const ModelCurvature> curvature;  ///< null: sizes do not follow curvature
+  /// Elements per full turn: delta = 2 pi r / per_turn with the smallest radius of curvature r of the face,
+  /// and of the curve on curves; > 0 where there is `curvature`.
+  double per_turn = 0;
+  double min = 0;  ///< least size that curvature asks for; 0: a twentieth of the base
+  /// The most |grad delta| along the surface; 0: no limit, and then no curvature either, whose sizes jump
+  /// between faces.
+  double gradation = 0;
+  /// Of each curve (index into Mesh::curves), the largest size on it; empty: as the base.
+  std::vector<double> curve_limit;
+
+  /// Without the limit of gradation.
+  double in_face(int face, const Vec3& x) const;
+  double on_curve(int curve, const Vec3& x) const;
+  /// What curvature asks for at least, where the base is so large.
+  double least_by_curvature(double base_size) const;
+  /// Whether it is more than a function of space.
+  bool lives_on_surface() const { return gradation > 0; }
+
+ private:
+  double by_curvature(double curvature, double base_size) const;
+};
+
+/// Sizes on a model's fine triangulation: the base, and where sizes follow curvature or have a limit of
+/// gradation, values at the fine points, linear on triangles and lines. The limit is that of the distance
+/// along the surface, found by fast marching [sethian1996], so that sheets close in space do not mix.
+class SurfaceSize final : public SizeField {
+ public:
+  explicit SurfaceSize(std::shared_ptr<const SizeField> base);
+  /// The fine triangulation should have been refined for it: see refine_for_size().
+  SurfaceSize(const SurfaceModel& model, const WantedSize& wanted);
+
+  /// At the point x with these weights of points of the fine triangulation it was made from. This is what
+  /// meshing uses.
+  double on_fine(std::span<const int> nodes, std::span<const double> weights, const Vec3& x, int& hint) const;
+  /// At the point of the surface nearest to x, for measuring meshes.
+  double at(const Vec3& x, int& hint) const override;
+
+ private:
+  std::shared_ptr<const SizeField> base_;
+  std::vector<double> delta_;                 ///< of each fine point; empty: the base is all
+  std::optional<NearestTriangle> triangles_;  ///< where sizes are less than the base
+};
+
+/// What the size on each curve of a model may be at most so that edges beside a curve that is shorter than
+/// the size are no more than a few times as long as its own; not below a part of the base. Empty where that
+/// asks for nothing, and for a base that varies: it says itself what is wanted.
+std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base);
+
+/// Refines the fine triangulation until sizes that are linear on it are within 25 % of what they should be,
+/// or its sides as short as the size. Does nothing for sizes that are a function of space.
+void refine_for_size(SurfaceModel& model, const WantedSize& wanted);
+
+/// Lowers values at the points of a fine triangulation until none is more than `slope` times the distance
+/// along the surface above another one.
+void limit_slope(const Mesh& fine, double slope, std::vector<double>& values);
+
+}  // namespace delquad

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad::cad {
+
+struct Agreement {
+  int n_turned = 0;        ///< faces turned over
+  bool orientable = true;  ///< false: no choice makes all neighbours agree
+};
+
+/// Turns as few faces over as it takes for neighbours (across edges of exactly two triangles) to agree.
+Agreement agree_faces(Mesh& mesh);
+
+/// Turns each group of faces (indices of regions) over that is closed and encloses a negative volume; returns
+/// how many.
+int turn_outwards(Mesh& mesh, const std::vector<std::vector<int>>& groups);
+
+}  // namespace delquad::cad

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+
+#include "delquad/model.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+struct CadOptions {
+  /// Largest distance between the fine triangulation and the model, as a fraction of the diagonal of the
+  /// model's bounding box, > 0.
+  double deflection = 1.0 / 2000;
+  /// Largest angle between neighbouring sides of a curve, and normals of a face across an inner side,
+  /// radians.
+  double angle = 0.15;
+  /// Processor time that the kernel may take to triangulate a face, in one of its trials: those that take
+  /// longer count as faces that cannot be triangulated. Nearly ten times what any face took of 24 models
+  /// (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the machine does not
+  /// decide.
+  double face_seconds = 20;
+  /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
+  /// these models took.
+  double healing_seconds = 60;
+  /// Faces that cannot be triangulated are left out, and named in the model, instead of an error.
+  bool keep_going = false;
+};
+
+/// Reads a STEP or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are
+/// millimetres in STEP, whatever the file's unit, and as given in BREP. Each face and each edge stands once,
+/// as region and curve; their tags are their numbers in the file's order, so that gaps stay where degenerate
+/// edges and seams were: these are no curves, the triangulation is connected across them. A region's names
+/// are those of its face, solids and products in STEP and its colour ("colour #rrggbb"). Normals of a solid
+/// point outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so; warnings
+/// also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the
+/// surface is regular. The kernel works in a worker process (see find_worker()), so that a damaged file
+/// cannot bring the program down; what it prints is lost. Throws Cancelled, and InputError naming the file
+/// for files that cannot be read or hold no face, and naming the faces that are unbounded, have no area,
+/// cross their own boundary or cannot be triangulated, unless options.keep_going leaves them out and others
+/// remain (an unbounded one is refused in any case).
+SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
+SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
+
+}  // namespace delquad

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/cad/cad_reader.h"
+
+namespace delquad::cad {
+
+/// What a worker is asked for: to read, heal and triangulate a shape.
+struct CadRequest {
+  enum class Source { kFile, kBytes, kShape };
+  Source source = Source::kFile;
+  std::string text;  ///< path, contents of a file, or a shape as in shape_bytes.h
+  CadOptions options;
+  int threads = 1;
+  unsigned seconds = 0;  ///< of processor time, then the worker ends
+  /// What it leaves out, because it took too long before.
+  bool heals = true;
+  std::vector<int> late_faces = {};  ///< ascending
+};
+
+/// As bytes, and back. Throws InputError for the bytes of a program of another version.
+std::string to_bytes(const CadRequest& request);
+CadRequest request_from(const std::string& bytes);
+
+/// First byte of what a worker sends. After it comes the length, then as many bytes: of the shape, a message,
+/// the numbers of faces that take too long, nothing; the name of a stage, or the number of a face that begins
+/// or ends.
+enum class Reply : char {
+  kShape = 'S',
+  kMessage = 'M',
+  kLateFaces = 'F',
+  kLateHealing = 'H',
+  kStage = 's',
+  kFaceBegins = 'b',
+  kFaceEnds = 'e'
+};
+/// After these the worker is done.
+inline bool is_last(Reply reply) { return reply < Reply{'a'}; }
+
+/// Numbers as bytes, and back.
+std::string to_bytes(const std::vector<int>& numbers);
+std::vector<int> numbers_from(const std::string& bytes);
+
+}  // namespace delquad::cad

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <NCollection_DataMap.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS_Shape.hxx>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/warning.h"
+
+namespace delquad::cad {
+
+/// Names of faces; all instances of a face, wherever they are placed, share them.
+class FaceNames {
+ public:
+  void add(const TopoDS_Shape& face, const std::string& name) {
+    std::vector<std::string>* names = map_.ChangeSeek(unplaced(face));
+    if (names == nullptr) names = map_.Bound(unplaced(face), {});
+    if (std::ranges::find(*names, name) == names->end()) names->push_back(name);
+  }
+  std::vector<std::string> of(const TopoDS_Shape& face) const {
+    const std::vector<std::string>* names = map_.Seek(unplaced(face));
+    return names == nullptr ? std::vector<std::string>{} : *names;
+  }
+
+ private:
+  static TopoDS_Shape unplaced(const TopoDS_Shape& face) { return face.Located(TopLoc_Location()); }
+
+  NCollection_DataMap<TopoDS_Shape, std::vector<std::string>, TopTools_ShapeMapHasher> map_;
+};
+
+/// What a CAD file holds.
+struct CadShape {
+  TopoDS_Shape shape;
+  FaceNames names;
+  double diagonal = 0;  ///< of the bounding box
+  std::string unit;     ///< of lengths; empty: unknown
+  std::vector<Warning> warnings;
+  std::vector<int> late_faces;  ///< numbers of the faces for which the kernel takes too long, ascending
+};
+
+}  // namespace delquad::cad

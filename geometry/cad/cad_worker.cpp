@@ -1,0 +1,199 @@
+#include "geometry/cad/cad_worker.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <OSD_Parallel.hxx>
+#include <OSD_ThreadPool.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include "base/activity.h"
+#include "base/context.h"
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "geometry/cad/heal_shape.h"
+#include "geometry/cad/shape_bytes.h"
+#include "geometry/cad/shape_file.h"
+#include "geometry/cad/tessellate.h"
+#include "geometry/cad/unwind_faces.h"
+#include "geometry/cad/watch_kernel.h"
+#include "geometry/cad/worker_process.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
+constexpr double kSewing = 1e-6;
+
+TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map;
+}
+
+double diagonal_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  // The geometry's own box: an old triangulation may lie.
+  BRepBndLib::Add(shape, box, /*useTriangulation=*/false);
+  if (box.IsVoid() || box.IsOpen()) throw InputError("the model has no extent, or an infinite one");
+  const double diagonal = std::sqrt(box.SquareExtent());
+  if (!(diagonal > 0) || Precision::IsInfinite(diagonal)) {
+    throw InputError("the model has no extent, or an infinite one");
+  }
+  return diagonal;
+}
+
+/// A face needs a surface, and a boundary unless its surface ends by itself.
+void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
+  if (faces.IsEmpty()) throw InputError("the model holds no face");
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(f)));
+    const std::string title = face_title(f, cad.names.of(faces(f)));
+    if (surface.IsNull()) throw InputError(title + " has no surface");
+    double u0, u1, v0, v1;
+    surface->Bounds(u0, u1, v0, v1);
+    if (TopExp_Explorer(faces(f), TopAbs_EDGE).More()) continue;
+    if (Precision::IsInfinite(u0) || Precision::IsInfinite(u1) || Precision::IsInfinite(v0) ||
+        Precision::IsInfinite(v1)) {
+      throw InputError(title + " has no boundary and its surface is infinite");
+    }
+  }
+}
+
+/// Every edge must have a curve in space; those that have one on a surface only get it computed.
+void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges) {
+  BRepLib::BuildCurves3d(shape);
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
+    double first, last;
+    if (!BRep_Tool::Degenerated(edge) && BRep_Tool::Curve(edge, first, last).IsNull()) {
+      throw InputError(fmt::format("edge {} has no curve", e));
+    }
+  }
+}
+
+void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& watch) {
+  if (!heals) {
+    cad.warnings.push_back(
+        fmt::format("checking and healing the shape takes longer than {:g} s: it is taken as it is",
+                    options.healing_seconds));
+    return;
+  }
+  const DoingStage stage(kHealing);
+  const KernelWatch::Healing limited(watch);
+  heal_shape(cad, kSewing * cad.diagonal);
+  unwind_faces(cad);
+}
+
+CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
+  check_faces(cad, parts(cad.shape, TopAbs_FACE));
+  cad.diagonal = diagonal_of(cad.shape);
+  cad.late_faces = request.late_faces;
+  heal(cad, request.options, request.heals, watch);
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
+  check_faces(cad, faces);
+  complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
+  triangulate(cad, faces, request.options.deflection * cad.diagonal, request.options.angle);
+  return cad;
+}
+
+/// The kernel's own threads, as many as were asked for.
+void set_kernel_threads() {
+  OSD_Parallel::SetUseOcctThreads(true);
+  OSD_ThreadPool::DefaultPool()->Init(thread_count());
+}
+
+CadShape read(const CadRequest& request) {
+  switch (request.source) {
+    case CadRequest::Source::kBytes:
+      return read_shape_bytes(request.text);
+    case CadRequest::Source::kShape:
+      return from_bytes(request.text);
+    case CadRequest::Source::kFile:
+      break;
+  }
+  return read_shape(request.text);
+}
+
+/// The worker is of use only as long as somebody listens, and must not go on for ever.
+void end_with(int parent, int socket) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  std::thread([socket] {
+    pollfd entry{socket, POLLRDHUP, 0};
+    while (poll(&entry, 1, -1) <= 0) {
+    }
+    _exit(1);
+  }).detach();
+}
+
+void limit_to(unsigned seconds) {
+  const rlimit time{seconds, seconds}, no_core{0, 0};
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+/// What ends the reading without a shape, for people.
+std::string why_not() {
+  try {
+    throw;
+  } catch (const Standard_Failure& failure) {
+    return fmt::format("damaged: the CAD kernel gave up: {} {}", failure.DynamicType()->Name(),
+                       failure.GetMessageString());
+  } catch (const std::bad_alloc&) {
+    return "damaged, or too large for the memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+void answer(const CadRequest& request, int socket) {
+  constexpr int kMostFaces = 1024;  // at a time: as many as threads
+  Activities activities(kMostFaces);
+  activities.on_stage = [socket](const char* name) { send_reply(socket, Reply::kStage, name); };
+  activities.on_face = [socket](int face, bool begins) {
+    send_reply(socket, begins ? Reply::kFaceBegins : Reply::kFaceEnds, to_bytes(std::vector<int>{face}));
+  };
+  const RunScope run({.threads = request.threads, .activities = &activities});
+  KernelWatch watch(
+      {request.options.face_seconds, request.options.healing_seconds},
+      [socket](const std::vector<int>& late) { send_reply(socket, Reply::kLateFaces, to_bytes(late)); },
+      [socket] { send_reply(socket, Reply::kLateHealing, ""); });
+  set_kernel_threads();
+  send_reply(socket, Reply::kShape, to_bytes(prepare(read(request), request, watch)));
+}
+
+}  // namespace
+
+void work_for(int socket, int parent) {
+  end_with(parent, socket);
+  try {
+    const CadRequest request = receive_request(socket);
+    limit_to(request.seconds);
+    answer(request, socket);
+  } catch (...) {
+    send_reply(socket, Reply::kMessage, why_not());
+  }
+  _exit(1);
+}
+
+}  // namespace delquad::cad

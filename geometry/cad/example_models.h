@@ -1,0 +1,24 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+#include "geometry/cad/cad_reader.h"
+
+namespace delquad {
+
+/// Throws InputError, naming those that exist, when there is no example of this name.
+void check_example(const std::string& name);
+
+enum class CadFormat { kStep, kBrep };
+
+/// Writes an example as a CAD file, in millimetres, the same bytes each time; names of faces are kept in
+/// STEP only. Throws InputError for unknown names, and where the program was built without OpenCASCADE.
+void write_example(const std::string& name, CadFormat format, std::ostream& out);
+
+/// An example as read_cad() would read it from a STEP file. Throws as write_example().
+SurfaceModel read_example(const std::string& name, const CadOptions& options = {});
+
+}  // namespace delquad

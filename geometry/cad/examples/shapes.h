@@ -1,0 +1,20 @@
+#pragma once
+
+#include "geometry/cad/cad_shape.h"
+
+namespace delquad::cad {
+
+/// The example models, in millimetres, with the names of their faces.
+CadShape make_bracket();
+CadShape make_hood();
+CadShape make_pipe_tee();
+CadShape make_sphere();
+CadShape make_torus();
+CadShape make_wing_body();
+
+/// One of them by its name, which must exist.
+CadShape make_example(const std::string& name);
+/// The same whose faces have the example's name first, as those of a product in a STEP file.
+CadShape make_product(const std::string& name);
+
+}  // namespace delquad::cad

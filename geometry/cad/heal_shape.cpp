@@ -1,0 +1,95 @@
+#include "geometry/cad/heal_shape.h"
+
+#include <fmt/format.h>
+
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepTools.hxx>
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Tool.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+
+#include "base/parallel.h"
+
+namespace delquad::cad {
+
+namespace {
+
+int count_free_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  int n = 0;
+  for (int e = 1; e <= faces_of.Extent(); ++e)
+    n += faces_of(e).Extent() == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(faces_of.FindKey(e)));
+  return n;
+}
+
+/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face.
+template <class Image>
+void replace(CadShape& cad, const TopoDS_Shape& shape, Image image) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  FaceNames names;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopTools_IndexedMapOfShape images;
+    TopExp::MapShapes(image(faces(f)), TopAbs_FACE, images);
+    for (const std::string& name : cad.names.of(faces(f)))
+      for (int i = 1; i <= images.Extent(); ++i) names.add(images(i), name);
+  }
+  cad.shape = shape;
+  cad.names = names;
+}
+
+BRepCheck_Analyzer check_shape(const TopoDS_Shape& shape) {
+  return BRepCheck_Analyzer(shape, /*GeomControls=*/true, /*theIsParallel=*/thread_count() > 1);
+}
+
+void fix(CadShape& cad) {
+  if (check_shape(cad.shape).IsValid()) return;
+  ShapeFix_Shape fixer(cad.shape);
+  fixer.Perform();
+  const TopoDS_Shape fixed = fixer.Shape();
+  const BRepCheck_Analyzer check = check_shape(fixed);
+  replace(cad, fixed, [&](const TopoDS_Shape& face) { return fixer.Context()->Apply(face); });
+  if (check.IsValid()) {
+    cad.warnings.push_back("the shape was invalid and has been healed");
+    return;
+  }
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(fixed, TopAbs_FACE, faces);
+  std::string invalid;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    if (!check.IsValid(faces(f))) invalid += fmt::format("{}{}", invalid.empty() ? ": faces " : ", ", f);
+  cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid);
+}
+
+void sew(CadShape& cad, double tolerance) {
+  const int before = count_free_edges(cad.shape);
+  if (before == 0) return;
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  sewing.Add(cad.shape);
+  sewing.Perform();
+  const TopoDS_Shape sewn = sewing.SewedShape();
+  if (sewn.IsNull()) return;
+  const int after = count_free_edges(sewn);
+  if (after >= before) return;
+  replace(cad, sewn, [&](const TopoDS_Shape& face) { return sewing.ModifiedSubShape(face); });
+  cad.warnings.push_back(
+      fmt::format("{} of {} free edges coincided and have been sewn", before - after, before));
+}
+
+}  // namespace
+
+void heal_shape(CadShape& cad, double tolerance) {
+  // A file may carry an old triangulation, coarser than asked or of another shape.
+  BRepTools::Clean(cad.shape);
+  fix(cad);
+  sew(cad, tolerance);
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,123 @@
+#include "geometry/cad/prepare_shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "geometry/cad/cad_request.h"
+#include "geometry/cad/shape_bytes.h"
+#include "geometry/cad/watch_kernel.h"
+#include "geometry/cad/worker_process.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Processor time granted: a hundred times what files need.
+constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
+/// So many times a worker begins anew, without what took too long.
+constexpr int kMostTrials = 4;
+
+/// What a worker is at, as told to the run of this thread.
+class WorkersActivity {
+ public:
+  void hear(Reply reply, const std::string& text) {
+    if (reply == Reply::kStage) {
+      stage_.reset();
+      for (const char* known : {kHealing, kTriangulation})
+        if (text == known) stage_.emplace(known);
+    }
+    if (reply == Reply::kFaceBegins)
+      for (const int face : numbers_from(text))
+        faces_.emplace_back(face, std::make_unique<FaceElsewhere>(face, kTriangulation));
+    if (reply == Reply::kFaceEnds)
+      for (const int face : numbers_from(text))
+        if (const auto at = std::ranges::find(faces_, face, &Face::first); at != faces_.end())
+          faces_.erase(at);
+  }
+  /// ": at the triangulation of face 7, face 9", or nothing where there is no face.
+  std::string text() const {
+    std::string text;
+    for (const auto& [face, told] : faces_)
+      text += fmt::format("{}face {}", text.empty() ? fmt::format(": at the {} of ", kTriangulation) : ", ",
+                          face);
+    return text;
+  }
+
+ private:
+  using Face = std::pair<int, std::unique_ptr<FaceElsewhere>>;
+  std::optional<DoingStage> stage_;
+  std::vector<Face> faces_;  ///< in order of their beginnings
+};
+
+/// The last reply of a worker of its own. Throws InputError when there is none.
+std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
+  std::optional<std::pair<Reply, std::string>> last;
+  WorkersActivity activity;
+  WorkerProcess worker;
+  worker.ask(request, [&](Reply reply, const std::string& text) {
+    activity.hear(reply, text);
+    if (is_last(reply)) last.emplace(reply, text);
+  });
+  if (!last) throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text());
+  return *std::move(last);
+}
+
+CadShape prepare(CadRequest request) {
+  for (int n = 0; n < kMostTrials; ++n) {
+    const auto [reply, text] = ask_worker(request);
+    if (reply == Reply::kLateHealing) {
+      request.heals = false;
+    } else if (reply == Reply::kLateFaces) {
+      const std::vector<int> late = numbers_from(text);
+      request.late_faces.insert(request.late_faces.end(), late.begin(), late.end());
+      std::ranges::sort(request.late_faces);
+    } else if (reply == Reply::kShape) {
+      CadShape cad = from_bytes(text);
+      cad.late_faces = request.late_faces;
+      return cad;
+    } else if (reply == Reply::kMessage) {
+      throw InputError(text);
+    } else {
+      throw InputError(find_worker().string() + " is not the program that reads CAD files");
+    }
+  }
+  throw InputError(
+      fmt::format("cannot be triangulated: faces {}, ... take the CAD kernel longer than {:g} s each",
+                  fmt::join(request.late_faces, ", "), request.options.face_seconds));
+}
+
+unsigned seconds_for(std::uintmax_t bytes) {
+  return kSeconds + kSecondsPerMegabyte * static_cast<unsigned>(bytes >> 20);
+}
+
+}  // namespace
+
+CadShape prepare_shape(const CadModel& model, const CadOptions& options) {
+  using Source = CadRequest::Source;
+  if (model.file.empty())
+    return prepare({Source::kBytes, model.bytes, options, thread_count(), seconds_for(model.bytes.size())});
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(model.file, unknown);
+  return prepare({Source::kFile, model.file, options, thread_count(), seconds_for(unknown ? 0 : size)});
+}
+
+CadShape prepare_shape(const CadShape& shape, const CadOptions& options) {
+  return prepare({CadRequest::Source::kShape, to_bytes(shape), options, thread_count(), kSeconds});
+}
+
+}  // namespace delquad::cad
+
+#ifdef __SANITIZE_ADDRESS__
+/// The kernel keeps tables until the end of the program.
+extern "C" const char* __lsan_default_suppressions();
+const char* __lsan_default_suppressions() { return "leak:libTK\n"; }
+#endif

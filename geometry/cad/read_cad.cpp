@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <utility>
+
+#include "base/activity.h"
+#include "delquad/error.h"
+#include "geometry/cad/agree_faces.h"
+#include "geometry/cad/cad_reader.h"
+#include "geometry/cad/example_models.h"
+#include "geometry/cad/examples/shapes.h"
+#include "geometry/cad/prepare_shape.h"
+#include "geometry/cad/shape_projector.h"
+#include "geometry/cad/tessellate.h"
+#include "geometry/cad/weld_faces.h"
+#include "geometry/surface/report_edges.h"
+
+namespace delquad {
+
+namespace cad {
+
+namespace {
+
+/// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
+/// surfaces with a singular parametrisation, where Newton's method converges linearly.
+constexpr double kProjection = 1e-12;
+
+TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map;
+}
+
+/// Faces of each solid, and of each shell outside solids.
+std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
+  std::vector<std::vector<int>> all;
+  const auto add = [&](const TopoDS_Shape& body) {
+    std::vector<int>& of = all.emplace_back();
+    const TopTools_IndexedMapOfShape own = parts(body, TopAbs_FACE);
+    for (int f = 1; f <= own.Extent(); ++f) of.push_back(faces.FindIndex(own(f)) - 1);
+  };
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) add(solid.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    add(shell.Current());
+  return all;
+}
+
+void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
+  const Agreement agreement = agree_faces(model.fine);
+  if (!agreement.orientable) model.warnings.push_back("the faces cannot be oriented alike");
+  if (agreement.n_turned > 0) {
+    model.warnings.push_back(
+        fmt::format("{} faces disagreed with their neighbours and were turned over", agreement.n_turned));
+  }
+  if (const int n = turn_outwards(model.fine, groups); n > 0) {
+    model.warnings.push_back(fmt::format("{} bodies were inside out and were turned over", n));
+  }
+}
+
+/// Welds the faces; without those whose triangles turn out to be no use, which get the reason.
+WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
+                        std::vector<std::string>& why_not) {
+  for (;;) {
+    WeldedFaces welded = weld_faces(meshes, edges, gap);
+    if (welded.bad_faces.empty()) return welded;
+    for (const int f : welded.bad_faces) {
+      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
+      meshes[f].triangles.clear();
+    }
+  }
+}
+
+/// Names the faces that cannot be used, those with the same reason together.
+[[noreturn]] void refuse(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                         const std::vector<std::string>& why_not) {
+  std::vector<std::pair<std::string, std::string>> lists;
+  for (int f = 0; f < faces.Extent(); ++f) {
+    if (why_not[f].empty()) continue;
+    const std::string title = face_title(f + 1, cad.names.of(faces(f + 1)));
+    const auto at = std::ranges::find(lists, why_not[f], &std::pair<std::string, std::string>::first);
+    if (at == lists.end())
+      lists.emplace_back(why_not[f], title);
+    else
+      at->second += ", " + title;
+  }
+  std::string text;
+  for (const auto& [reason, list] : lists) text += (text.empty() ? "" : "; ") + reason + ": " + list;
+  throw InputError(text);
+}
+
+SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
+                                   edges = parts(cad.shape, TopAbs_EDGE);
+  SurfaceModel model;
+  std::vector<std::string> why_not;
+  std::vector<FaceMesh> meshes = face_meshes(cad, faces, why_not);
+  WeldedFaces welded = weld_usable(meshes, edges, options.deflection * cad.diagonal, why_not);
+  for (int f = 0; f < faces.Extent(); ++f)
+    if (!why_not[f].empty())
+      model.left_out.push_back({f, face_title(f + 1, cad.names.of(faces(f + 1))) + ": " + why_not[f]});
+  if (!model.left_out.empty() && (!options.keep_going || welded.mesh.triangles.empty()))
+    refuse(cad, faces, why_not);
+
+  model.source = source;
+  model.unit = cad.unit;
+  model.warnings = std::move(cad.warnings);
+  model.fine = std::move(welded.mesh);
+  model.corners = std::move(welded.corners);
+  for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
+  orient(model, bodies(cad.shape, faces));
+  report_edges(model);
+  model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
+  for (const auto& [point, face] : welded.inside)
+    model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
+  return model;
+}
+
+}  // namespace
+
+}  // namespace cad
+
+SurfaceModel read_cad(const CadModel& cad, const CadOptions& options) {
+  const DoingStage stage("reading");
+  const std::string name = cad.file.empty() ? "CAD data" : cad.file.string();
+  if (cad.file.empty() && cad.bytes.empty())
+    throw InputError("a CAD model without a file and without bytes: expected one of them");
+  try {
+    return cad::make_model(name, cad::prepare_shape(cad, options), options);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.starts_with(name)) throw;
+    throw InputError(fmt::format("{}: {}", name, message));
+  }
+}
+
+SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
+  return read_cad(CadModel{path}, options);
+}
+
+SurfaceModel read_example(const std::string& name, const CadOptions& options) {
+  check_example(name);
+  const DoingStage stage("reading");
+  return cad::make_model(name, cad::prepare_shape(cad::make_product(name), options), options);
+}
+
+}  // namespace delquad

@@ -1,0 +1,79 @@
+#include "geometry/cad/shape_bytes.h"
+
+#include <BinTools.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <sstream>
+#include <utility>
+
+namespace delquad::cad {
+
+namespace {
+
+template <class T>
+void put(std::ostream& out, const T& number) {
+  out.write(reinterpret_cast<const char*>(&number), sizeof number);
+}
+template <class T>
+T get(std::istream& in) {
+  T number{};
+  in.read(reinterpret_cast<char*>(&number), sizeof number);
+  return number;
+}
+
+void put(std::ostream& out, const std::vector<std::string>& texts) {
+  put(out, texts.size());
+  for (const std::string& text : texts) {
+    put(out, text.size());
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  }
+}
+std::vector<std::string> get_texts(std::istream& in) {
+  std::vector<std::string> texts(get<std::size_t>(in));
+  for (std::string& text : texts) {
+    text.resize(get<std::size_t>(in));
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  }
+  return texts;
+}
+
+TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  return faces;
+}
+
+}  // namespace
+
+std::string to_bytes(const CadShape& cad) {
+  std::ostringstream out;
+  put(out, cad.diagonal);
+  put(out, texts(cad.warnings));
+  put(out, std::vector<std::string>{cad.unit});
+  const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
+  for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
+  // The shape last: its reader looks ahead. The names are in the order of its faces, so they come by number.
+  std::ostringstream shape;
+  BinTools::Write(cad.shape, shape);
+  std::ostringstream all;
+  put(all, out.str().size());
+  all << out.str() << shape.str();
+  return all.str();
+}
+
+CadShape from_bytes(const std::string& bytes) {
+  std::istringstream in(bytes);
+  const auto n_before = get<std::size_t>(in);
+  CadShape cad;
+  std::istringstream shape(bytes.substr(sizeof n_before + n_before));
+  BinTools::Read(cad.shape, shape);
+  cad.diagonal = get<double>(in);
+  for (std::string& text : get_texts(in)) cad.warnings.emplace_back(std::move(text));
+  cad.unit = get_texts(in).at(0);
+  const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (const std::string& name : get_texts(in)) cad.names.add(faces(f), name);
+  return cad;
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/cad/tessellate.h"
+#include "geometry/cad/weld_faces.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad::cad {
+
+/// Nearest points of the true surfaces and curves: closed forms on planes, cylinders, cones, spheres and
+/// tori, Newton's method from the nearest fine triangle or line elsewhere. A face's surface is taken near the
+/// face, not cut off at its boundary. `tolerance` is a length.
+std::shared_ptr<const SurfaceProjector> make_projector(std::vector<FaceMesh> faces,
+                                                       const std::vector<CurveMesh>& curves,
+                                                       double tolerance);
+
+}  // namespace delquad::cad

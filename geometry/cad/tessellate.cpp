@@ -1,0 +1,117 @@
+#include "geometry/cad/tessellate.h"
+
+#include <fmt/format.h>
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "geometry/cad/face_mesher.h"
+#include "geometry/cad/watch_kernel.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Area of a face that counts as none, as a fraction of the square of the diagonal.
+constexpr double kNoArea = 1e-14;
+
+FaceMesh take_triangulation(const TopoDS_Face& face) {
+  FaceMesh mesh;
+  mesh.face = face;
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(face, place);
+  if (triangulation.IsNull() || !triangulation->HasUVNodes()) return mesh;
+  const gp_Trsf placed = place.Transformation();
+  for (int i = 1; i <= triangulation->NbNodes(); ++i) {
+    const gp_Pnt p = triangulation->Node(i).Transformed(placed);
+    const gp_Pnt2d uv = triangulation->UVNode(i);
+    mesh.points.push_back({p.X(), p.Y(), p.Z()});
+    mesh.uv.push_back({uv.X(), uv.Y()});
+  }
+  mesh.is_reversed = (face.Orientation() == TopAbs_REVERSED) != placed.IsNegative();
+  for (int t = 1; t <= triangulation->NbTriangles(); ++t) {
+    int a, b, c;
+    triangulation->Triangle(t).Get(a, b, c);
+    if (mesh.is_reversed) std::swap(b, c);
+    mesh.triangles.push_back({a - 1, b - 1, c - 1});
+  }
+  return mesh;
+}
+
+/// But for the faces in `skipped`.
+bool is_whole(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped, int& n_triangles) {
+  n_triangles = 0;
+  bool whole = true;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place);
+    whole = whole && (!triangulation.IsNull() || std::ranges::binary_search(skipped, f));
+    if (!triangulation.IsNull()) n_triangles += triangulation->NbTriangles();
+  }
+  return whole;
+}
+
+double area(const FaceMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+  return sum;
+}
+
+}  // namespace
+
+std::string face_title(int number, const std::vector<std::string>& names) {
+  return names.empty() ? fmt::format("face {}", number) : fmt::format("face {} ({})", number, names.front());
+}
+
+void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
+                 double angle) {
+  const DoingStage stage(kTriangulation);
+  // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
+  // may not. Where curves lie on each other no fineness helps, and each trial takes twice the triangles.
+  constexpr int kMostTrials = 6, kMostTriangles = 100000, kMostTimes = 8;
+  constexpr double kFiner = 0.7;
+  int n_triangles = 0, most = kMostTriangles;
+  for (int trial = 0; trial < kMostTrials && n_triangles < most; ++trial) {
+    if (trial > 0) BRepTools::Clean(cad.shape);
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
+    parameters.Angle = angle * std::pow(kFiner, trial);
+    // The smallest sides follow the deflection, or a small edge's own length.
+    parameters.AdjustMinSize = true;
+    parameters.InParallel = thread_count() > 1;
+    mesh_faces(cad.shape, faces, parameters, cad.late_faces);
+    if (is_whole(faces, cad.late_faces, n_triangles)) return;
+    // A large model begins with many.
+    if (trial == 0) most = std::max(most, kMostTimes * n_triangles);
+  }
+}
+
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                  std::vector<std::string>& why_not) {
+  std::vector<FaceMesh> meshes;
+  why_not.assign(static_cast<std::size_t>(faces.Extent()), "");
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    FaceMesh mesh = take_triangulation(TopoDS::Face(faces(f)));
+    std::string& reason = why_not[static_cast<std::size_t>(f) - 1];
+    if (std::ranges::binary_search(cad.late_faces, f))
+      reason = "cannot be triangulated in the time that a face may take";
+    else if (mesh.triangles.empty())
+      reason = "cannot be triangulated";
+    else if (!(area(mesh) > kNoArea * cad.diagonal * cad.diagonal))
+      reason = "without area";
+    if (!reason.empty()) mesh.triangles.clear();
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+}  // namespace delquad::cad

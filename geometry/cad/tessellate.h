@@ -1,0 +1,37 @@
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Face.hxx>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "geometry/cad/cad_shape.h"
+
+namespace delquad::cad {
+
+/// The triangulation of one face, with nodes of its own.
+struct FaceMesh {
+  TopoDS_Face face;
+  bool is_reversed = false;  ///< the triangles run clockwise in (u, v)
+  std::vector<Vec3> points;
+  std::vector<Vec2> uv;  ///< parameters of the points
+  std::vector<std::array<int, 3>>
+      triangles;  ///< counterclockwise about the face's normal as its shell sees it
+};
+
+/// "face 12 (lid)", by its number and first name.
+std::string face_title(int number, const std::vector<std::string>& names);
+
+/// Triangulates the faces of a shape, but the late ones; the kernel keeps the triangulation in the shape.
+/// Neighbours have the same nodes along their edges. `deflection` is a length, `angle` in radians.
+void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
+                 double angle);
+
+/// The triangulations of the faces, in the map's order. `why_not` receives for each why it cannot be used,
+/// having none, or no area; else an empty text. Those that cannot be used have no triangles.
+std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                                  std::vector<std::string>& why_not);
+
+}  // namespace delquad::cad

@@ -1,0 +1,73 @@
+#include "geometry/cad/unwind_faces.h"
+
+#include <fmt/format.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Precision.hxx>
+#include <ShapeFix_Wire.hxx>
+#include <TopAbs.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
+
+namespace delquad::cad {
+
+namespace {
+
+/// Does the face's boundary extend over more than a period?
+bool winds(const TopoDS_Face& face) {
+  constexpr double kOnce = 1.01;
+  const BRepAdaptor_Surface surface(face, /*R=*/false);
+  double u0, u1, v0, v1;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  return (surface.IsUPeriodic() && u1 - u0 > kOnce * surface.UPeriod()) ||
+         (surface.IsVPeriodic() && v1 - v0 > kOnce * surface.VPeriod());
+}
+
+/// The face turned over, its edges running as before, moved by periods so that each begins where another
+/// ends.
+TopoDS_Face turned(const TopoDS_Face& face) {
+  TopoDS_Face other = TopoDS::Face(face.EmptyCopied().Oriented(TopAbs_FORWARD));
+  for (TopoDS_Iterator wire(face.Oriented(TopAbs_FORWARD)); wire.More(); wire.Next()) {
+    ShapeFix_Wire fixer(TopoDS::Wire(wire.Value().Reversed()), other, Precision::Confusion());
+    fixer.FixReorder();
+    fixer.FixShifted();
+    BRep_Builder().Add(other, fixer.Wire());
+  }
+  other.Orientation(TopAbs::Reverse(face.Orientation()));
+  return other;
+}
+
+}  // namespace
+
+void unwind_faces(CadShape& cad) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  BRepTools_ReShape reshape;
+  FaceNames names;
+  int n = 0;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopoDS_Face face = TopoDS::Face(faces(f));
+    const std::vector<std::string> own = cad.names.of(face);
+    if (winds(face)) {
+      const TopoDS_Face other = turned(face);
+      if (!winds(other)) {
+        reshape.Replace(face, other);
+        face = other;
+        ++n;
+      }
+    }
+    for (const std::string& name : own) names.add(face, name);
+  }
+  if (n == 0) return;
+  cad.shape = reshape.Apply(cad.shape);
+  cad.names = names;
+  cad.warnings.push_back(fmt::format("{} face(s) went around more than once and have been turned over", n));
+}
+
+}  // namespace delquad::cad

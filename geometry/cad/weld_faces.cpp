@@ -1,0 +1,260 @@
+#include "geometry/cad/weld_faces.h"
+
+#include <fmt/format.h>
+
+#include <BRep_Tool.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "delquad/error.h"
+#include "geometry/cad/part_twin_sides.h"
+#include "geometry/cad/repair_face.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Sets of nodes; a set goes by its smallest member.
+class NodeSets {
+ public:
+  int add() {
+    parent_.push_back(static_cast<int>(parent_.size()));
+    return parent_.back();
+  }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(int i, int j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+Handle(Poly_PolygonOnTriangulation) polygon_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(face, place);
+  return BRep_Tool::PolygonOnTriangulation(edge, triangulation, place);
+}
+
+class Welder {
+ public:
+  Welder(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges, double gap)
+      : faces_(faces), edges_(edges), gap_(gap), uses_(edges.Extent()), boundary_(faces.size()) {}
+
+  WeldedFaces weld() {
+    for (std::size_t f = 0; f < faces_.size(); ++f) add_face(static_cast<int>(f));
+    WeldedFaces welded;
+    add_triangles(welded.mesh);
+    number_points(welded.mesh);
+    welded.inside = part_twin_sides(welded.mesh, numbered_boundaries());
+    for (int e = 0; e < edges_.Extent(); ++e) add_curve(e, welded);
+    find_corners(welded);
+    welded.bad_faces = std::move(bad_faces_);
+    return welded;
+  }
+
+ private:
+  /// How faces see an edge.
+  struct EdgeUse {
+    std::vector<int> nodes;          ///< in ascending order of the parameter
+    std::vector<double> parameters;  ///< of the nodes
+    int first_face = -1;
+    bool is_seam = false;  ///< of first_face
+    bool is_shared = false;
+  };
+
+  int new_node(const Vec3& p) {
+    points_.push_back(p);
+    return sets_.add();
+  }
+
+  int vertex_node(const TopoDS_Vertex& vertex, const Vec3& otherwise) {
+    if (vertex.IsNull()) return new_node(otherwise);
+    const int known = vertices_.Extent();
+    const int v = vertices_.Add(vertex);
+    if (v > known) {
+      const gp_Pnt p = BRep_Tool::Pnt(vertex);
+      vertex_nodes_.push_back(new_node({p.X(), p.Y(), p.Z()}));
+    }
+    return vertex_nodes_[v - 1];
+  }
+
+  /// The nodes of an edge as one face has them become those of the edge.
+  void add_edge(int f, const TopoDS_Edge& edge, std::vector<int>& node_of) {
+    const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(edge, faces_[f].face);
+    if (polygon.IsNull() || polygon->NbNodes() < 2) return;
+    EdgeUse& use = uses_[edges_.FindIndex(edge) - 1];
+    const int n = polygon->NbNodes();
+    const auto local = [&](int k) { return polygon->Nodes()(k + 1) - 1; };
+    if (use.first_face < 0) {
+      use.first_face = f;
+      use.is_seam = BRep_Tool::IsClosed(edge, faces_[f].face);
+      const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+      const bool degenerate = BRep_Tool::Degenerated(edge);
+      for (int k = 0; k < n; ++k) {
+        const Vec3& p = faces_[f].points[local(k)];
+        if (k == 0 || degenerate) {
+          use.nodes.push_back(vertex_node(TopExp::FirstVertex(forward), p));
+        } else if (k == n - 1) {
+          use.nodes.push_back(vertex_node(TopExp::LastVertex(forward), p));
+        } else {
+          use.nodes.push_back(new_node(p));
+        }
+        use.parameters.push_back(polygon->HasParameters() ? polygon->Parameters()->Value(k + 1) : k);
+      }
+    }
+    if (use.first_face != f) use.is_shared = true;
+    if (static_cast<int>(use.nodes.size()) != n) {
+      throw InputError(fmt::format("face {}: its triangulation does not fit its neighbour's, face {}", f + 1,
+                                   use.first_face + 1));
+    }
+    for (int k = 0; k < n; ++k) {
+      int& node = node_of[local(k)];
+      if (node < 0) node = use.nodes[k];
+      sets_.unite(node, use.nodes[k]);
+    }
+    // The face lies on the left of a forward edge.
+    const bool reversed = edge.Orientation() == TopAbs_REVERSED;
+    if (!reversed && edge.Orientation() != TopAbs_FORWARD) return;
+    for (int k = 0; k + 1 < n; ++k) {
+      std::array<int, 2> side{use.nodes[k], use.nodes[k + 1]};
+      if (reversed != faces_[f].is_reversed) std::swap(side[0], side[1]);
+      boundary_[f].push_back(side);
+    }
+  }
+
+  void add_face(int f) {
+    const FaceMesh& mesh = faces_[f];
+    std::vector<int>& node_of = node_of_.emplace_back(mesh.points.size(), -1);
+    if (mesh.triangles.empty()) return;
+    for (TopExp_Explorer edge(mesh.face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); edge.More(); edge.Next()) {
+      if (edge.Current().Orientation() != TopAbs_EXTERNAL) add_edge(f, TopoDS::Edge(edge.Current()), node_of);
+    }
+    for (std::size_t i = 0; i < node_of.size(); ++i)
+      if (node_of[i] < 0) node_of[i] = new_node(mesh.points[i]);
+  }
+
+  /// The triangles of a face between nodes, those welded to a side or a point dropped, whole up to its
+  /// boundary.
+  std::vector<std::array<int, 3>> whole_face(int f) {
+    std::vector<std::array<int, 3>> triangles;
+    for (const auto& [a, b, c] : faces_[f].triangles) {
+      const std::array<int, 3> v{find(f, a), find(f, b), find(f, c)};
+      if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) triangles.push_back(v);
+    }
+    std::vector<std::array<int, 2>> boundary;
+    for (const auto& [a, b] : boundary_[f]) {
+      const std::array<int, 2> side{sets_.find(a), sets_.find(b)};
+      if (side[0] != side[1]) boundary.push_back(side);
+    }
+    if (repair_face(points_, boundary, triangles) > gap_ || !is_manifold(triangles)) bad_faces_.push_back(f);
+    return triangles;
+  }
+  int find(int f, int local) { return sets_.find(node_of_[f][local]); }
+
+  void add_triangles(Mesh& mesh) {
+    for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
+      mesh.regions.push_back({f + 1, {}});
+      for (const auto& triangle : whole_face(f)) {
+        mesh.triangles.push_back(triangle);
+        mesh.triangle_region.push_back(f);
+      }
+    }
+  }
+
+  /// From nodes to points: those that triangles use, in the order of their nodes.
+  void number_points(Mesh& mesh) {
+    number_.assign(points_.size(), -1);
+    for (const auto& triangle : mesh.triangles)
+      for (const int node : triangle) number_[node] = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (number_[i] < 0) continue;
+      number_[i] = static_cast<int>(mesh.points.size());
+      mesh.points.push_back(points_[i]);
+    }
+    for (auto& triangle : mesh.triangles)
+      for (int& node : triangle) node = number_[node];
+  }
+
+  std::vector<std::vector<std::array<int, 2>>> numbered_boundaries() {
+    std::vector<std::vector<std::array<int, 2>>> sides(boundary_.size());
+    for (std::size_t f = 0; f < boundary_.size(); ++f) {
+      for (const auto& [a, b] : boundary_[f]) {
+        const int p = number_[sets_.find(a)], q = number_[sets_.find(b)];
+        sides[f].push_back({std::min(p, q), std::max(p, q)});
+      }
+      std::ranges::sort(sides[f]);
+    }
+    return sides;
+  }
+
+  void add_curve(int e, WeldedFaces& welded) {
+    const EdgeUse& use = uses_[e];
+    if (use.nodes.empty() || (use.is_seam && !use.is_shared)) return;
+    CurveMesh curve{TopoDS::Edge(edges_(e + 1)), {}};
+    std::vector<int> chain;
+    for (std::size_t k = 0; k < use.nodes.size(); ++k) {
+      const int point = number_[sets_.find(use.nodes[k])];
+      if (point < 0 || (!chain.empty() && chain.back() == point)) continue;
+      chain.push_back(point);
+      curve.parameters.push_back(use.parameters[k]);
+    }
+    if (chain.size() < 2) return;
+    Mesh& mesh = welded.mesh;
+    for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+      mesh.lines.push_back({chain[k], chain[k + 1]});
+      mesh.line_curve.push_back(static_cast<int>(mesh.curves.size()));
+    }
+    mesh.curves.push_back({e + 1, {}});
+    welded.curves.push_back(std::move(curve));
+  }
+
+  static void find_corners(WeldedFaces& welded) {
+    const Mesh& mesh = welded.mesh;
+    std::vector<int> n_lines(mesh.points.size(), 0), curve(mesh.points.size(), -1);
+    std::vector<char> is_corner(mesh.points.size(), 0);
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+      for (const int v : mesh.lines[l]) {
+        if (++n_lines[v] > 2 || (curve[v] >= 0 && curve[v] != mesh.line_curve[l])) is_corner[v] = 1;
+        curve[v] = mesh.line_curve[l];
+      }
+    }
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      if (is_corner[v] || n_lines[v] == 1) welded.corners.push_back(static_cast<int>(v));
+  }
+
+  const std::vector<FaceMesh>& faces_;
+  const TopTools_IndexedMapOfShape& edges_;
+  double gap_;
+  std::vector<EdgeUse> uses_;  ///< of each edge
+  std::vector<std::vector<std::array<int, 2>>>
+      boundary_;  ///< sides (nodes) of each face, its triangles on them
+  TopTools_IndexedMapOfShape vertices_;
+  std::vector<int> vertex_nodes_;
+  std::vector<Vec3> points_;  ///< of each node
+  NodeSets sets_;
+  std::vector<std::vector<int>> node_of_;  ///< of each point of each face
+  std::vector<int> bad_faces_;
+  std::vector<int> number_;  ///< point of the mesh of each node; -1: none
+};
+
+}  // namespace
+
+WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
+                       double gap) {
+  return Welder(faces, edges, gap).weld();
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "geometry/cad/part_twin_sides.h"
+#include "geometry/cad/tessellate.h"
+
+namespace delquad::cad {
+
+/// An edge that is a curve of the model.
+struct CurveMesh {
+  TopoDS_Edge edge;
+  std::vector<double> parameters;  ///< of the points of its chain of lines
+};
+
+struct WeldedFaces {
+  Mesh mesh;  ///< regions are the faces, without names
+  std::vector<CurveMesh> curves;
+  std::vector<int> corners;
+  std::vector<PointInside> inside;  ///< not on the surface yet: see part_twin_sides()
+  std::vector<int> bad_faces;       ///< triangles miss the boundary by more than `gap`, or are no surface
+};
+
+/// Makes one node of those of all faces that stand for the same point: of an edge by their order along it
+/// (both sides of a seam too), of a vertex, of a degenerate edge. Edges that are degenerate, or seams of one
+/// face, are no curves. Faces without triangles have none afterwards, and edges of no others are no curves.
+/// `gap`: a length, see repair_face().
+WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
+                       double gap);
+
+}  // namespace delquad::cad

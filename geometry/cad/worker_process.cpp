@@ -1,0 +1,208 @@
+#include "geometry/cad/worker_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+#include "base/context.h"
+#include "delquad/error.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Milliseconds between looks at whether the run is cancelled, or the process has ended unheard.
+constexpr int kTick = 20;
+constexpr std::size_t kLengthBytes = sizeof(std::uint64_t), kHead = 1 + kLengthBytes;
+
+[[noreturn]] void refuse(const std::string& what, int error) {
+  throw InputError(fmt::format("no process can be started to read CAD: {}: {}", what, std::strerror(error)));
+}
+
+std::string framed(char first, const std::string& text) {
+  std::string frame(kHead, first);
+  const std::uint64_t length = text.size();
+  std::memcpy(frame.data() + 1, &length, kLengthBytes);
+  return frame + text;
+}
+
+/// The length in a head.
+std::size_t length_in(const std::string& frame) {
+  std::uint64_t length = 0;
+  std::memcpy(&length, frame.data() + 1, kLengthBytes);
+  return length;
+}
+
+/// Both ends, none of them a standard one, so that those can be replaced in the child.
+std::pair<int, int> connected_pair() {
+  constexpr int kFirst = 10;
+  int ends[2], above[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse("no pair of sockets", errno);
+  for (int i = 0; i < 2; ++i) above[i] = fcntl(ends[i], F_DUPFD_CLOEXEC, kFirst);
+  const int error = errno;
+  for (const int end : ends) close(end);
+  if (above[0] >= 0 && above[1] >= 0) return {above[0], above[1]};
+  for (const int end : above)
+    if (end >= 0) close(end);
+  refuse("no pair of sockets", error);
+}
+
+/// How the worker starts: its standard input is the socket, it has no other files, no signal is ignored or
+/// blocked, and it is a process group of its own.
+class Spawning {
+ public:
+  explicit Spawning(int socket) {
+    posix_spawn_file_actions_init(&files_);
+    posix_spawn_file_actions_adddup2(&files_, socket, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&files_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
+    posix_spawnattr_init(&attributes_);
+    sigset_t all, none;
+    sigfillset(&all);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(&attributes_, &all);
+    posix_spawnattr_setsigmask(&attributes_, &none);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(&attributes_,
+                             POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&files_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+
+  /// Returns an error number, 0: none.
+  int start(const std::string& program, pid_t& pid) const {
+    // The worker ends with its parent, which may already be another by the time it can ask for that.
+    std::string name = program, parent = std::to_string(getpid());
+    char* argv[] = {name.data(), parent.data(), nullptr};
+    return posix_spawn(&pid, program.c_str(), &files_, &attributes_, argv, environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t files_;
+  posix_spawnattr_t attributes_;
+};
+
+/// Takes the whole replies from the front of the buffer; says whether the last one was among them.
+bool hear_all(std::string& buffer, const std::function<void(Reply, const std::string&)>& hear) {
+  std::size_t at = 0;
+  bool last = false;
+  while (!last && buffer.size() - at >= kHead) {
+    const std::string head = buffer.substr(at, kHead);
+    const std::size_t length = length_in(head);
+    if (buffer.size() - at - kHead < length) {
+      buffer.reserve(at + kHead + length);
+      break;
+    }
+    const Reply reply{head[0]};
+    hear(reply, buffer.substr(at + kHead, length));
+    last = is_last(reply);
+    at += kHead + length;
+  }
+  buffer.erase(0, at);
+  return last;
+}
+
+}  // namespace
+
+WorkerProcess::WorkerProcess() {
+  const std::string program = find_worker();
+  const auto [ours, its] = connected_pair();
+  const int error = Spawning(its).start(program, pid_);
+  close(its);
+  socket_ = ours;
+  if (error == 0) return;
+  close(ours);
+  refuse(program, error);
+}
+
+WorkerProcess::~WorkerProcess() {
+  close(socket_);
+  if (!has_ended()) {
+    kill(pid_, SIGKILL);
+    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+}
+
+/// A program around may wait for all its children; then this one is not to be found any more.
+bool WorkerProcess::has_ended() {
+  if (pid_ < 0) return true;
+  const pid_t ended = waitpid(pid_, nullptr, WNOHANG);
+  if (ended == pid_ || (ended < 0 && errno == ECHILD)) pid_ = -1;
+  return pid_ < 0;
+}
+
+bool WorkerProcess::read_some(std::string& buffer) const {
+  constexpr std::size_t kPiece = 1 << 20;
+  const std::size_t before = buffer.size();
+  buffer.resize(before + kPiece);
+  const ssize_t n = recv(socket_, buffer.data() + before, kPiece, MSG_DONTWAIT);
+  const bool more = n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
+  buffer.resize(before + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  return more;
+}
+
+void WorkerProcess::ask(const CadRequest& request,
+                        const std::function<void(Reply, const std::string&)>& hear) {
+  const std::string message = framed('?', to_bytes(request));
+  std::string buffer;
+  for (std::size_t sent = 0;;) {
+    check_cancelled();
+    pollfd entry{socket_, static_cast<short>(sent < message.size() ? POLLIN | POLLOUT : POLLIN), 0};
+    const int ready = poll(&entry, 1, kTick);
+    if (ready < 0 && errno != EINTR) refuse("poll", errno);
+    if ((entry.revents & POLLOUT) != 0) {
+      const ssize_t n =
+          send(socket_, message.data() + sent, message.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (n > 0) sent += static_cast<std::size_t>(n);
+    }
+    // Another process that was forked meanwhile may keep the other end open.
+    const bool ended = ready == 0 && has_ended();
+    const bool more = (ready <= 0 && !ended) || (entry.revents & ~POLLOUT) == 0 || read_some(buffer);
+    if (hear_all(buffer, hear) || !more || ended) return;
+  }
+}
+
+void send_reply(int socket, Reply reply, const std::string& text) {
+  static std::mutex one_by_one;
+  const std::lock_guard lock(one_by_one);
+  const std::string frame = framed(static_cast<char>(reply), text);
+  for (std::size_t sent = 0; sent < frame.size();) {
+    const ssize_t n = send(socket, frame.data() + sent, frame.size() - sent, MSG_NOSIGNAL);
+    if (n < 0 && errno != EINTR) _exit(1);
+    if (n > 0) sent += static_cast<std::size_t>(n);
+  }
+  if (is_last(reply)) _exit(0);
+}
+
+CadRequest receive_request(int socket) {
+  const auto read_exactly = [socket](std::size_t size) {
+    std::string bytes(size, '\0');
+    for (std::size_t got = 0; got < size;) {
+      const ssize_t n = recv(socket, bytes.data() + got, size - got, 0);
+      if (n == 0 || (n < 0 && errno != EINTR)) _exit(1);
+      if (n > 0) got += static_cast<std::size_t>(n);
+    }
+    return bytes;
+  };
+  return request_from(read_exactly(length_in(read_exactly(kHead))));
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepTools.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_SequenceOfPrinters.hxx>
+#include <STEPConstruct.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <Transfer_FinderProcess.hxx>
+#include <XSControl_TransferWriter.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/cad/example_models.h"
+#include "geometry/cad/examples/shapes.h"
+
+namespace delquad {
+
+namespace cad {
+
+CadShape make_example(const std::string& name) {
+  if (name == "bracket") return make_bracket();
+  if (name == "hood") return make_hood();
+  if (name == "pipe_tee") return make_pipe_tee();
+  if (name == "sphere") return make_sphere();
+  if (name == "torus") return make_torus();
+  if (name == "wing_body") return make_wing_body();
+  throw std::logic_error("no example " + name);
+}
+
+/// An example whose faces have its own name first, as those of a product in a STEP file.
+CadShape make_product(const std::string& name) {
+  const CadShape example = make_example(name);
+  CadShape product;
+  product.shape = example.shape;
+  product.unit = "mm";
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(example.shape, TopAbs_FACE, faces);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    product.names.add(faces(f), name);
+    for (const std::string& own : example.names.of(faces(f))) product.names.add(faces(f), own);
+  }
+  return product;
+}
+
+namespace {
+
+Handle(TCollection_HAsciiString) text(const std::string& value) {
+  return new TCollection_HAsciiString(value.c_str());
+}
+
+/// Names file and product after the model, and leaves the date out: else the bytes would differ each time.
+void write_titles(const std::string& name, const Handle(StepData_StepModel) & model) {
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(text(name));
+  header.SetTimeStamp(text("1970-01-01T00:00:00"));
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+    if (product.IsNull()) continue;
+    product->SetId(text(name));
+    product->SetName(text(name));
+  }
+}
+
+/// While it lives, the kernel prints nothing.
+class SilentKernel {
+ public:
+  SilentKernel() { std::swap(printers_, Message::DefaultMessenger()->ChangePrinters()); }
+  ~SilentKernel() { std::swap(printers_, Message::DefaultMessenger()->ChangePrinters()); }
+  SilentKernel(const SilentKernel&) = delete;
+  SilentKernel& operator=(const SilentKernel&) = delete;
+
+ private:
+  Message_SequenceOfPrinters printers_;
+};
+
+void name_faces(const CadShape& cad, const STEPControl_Writer& writer) {
+  const auto process = writer.WS()->TransferWriter()->FinderProcess();
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopLoc_Location place;  // a face that was moved may be written where it came from
+    const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(process, faces(f), place);
+    if (item.IsNull()) throw std::logic_error("a face was not written");
+    for (const std::string& name : cad.names.of(faces(f))) item->SetName(text(name));
+  }
+}
+
+void write_step(const std::string& name, const CadShape& cad, std::ostream& out) {
+  const SilentKernel silent;  // it would print statistics
+  STEPControl_Writer writer;
+  if (writer.Transfer(cad.shape, STEPControl_AsIs) != IFSelect_RetDone)
+    throw std::logic_error("the example " + name + " cannot be written");
+  name_faces(cad, writer);
+  const Handle(StepData_StepModel) model = writer.Model();
+  write_titles(name, model);
+  StepData_StepWriter lines(model);
+  lines.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  lines.Print(out);
+}
+
+}  // namespace
+
+}  // namespace cad
+
+void write_example(const std::string& name, CadFormat format, std::ostream& out) {
+  check_example(name);
+  const cad::CadShape shape = cad::make_example(name);
+  if (format == CadFormat::kStep)
+    cad::write_step(name, shape, out);
+  else
+    BRepTools::Write(shape.shape, out);
+}
+
+}  // namespace delquad

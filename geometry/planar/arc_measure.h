@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// The integral of ds/delta along a piece of a curve: how many edges of size delta fit on it.
+/// Found by adaptive Simpson rules on chords: no derivative is needed, and the parametrisation need not be
+/// regular.
+class ArcMeasure {
+ public:
+  /// The piece t0 <= t <= t1 of the curve, which messages call `label`. Once the integral is known and is not
+  /// above `most`, the size is sampled more often than once an edge, so that no variation that the edges can
+  /// show is missed. Throws InputError where the point is not finite, the size is not finite and positive, or
+  /// the curve jumps.
+  ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
+             double most);
+
+  /// To kIntegralTolerance, relative.
+  double integral() const { return cells_.back().end; }
+
+  /// The parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order; the ends
+  /// are not among them.
+  std::vector<double> interior_nodes(int n) const;
+
+  static constexpr double kIntegralTolerance = 1e-7;
+
+ private:
+  struct Sample {
+    double t;
+    Vec2 p;
+    double density;  ///< 1/delta
+  };
+  /// Five samples at quarters: the error is the difference between one Simpson rule and two halves.
+  struct Panel {
+    Sample s[5];
+    double value, error;
+    bool minimal;  ///< too narrow to be split
+  };
+  /// Half a panel, for the search of a node.
+  struct Cell {
+    Sample first, last;
+    double end;  ///< integral from the curve's start to `last`
+  };
+
+  static double trapezium(const Sample& a, const Sample& b);
+  static double simpson(const Sample& a, const Sample& m, const Sample& b);
+  Sample sample(double t) const;
+  Panel make_panel(const Sample& a, const Sample& m, const Sample& b) const;
+  std::vector<Panel> first_panels() const;
+  void refine(std::vector<Panel>& panels, double most) const;
+  void finish(const std::vector<Panel>& panels);
+  double find(const Cell& cell, double begin, double target) const;
+
+  const Curve& curve_;
+  double t0_, t1_;
+  const PointSize& size_;
+  std::string label_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace delquad

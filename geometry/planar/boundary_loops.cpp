@@ -1,0 +1,257 @@
+#include "geometry/planar/boundary_loops.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "base/box.h"
+#include "base/predicates.h"
+#include "delquad/error.h"
+#include "geometry/planar/loop_sweep.h"
+
+namespace delquad {
+
+namespace {
+
+/// Spread of z, relative to the extent in x and y, that counts as rounding of a plane z = constant.
+constexpr double kFlatness = 1e-9;
+
+class LoopFinder {
+ public:
+  LoopFinder(const Mesh& mesh, const BoundaryNames& names) : mesh_(mesh), names_(names) {}
+
+  std::vector<BoundaryLoop> run() {
+    check_ranges();
+    collect_nodes();
+    check_coordinates();
+    check_lines();
+    check_coincidence();
+    check_valence();
+    std::vector<BoundaryLoop> loops = chain();
+    nest(loops);
+    return loops;
+  }
+
+ private:
+  template <typename... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
+    const std::string prefix = names_.source.empty() ? "" : names_.source + ": ";
+    throw InputError(prefix + fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  Vec2 at(int v) const {
+    const Vec3& p = mesh_.points[static_cast<std::size_t>(v)];
+    return {p.x, p.y};
+  }
+  std::string place(int v) const { return fmt::format("({}, {})", at(v).x, at(v).y); }
+  const std::array<int, 2>& line(int l) const { return mesh_.lines[static_cast<std::size_t>(l)]; }
+  std::string curve(int l) const { return names_.curve(mesh_.line_curve[static_cast<std::size_t>(l)]); }
+  std::string curve_at(int v) const { return curve(lines_at_[first_line_[static_cast<std::size_t>(v)]]); }
+  std::size_t valence(int v) const {
+    const auto i = static_cast<std::size_t>(v);
+    return first_line_[i + 1] - first_line_[i];
+  }
+  bool lexicographic(int v, int w) const {
+    const Vec2 a = at(v), b = at(w);
+    return std::tie(a.x, a.y, v) < std::tie(b.x, b.y, w);
+  }
+
+  void check_ranges() const {
+    if (mesh_.lines.empty()) fail("there are no lines: nothing bounds a domain");
+    if (mesh_.line_curve.size() != mesh_.lines.size())
+      fail("{} lines have {} curves; one each was expected", mesh_.lines.size(), mesh_.line_curve.size());
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      if (static_cast<std::size_t>(mesh_.line_curve[l]) >= mesh_.curves.size())
+        fail("line {} lies on curve {}, which does not exist", l + 1, mesh_.line_curve[l]);
+      for (int v : mesh_.lines[l])
+        if (static_cast<std::size_t>(v) >= mesh_.points.size())
+          fail("line {} refers to node {}, which does not exist", l + 1, v);
+    }
+  }
+
+  // Lines of each node, and the nodes that have any.
+  void collect_nodes() {
+    first_line_.assign(mesh_.points.size() + 1, 0);
+    for (const auto& ends : mesh_.lines)
+      for (int v : ends) ++first_line_[static_cast<std::size_t>(v) + 1];
+    std::partial_sum(first_line_.begin(), first_line_.end(), first_line_.begin());
+    lines_at_.resize(2 * mesh_.lines.size());
+    std::vector<std::size_t> next(first_line_.begin(), first_line_.end() - 1);
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      for (int v : mesh_.lines[l]) lines_at_[next[static_cast<std::size_t>(v)]++] = static_cast<int>(l);
+    for (std::size_t v = 0; v < mesh_.points.size(); ++v)
+      if (valence(static_cast<int>(v)) > 0) used_.push_back(static_cast<int>(v));
+  }
+
+  void check_coordinates() const {
+    const Vec3& first = mesh_.points[static_cast<std::size_t>(used_[0])];
+    Box<Vec3> box{first, first};
+    for (int v : used_) {
+      const Vec3& p = mesh_.points[static_cast<std::size_t>(v)];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        fail("a node of {} is at ({}, {}, {}); finite coordinates were expected", curve_at(v), p.x, p.y, p.z);
+      box.add(p);
+    }
+    const Vec3 size = box.size();
+    if (size.z > kFlatness * std::max(size.x, size.y))
+      fail("the lines are not in a plane z = constant: z goes from {} to {}", box.low.z, box.high.z);
+  }
+
+  void check_lines() const {
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      const auto [a, b] = mesh_.lines[l];
+      if (a == b || at(a) == at(b))
+        fail("a line of {} has no length: both ends are at {}", curve(static_cast<int>(l)), place(a));
+    }
+    if (used_.size() < 3) fail("the boundary has only {} nodes; at least three were expected", used_.size());
+  }
+
+  void check_coincidence() {
+    std::ranges::sort(used_, [&](int v, int w) { return lexicographic(v, w); });
+    for (std::size_t i = 1; i < used_.size(); ++i) {
+      const int v = used_[i - 1], w = used_[i];
+      if (at(v) == at(w))
+        fail("two nodes coincide at {}, on {} and on {}: loops must not touch, and a node stands once",
+             place(v), curve_at(v), curve_at(w));
+    }
+    std::vector<int> order(mesh_.lines.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto ends = [&](int l) { return std::pair<int, int>(std::minmax(line(l)[0], line(l)[1])); };
+    std::ranges::sort(order, {}, [&](int l) { return std::pair(ends(l), l); });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const int l = order[i - 1], m = order[i];
+      const auto [v, w] = ends(l);
+      if (ends(m) != ends(l)) continue;
+      if (valence(v) == 2 && valence(w) == 2)
+        fail("the loop through {} and {} of {} has only two nodes; at least three were expected", place(v),
+             place(w), curve(l));
+      fail("the line from {} to {} is there twice, on {} and on {}", place(v), place(w), curve(l), curve(m));
+    }
+  }
+
+  void check_valence() const {
+    std::vector<int> ends;
+    for (int v : used_) {
+      const std::size_t begin = first_line_[static_cast<std::size_t>(v)];
+      if (valence(v) == 1) ends.push_back(v);
+      if (valence(v) > 2)
+        fail("{} lines meet at {}, of {}, {} and {}; two were expected: loops must not share nodes",
+             valence(v), place(v), curve(lines_at_[begin]), curve(lines_at_[begin + 1]),
+             curve(lines_at_[begin + 2]));
+    }
+    if (ends.empty()) return;
+    fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {}", ends.size(),
+         place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
+  }
+
+  // From each lexicographically smallest node, where the direction is plain, round the loop.
+  std::vector<BoundaryLoop> chain() const {
+    std::vector<BoundaryLoop> loops;
+    std::vector<bool> done(mesh_.points.size(), false);
+    for (int start : used_) {
+      if (done[static_cast<std::size_t>(start)]) continue;
+      const std::size_t begin = first_line_[static_cast<std::size_t>(start)];
+      int in = lines_at_[begin], out = lines_at_[begin + 1];
+      const int turn = orient2d(at(other_end(in, start)), at(start), at(other_end(out, start)));
+      if (turn == 0) report_meeting(in, out);
+      if (turn < 0) std::swap(in, out);
+      BoundaryLoop loop;
+      int v = start, l = out;
+      do {
+        done[static_cast<std::size_t>(v)] = true;
+        loop.nodes.push_back(v);
+        loop.lines.push_back(l);
+        v = other_end(l, v);
+        const std::size_t i = first_line_[static_cast<std::size_t>(v)];
+        l = lines_at_[i] == l ? lines_at_[i + 1] : lines_at_[i];
+      } while (v != start);
+      loops.push_back(std::move(loop));
+    }
+    return loops;
+  }
+
+  int other_end(int l, int v) const { return line(l)[0] == v ? line(l)[1] : line(l)[0]; }
+
+  void nest(std::vector<BoundaryLoop>& loops) const {
+    std::vector<Vec2> points;
+    points.reserve(mesh_.points.size());
+    for (const Vec3& p : mesh_.points) points.push_back({p.x, p.y});
+    std::vector<std::vector<int>> polygons;
+    for (const BoundaryLoop& loop : loops) polygons.push_back(loop.nodes);
+    const LoopNesting nesting = nest_loops(points, polygons);
+    if (nesting.conflict) {
+      const auto line_of = [&](int i) {
+        return loops[static_cast<std::size_t>(nesting.conflict->loop[i])]
+            .lines[static_cast<std::size_t>(nesting.conflict->line[i])];
+      };
+      report_meeting(line_of(0), line_of(1));
+    }
+    for (std::size_t i = 0; i < loops.size(); ++i) loops[i].parent = nesting.parent[i];
+  }
+
+  [[noreturn]] void report_meeting(int l, int m) const {
+    const auto [a, b] = line(l);
+    const auto [c, d] = line(m);
+    const std::string hint = names_.crossing_hint.empty() ? "" : "; " + names_.crossing_hint;
+    const int oc = orient2d(at(a), at(b), at(c)), od = orient2d(at(a), at(b), at(d));
+    const int oa = orient2d(at(c), at(d), at(a)), ob = orient2d(at(c), at(d), at(b));
+    if (oc == 0 && od == 0) {
+      std::array ends{a, b, c, d};
+      std::ranges::sort(ends, [&](int v, int w) { return lexicographic(v, w); });
+      fail("lines of {} and {} lie on each other between {} and {}{}", curve(l), curve(m), place(ends[1]),
+           place(ends[2]), hint);
+    }
+    if (oc * od != 0 && oa * ob != 0) {
+      const Vec2 u = at(b) - at(a), w = at(d) - at(c);
+      const Vec2 x = at(a) + (cross(at(c) - at(a), w) / cross(u, w)) * u;
+      fail("lines of {} and {} cross at ({:.10g}, {:.10g}){}", curve(l), curve(m), x.x, x.y, hint);
+    }
+    const bool on_first = oc == 0 || od == 0;
+    const int node = oc == 0 ? c : od == 0 ? d : oa == 0 ? a : b;
+    fail("the node at {} of {} touches a line of {}{}", place(node), curve(on_first ? m : l),
+         curve(on_first ? l : m), hint);
+  }
+
+  const Mesh& mesh_;
+  const BoundaryNames& names_;
+  std::vector<std::size_t> first_line_;
+  std::vector<int> lines_at_;
+  std::vector<int> used_;  ///< nodes with lines; sorted by coordinates once these are known to be finite
+};
+
+}  // namespace
+
+BoundaryNames names_of_curves(const Mesh& lines, const std::string& source) {
+  // By value: the mesh itself may move away while the names are still wanted.
+  const auto label = [curves = lines.curves](int c) {
+    const Entity& curve = curves[static_cast<std::size_t>(c)];
+    return curve.names.empty() ? fmt::format("curve {}", curve.tag)
+                               : fmt::format("curve '{}'", fmt::join(curve.names, "', '"));
+  };
+  return {source, label, ""};
+}
+
+std::vector<BoundaryLoop> find_loops(const Mesh& lines, const BoundaryNames& names) {
+  return LoopFinder(lines, names).run();
+}
+
+std::vector<bool> filled_loops(const std::vector<BoundaryLoop>& loops, const std::vector<bool>& named) {
+  std::vector<bool> filled(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    filled[i] = named[i] || loops[i].parent < 0 || !filled[static_cast<std::size_t>(loops[i].parent)];
+  return filled;
+}
+
+std::vector<int> loop_of_nodes(const std::vector<BoundaryLoop>& loops, std::size_t node_count) {
+  std::vector<int> loop_of(node_count, -1);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (int v : loops[i].nodes) loop_of[static_cast<std::size_t>(v)] = static_cast<int>(i);
+  return loop_of;
+}
+
+}  // namespace delquad

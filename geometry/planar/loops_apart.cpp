@@ -1,0 +1,114 @@
+#include "geometry/planar/loops_apart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/box_tree.h"
+#include "base/cancel.h"
+#include "base/predicates.h"
+#include "delquad/error.h"
+
+namespace delquad {
+
+namespace {
+
+/// A curve strays from its chord by at most so many times what it does at three places.
+constexpr double kSafety = 2;
+/// Halves of halves: by then the parts are shorter than rounding.
+constexpr int kMostHalvings = 60;
+
+double distance(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 d = b - a;
+  const double length2 = dot(d, d);
+  const double t = length2 > 0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0;
+  return norm(p - (a + t * d));
+}
+
+/// An edge or a part of one.
+struct Part {
+  const Curve* shape;
+  double t0, t1;
+  Vec2 a, b;
+  double bulge = 0;  ///< the curve is no farther from the chord
+
+  static Part make(const Curve* shape, double t0, double t1, Vec2 a, Vec2 b) {
+    Part part{shape, t0, t1, a, b};
+    for (const double s : {0.25, 0.5, 0.75})
+      part.bulge = std::max(part.bulge, kSafety * distance(shape->point(t0 + s * (t1 - t0)), a, b));
+    return part;
+  }
+  std::pair<Part, Part> halves() const {
+    const double t = (t0 + t1) / 2;
+    const Vec2 m = shape->point(t);
+    return {make(shape, t0, t, a, m), make(shape, t, t1, m, b)};
+  }
+};
+
+double distance(const Part& p, const Part& q) {
+  if (orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) < 0 &&
+      orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) < 0)
+    return 0;
+  return std::min(
+      {distance(p.a, q.a, q.b), distance(p.b, q.a, q.b), distance(q.a, p.a, p.b), distance(q.b, p.a, p.b)});
+}
+
+/// Where two curves come nearer than the tolerance. The search ends: it goes on with halves of the part that
+/// strays the most, which stray half as much at most, until both stray by less than the tolerance.
+std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
+  check_cancelled();
+  if (distance(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;
+  if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvings) {
+    const Part& shorter = norm(p.b - p.a) < norm(q.b - q.a) ? p : q;
+    return 0.5 * (shorter.a + shorter.b);
+  }
+  const bool first = p.bulge >= q.bulge;
+  const auto [left, right] = (first ? p : q).halves();
+  for (const Part& half : {left, right})
+    if (const auto at =
+            first ? meeting(half, q, tolerance, halvings + 1) : meeting(p, half, tolerance, halvings + 1))
+      return at;
+  return std::nullopt;
+}
+
+Box<Vec2> box_of(const Part& part, double margin) {
+  const Vec2 m{part.bulge + margin, part.bulge + margin};
+  const Box<Vec2> chord = Box<Vec2>::around({part.a, part.b});
+  return {chord.low - m, chord.high + m};
+}
+
+}  // namespace
+
+void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& names) {
+  if (edges.empty()) return;
+  Box<Vec2> all = Box<Vec2>::around({edges[0].a});
+  for (const LoopEdge& edge : edges) all.add(edge.a);
+  const double tolerance = kTouch * norm(all.size());
+  std::vector<Part> parts;
+  std::vector<Box<Vec2>> boxes;
+  for (const LoopEdge& e : edges) {
+    parts.push_back(Part::make(e.shape, e.t0, e.t1, e.a, e.b));
+    boxes.push_back(box_of(parts.back(), tolerance));
+  }
+  const BoxTree<Vec2> tree(boxes);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const double limit = 0;
+    tree.search(
+        limit, [&](const auto& node) { return node.box.overlaps(boxes[i]) ? 0.0 : 1.0; },
+        [&](int j) {
+          const LoopEdge &e = edges[i], &f = edges[static_cast<std::size_t>(j)];
+          if (f.loop <= e.loop || !boxes[i].overlaps(boxes[static_cast<std::size_t>(j)])) return;
+          const auto at = meeting(parts[i], parts[static_cast<std::size_t>(j)], tolerance);
+          if (!at) return;
+          throw InputError(fmt::format(
+              "{}{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected them more than {:.3g} apart",
+              names.source, names.source.empty() ? "" : ": ", names.curve(e.curve), names.curve(f.curve),
+              at->x, at->y, tolerance));
+        });
+  }
+}
+
+}  // namespace delquad

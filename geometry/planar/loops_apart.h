@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/planar/boundary_loops.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// Loops nearer to each other than this part of the model's diagonal touch: well above what is left of
+/// coordinates with seven digits, below any gap that a mesh could fill.
+inline constexpr double kTouch = 1e-6;
+
+/// An edge of a loop: the part of a curve between two of its nodes.
+struct LoopEdge {
+  const Curve* shape;
+  double t0, t1;
+  Vec2 a, b;
+  int loop, curve;
+};
+
+/// Throws InputError naming curves and place where two loops touch or cross: by their curves, whose edges may
+/// well keep apart.
+void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& names);
+
+}  // namespace delquad

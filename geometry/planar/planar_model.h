@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+
+namespace delquad {
+
+/// delta at a point, physical length.
+using PointSize = std::function<double(const Vec3&)>;
+
+struct CurveMeshOptions {
+  /// The most boundary edges allowed; InputError with the estimate beyond it, before anything is allocated.
+  double max_edges = 1e8;
+};
+
+/// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)
+/// edges, at least one (a closed curve three); the pieces of each component are changed by one, where it
+/// costs least
+/// (|log((n +- 1)/integral)|), so that every component's boundary has an even number of edges (a loop with a
+/// region on both sides is even by itself). Result: points and lines (neither elements nor regions), the
+/// curves named. A node that curves share stands once: those first, in the order of the curves. The curves of
+/// a loop may run either way and stand in any order; ends that are equal up to kJoinTolerance (see
+/// geometry/model_chain.h) are one node. Throws InputError for open loops, zero-length curves, sizes not > 0,
+/// and as make_domain() does.
+Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options = {});
+
+/// Where a node is on its curve, and how far it may slide: over from <= t <= to.
+struct CurvePlace {
+  std::shared_ptr<const Curve> curve;  ///< null: the node stays
+  double t = 0, from = 0, to = 1;
+};
+
+/// The regions that a line mesh bounds.
+struct PlanarDomain {
+  Mesh boundary;                   ///< points, lines, curves, regions; no elements
+  std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
+  std::vector<PatchBoundary> patches;
+  std::vector<int> patch_region;  ///< index into boundary.regions of each patch
+};
+
+struct DomainOptions {
+  std::string source;  ///< file, for messages
+  /// For each loop given by one of its nodes: the region inside it. A loop in a region is a hole unless it is
+  /// here; a loop in a hole, or in no other, holds a region in any case.
+  std::vector<std::pair<int, std::string>> loop_regions;
+};
+
+/// Chains the lines to loops and tells outer loops, holes and islands by nesting, whatever their order and
+/// orientation. Regions are in the order of their lexicographically smallest nodes; those without a name are
+/// called "domain", or "domain_1", "domain_2", ... when there are more. In `boundary` the points keep their
+/// order (those without lines are dropped) and so do the lines, turned so that the region lies on their left
+/// (on an interface: the inner one). A patch's points go round the outer loop, then round the holes, each
+/// from its lexicographically smallest node. Throws InputError, naming curves and coordinates, for open,
+/// self-intersecting, touching or duplicate loops, zero-length lines, coincident nodes, loops of fewer than
+/// three nodes, non-finite coordinates, z not constant.
+PlanarDomain make_domain(Mesh lines, const DomainOptions& options = {});
+
+/// The two steps at once: curves meshed, then told apart by nesting, regions named as in the model. Throws
+/// InputError as both do, and for loops whose curves touch although their edges do not (see loops_apart.h).
+PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
+                         const CurveMeshOptions& options = {});
+
+}  // namespace delquad

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+// The wanted sizes and directions of the quads.
+
+namespace delquad {
+
+/// The wanted edge length delta at a point of space (physical length, finite, > 0).
+class SizeField {
+ public:
+  virtual ~SizeField() = default;
+  /// `hint` remembers where the last point was found: start with -1 and carry it along between nearby points.
+  /// It never changes the value. Throws InputError, naming the point, where delta is not finite and positive.
+  /// Safe to call from several threads.
+  virtual double at(const Vec3& x, int& hint) const = 0;
+};
+
+/// The wanted edge length delta' in the parameter plane of a patch.
+class ParametricSize {
+ public:
+  virtual ~ParametricSize() = default;
+  virtual double at(Vec2 u, int& hint) const = 0;
+};
+
+/// delta' of a planar patch, whose parameter plane is the plane z = constant itself.
+class PlanarSize final : public ParametricSize {
+ public:
+  explicit PlanarSize(std::shared_ptr<const SizeField> size, double z = 0) : size_(std::move(size)), z_(z) {}
+  double at(Vec2 u, int& hint) const override { return size_->at({u.x, u.y, z_}, hint); }
+
+ private:
+  std::shared_ptr<const SizeField> size_;
+  double z_;
+};
+
+/// The same everywhere. Throws InputError unless it is finite and positive.
+std::unique_ptr<SizeField> make_constant_size(double delta);
+
+/// delta as a function, which may be called from several threads. Messages call it by `name`.
+std::unique_ptr<SizeField> make_function_size(std::function<double(const Vec3&)> delta, std::string name);
+
+/// A function of a batch of points: writes delta of each. It is called from the thread that calls mesh(), for
+/// thousands of points at a time, before anything is meshed; between its samples delta is interpolated, see
+/// sample_size().
+using SizeFunction = std::function<void(std::span<const Vec3> points, std::span<double> delta)>;
+
+/// delta at the points of a mesh of triangles or quads, linear between them (quads are split); elsewhere that
+/// of the nearest point of the mesh. Throws InputError unless there is one finite, positive value for each
+/// point.
+std::unique_ptr<SizeField> make_nodal_size(const Mesh& mesh, std::vector<double> delta);
+
+/// A point (a == b) or segment source [paper, section 8.2]: size_near within radius_near of it, size_far
+/// beyond radius_far, linear in the distance between.
+struct SizeSource {
+  Vec3 a, b;
+  double size_near, size_far, radius_near, radius_far;
+};
+
+/// A cross: four directions theta + k pi/2, stored as exp(4 i theta), not necessarily of unit length.
+/// [Section 3]
+struct Cross {
+  double c = 1;  ///< cos 4 theta
+  double s = 0;  ///< sin 4 theta
+  static Cross from_angle(double theta) { return {std::cos(4 * theta), std::sin(4 * theta)}; }
+  /// One of the four directions along d, which is not zero; free of rounding when d lies along an axis or
+  /// diagonal.
+  static Cross along(Vec2 d) {
+    const double n = std::hypot(d.x, d.y);
+    const Vec2 e = {d.x / n, d.y / n};
+    const Vec2 squared = {e.x * e.x - e.y * e.y, 2 * e.x * e.y};
+    return {squared.x * squared.x - squared.y * squared.y, 2 * squared.x * squared.y};
+  }
+  /// theta in (-pi/4, pi/4], radians.
+  double angle() const { return std::atan2(s, c) / 4; }
+};
+
+inline Cross operator+(Cross a, Cross b) { return {a.c + b.c, a.s + b.s}; }
+
+/// The wanted directions of the quads' edges in the parameter plane of a patch.
+class CrossField {
+ public:
+  virtual ~CrossField() = default;
+  /// `hint`: as in SizeField::at.
+  virtual Cross at(Vec2 u, int& hint) const = 0;
+};
+
+/// theta (radians) as a function, which may be called from several threads. Messages call it by `name`.
+std::unique_ptr<CrossField> make_function_cross(std::function<double(Vec2)> theta, std::string name);
+
+/// theta (radians) of a batch of points of the plane, called as SizeFunction is.
+using CrossFunction = std::function<void(std::span<const Vec2> points, std::span<double> theta)>;
+
+/// theta (radians) at the points of a planar mesh, as make_nodal_size(): exp(4 i theta) is linear between
+/// them.
+std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<double> theta);
+
+/// The wanted size of a problem. Of `field`, `function` and `from_boundary` one at most.
+struct SizeSpec {
+  std::shared_ptr<const SizeField> field = nullptr;
+  SizeFunction function = nullptr;
+  /// The lengths of the lines that a LineModel gives, extended smoothly; so, too, where nothing is said.
+  bool from_boundary = false;
+  std::vector<SizeSource> sources = {};  ///< the smallest counts
+  double gradation = 0;  ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
+  double curvature = 0;  ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
+  double min = 0;        ///< least size that curvature asks for; 0: a twentieth of what it would be without
+  double max = 0;        ///< largest size; 0: none
+  std::string where = "size";  ///< who asked for it, for messages
+};
+
+/// The most |grad delta| where sizes follow curvature and nothing else is said: between a fillet and the
+/// plane beside it they would jump.
+inline constexpr double kCurvatureGradation = 0.3;
+/// Fewer elements per full turn would not show a curve at all.
+inline constexpr double kLeastPerTurn = 3;
+
+/// Where the directions of the quads come from.
+enum class CrossKind {
+  kBoundary,   ///< harmonic, aligned with the boundary [paper, section 3]
+  kSizeAware,  ///< the same, turned so that the size asks for as few irregular vertices as it can
+  kGradient,   ///< along grad delta; planar domains only
+  kField,      ///< `field` or `function`; planar domains only
+};
+
+/// The wanted directions of a problem.
+struct CrossSpec {
+  CrossKind kind = CrossKind::kBoundary;
+  std::shared_ptr<const CrossField> field = nullptr;
+  CrossFunction function = nullptr;
+  std::string where = "cross";  ///< who asked for it, for messages
+};
+
+}  // namespace delquad

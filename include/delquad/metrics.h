@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
+#include "delquad/options.h"
+
+// How good a mesh is, and whether it is fit to be computed with.
+
+namespace delquad {
+
+enum class Better { kHigher, kLower, kNeither };
+
+struct Metric {
+  std::string key;    ///< in records and options: "eta_mean"
+  std::string title;  ///< in tables: "eta mean"
+  std::string unit;   ///< "", "%", "deg", "s"
+  Better better;
+  double worst;        ///< value of the worst possible mesh (NaN where neither is better)
+  std::string source;  ///< paper section and equation, or where else it is defined
+  int digits = 3;      ///< after the decimal point, in tables
+};
+
+/// Every measure: the project's own in the order of tables, then those that were added.
+const std::deque<Metric>& metric_registry();
+/// Null: there is none of that key.
+const Metric* find_metric(const std::string& key);
+
+/// What a measure goes by.
+struct MetricInput {
+  const Mesh& mesh;
+  const SizeField* size;   ///< that was meshed by; null: not known
+  const SizeField* given;  ///< as it was asked for; null: the same
+  const Options& options;  ///< of the problem
+};
+
+/// Adds a measure from outside, before anything is meshed: a column of tables and a value of records like any
+/// other. It returns NaN where it is not defined; what it throws is the reason why there is no value. Throws
+/// std::invalid_argument for a key that is taken or empty, and for nothing to call.
+void add_metric(Metric metric, std::function<double(const MetricInput&)> measure);
+
+struct Histogram {
+  double low = 0, high = 1;
+  std::vector<long long> counts;
+};
+
+struct MeshMetrics {
+  /// By key; NaN where a measure is not defined (eta of a mesh without quads; tau without a size field).
+  std::map<std::string, double> values;
+  std::map<std::string, std::string> failures;  ///< why a measure from outside has no value, by key
+  Histogram eta;                                ///< [0, 1], 20 bins
+  Histogram angle;                              ///< degrees, [0, 360], 36 bins
+  std::map<int, long long> valences;            ///< interior vertices by number of incident elements
+};
+
+/// Measures of a mesh in space [paper, section 6]. `size` may be null: then tau and what else is measured
+/// against it are NaN. `given`: the size as it was asked for, where `size` is what was made of it; null: they
+/// are the same.
+/// Works on triangle meshes, quad meshes and mixtures; eta is over quads only, percent quads says what that
+/// leaves out.
+/// Measures from outside get `options`.
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given = nullptr,
+                             const Options& options = {});
+
+/// eta of one quad in space, equation (4): 1 for a square, 0 with an angle <= 0 or >= 180 degrees. `normal`
+/// is the side from which the quad must run counterclockwise; a reflex or inverted corner gives 0.
+double quad_eta(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal);
+/// eta of each quad of the mesh.
+std::vector<double> quad_etas(const Mesh& mesh);
+/// eta of a quad of the plane.
+double quad_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+
+/// A place on a model or a mesh.
+struct Place {
+  Vec3 at;
+  int face = -1;  ///< index into Mesh::regions; -1: of none
+};
+
+/// Places of one kind: how many there are, and the first few.
+struct Places {
+  static constexpr std::size_t kMostKept = 3;
+  int count = 0;
+  std::vector<Place> first;
+  void add(const Place& place) {
+    ++count;
+    if (first.size() < kMostKept) first.push_back(place);
+  }
+};
+
+/// How the elements of a mesh, or the triangles of a model, hang together.
+struct Topology {
+  int euler_characteristic = 0;  ///< vertices - edges + elements
+  int free_edges = 0;            ///< in one element
+  int branching_edges = 0;       ///< in more than two
+  int disagreeing_edges = 0;     ///< in two that run along it the same way: their normals disagree
+  bool watertight() const { return free_edges == 0; }
+};
+
+/// Distances up to this many sizes are explained by the size at the place: edges of length h sag by h^2 / 8R,
+/// at most h / 4, on a radius of curvature R >= h / 2, and a feature that is narrower than h is missed by
+/// about h. Of some 90 meshes of CAD and scans, at sizes from a tenth to a sixtieth of the diagonal, none was
+/// further off than 1.01.
+inline constexpr double kExplainedSizes = 1.25;
+
+/// Distances at some samples, in diagonals of the model.
+struct Distances {
+  int samples = 0;
+  double max = 0, mean = 0;
+  double max_in_sizes = 0;  ///< of the size at the sample; 0 where no size was given
+  Places unexplained;       ///< above kExplainedSizes
+  void add(double distance);
+  /// `size`: delta at the place, in the unit of the distance; infinite: not known.
+  void add(double distance, double size, const Place& place);
+};
+
+/// How a mesh fits the surface that it was made for.
+struct SurfaceReport {
+  Topology model, mesh;
+  /// Edges that are not in as many elements as they should: two inside a face, and on a curve as many as the
+  /// model has faces there.
+  Places nonconforming_edges;
+  /// Elements whose normal points to the other side than all of their face nearby.
+  Places turned_elements;
+  Distances nodes_in_faces;    ///< to the face
+  Distances nodes_on_curves;   ///< to the nearest of the curve and the faces around
+  Distances nodes_at_corners;  ///< the same
+  Distances mesh_to_surface, surface_to_mesh;
+};
+
+/// Whether a mesh is one of its model, and fit to be computed with. It is sound when
+/// - every coordinate is a finite number;
+/// - no quad is inverted or flat (eta 0) and none folded (over 90 degrees along a diagonal), no triangle is
+///   without positive area, and no element faces away from its model;
+/// - it is conforming: every edge is in as many elements as the model has faces there, two inside of them,
+///   and elements side by side run the same way round;
+/// - it hangs together as its model does: the same Euler characteristic, watertight where the model is;
+/// - none of the model is lost and nothing is added: no place of the one is further from the other than the
+///   size there explains, see kExplainedSizes.
+/// Triangles that are left among quads do not make a mesh unsound.
+struct Soundness {
+  /// One for each way in which it is not, with numbers, faces and the first places; empty: it is sound.
+  std::vector<std::string> reasons;
+  bool sound() const { return reasons.empty(); }
+  /// All of them in one line.
+  std::string text() const;
+};
+
+}  // namespace delquad

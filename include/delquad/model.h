@@ -1,0 +1,147 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+// What can be meshed: planar domains by curves or by lines, surfaces by triangles or by CAD.
+
+namespace delquad {
+
+/// A regular curve of the plane z = 0, t in [0, 1].
+class Curve {
+ public:
+  virtual ~Curve() = default;
+  virtual Vec2 point(double t) const = 0;
+  /// Parameters strictly between 0 and 1, ascending, at which a mesh node is compulsory (a polyline's
+  /// corners).
+  virtual std::vector<double> fixed_parameters() const { return {}; }
+};
+
+// The curves a model can be made of. Each begins and ends exactly at the points it is given. All throw
+// InputError for coordinates that are not finite and for curves without length; the message says which
+// argument.
+
+std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b);
+
+/// At least two points, none equal to the one before; the last may equal the first. Every corner gets a node.
+std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points);
+
+/// From angle0 to angle1 (radians), counterclockwise when angle1 > angle0; at most one turn. A full turn, to
+/// rounding, ends at the very point where it began.
+std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0, double angle1);
+
+/// Counterclockwise from the point at angle 0.
+std::shared_ptr<const Curve> make_circle(Vec2 centre, double radius);
+
+/// point(t) for t from t0 to t1, either direction. Safe to call from several threads.
+std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> point, double t0, double t1);
+
+struct ModelCurve {
+  std::shared_ptr<const Curve> shape;
+  std::string name;   ///< physical group of the boundary; may be empty
+  std::string where;  ///< file and line (or entity) it was read from, for messages
+};
+
+struct ModelLoop {
+  std::vector<int> curves;  ///< indices into PlanarModel::curves, end to start, closed; either orientation
+  std::string region;  ///< name of the region inside; on a hole: the hole is filled by a region of that name
+  std::string where;
+  bool is_hole = false;  ///< it must bound no region from outside
+};
+
+/// A planar model bounded by analytic curves.
+struct PlanarModel {
+  std::string source;  ///< file it was read from, for messages
+  std::vector<ModelCurve> curves;
+  std::vector<ModelLoop> loops;
+};
+
+/// A domain bounded by polygons, each a loop of at least three corners without the first repeated. Loops
+/// inside others are holes. Every corner gets a node.
+PlanarModel polygons(const std::vector<std::vector<Vec2>>& loops);
+
+/// What a mesh file says of surfaces, whether it has elements on them or not.
+struct DeclaredSurfaces {
+  std::vector<std::string> group_names;  ///< of the named groups of dimension 2
+  struct Surface {
+    Entity entity;
+    std::vector<int> curves;  ///< tags of the curves that bound it, ascending
+  };
+  std::vector<Surface> surfaces;
+};
+
+/// A planar domain bounded by lines, which are kept: each becomes an edge of the mesh.
+///
+/// Regions get their names where that is plain: from the elements of the mesh just inside of a loop; else
+/// from the declared surface with just these curves; else, for a single region, from the only group that has
+/// a name. A loop in a region that holds such a surface is no hole.
+struct LineModel {
+  Mesh mesh;  ///< its lines count; points with the same z
+  DeclaredSurfaces surfaces = {};
+  std::string source = "lines";  ///< for messages
+};
+
+/// A triangulated surface. Quads are split. Each region is at least one face; lines, regions' borders and
+/// sharp edges are curves.
+struct TriangleModel {
+  Mesh mesh;
+  std::string source = "triangles";     ///< for messages
+  std::vector<std::string> notes = {};  ///< of its reader, for warnings
+};
+
+/// A STEP or BREP file, or one's bytes.
+struct CadModel {
+  std::filesystem::path file;
+  std::string bytes = {};  ///< counts where there is no file
+};
+
+/// The program delquad-cad, which reads CAD files for all of this process; else it is looked for beside the
+/// running program and where it was installed. The environment variable DELQUAD_CAD_WORKER, where it is set,
+/// counts more.
+void set_cad_worker(const std::filesystem::path& program);
+
+/// A model that the library makes itself, see example_models().
+struct ExampleModel {
+  std::string name;
+};
+
+using Model = std::variant<PlanarModel, LineModel, TriangleModel, CadModel, ExampleModel>;
+
+/// The examples' names and what they are.
+struct Example {
+  std::string name, description;
+};
+const std::vector<Example>& example_models();
+
+/// Which faces of a surface are meshed as one.
+enum class Compounds { kNone, kTangent, kAll, kGroups };
+
+/// A surface that is one half of a model.
+struct MirrorPlane {
+  Vec3 point, normal;  ///< the normal need not have unit length
+  double tolerance =
+      0;  ///< how far open edges may lie from the plane; a part of the model's diagonal, from 0
+  /// Both images of a triangle are in its region, so that faces run on through the plane; else the other half
+  /// has regions of its own, of the same names, and curves run along the plane.
+  bool join = true;
+};
+
+/// How the faces of a surface are made from what its model holds.
+struct SurfaceSpec {
+  Compounds compounds = Compounds::kNone;
+  std::vector<std::vector<int>> groups;  ///< of kGroups: tags of faces
+  double merge_curves = 0;               ///< curves shorter than this length become one with a neighbour
+  std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
+  std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
+  std::optional<MirrorPlane> mirror;
+  std::string where;  ///< who asked for it, for messages; empty: nothing was asked for
+};
+
+}  // namespace delquad

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/marks.h"
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// A quad mesh of one patch that is edited locally, each edit revocable.
+///
+/// Half-edge h = 4 * element + corner runs counterclockwise from its corner to the next; twin(h) lies across,
+/// -1 on the boundary. Elements and vertices that an edit removes stay behind as dead slots until to_patch()
+/// leaves them out. Leftover triangles are elements too; only remove_doublet() touches them.
+class QuadTopology {
+ public:
+  /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same
+  /// direction, a boundary edge ends in an interior point, or a vertex index is out of range.
+  explicit QuadTopology(const QuadPatch& mesh);
+
+  /// Boundary points first, then live interior ones, each in the order of their creation; live elements
+  /// likewise.
+  QuadPatch to_patch() const;
+  /// What is wrong, one line each; empty when the mesh is sound.
+  std::vector<std::string> check_invariants() const;
+
+  int vertex_slots() const { return static_cast<int>(points_.size()); }
+  int element_slots() const { return static_cast<int>(corner_.size() / 4); }
+  bool vertex_alive(int v) const { return out_[v] >= 0; }
+  bool alive(int element) const { return corner_[4 * element] >= 0; }
+  /// False for triangles and for dead slots.
+  bool is_quad(int element) const { return corner_[4 * element + 3] >= 0; }
+  bool on_boundary(int v) const { return v < n_boundary_; }
+
+  static int element(int h) { return h >> 2; }
+  /// -1 for the fourth of a triangle.
+  int corner(int element, int k) const { return corner_[4 * element + k]; }
+  int origin(int h) const { return corner_[h]; }
+  int target(int h) const { return corner_[next(h)]; }
+  int twin(int h) const { return twin_[h]; }
+  int next(int h) const {
+    const int k = h & 3;
+    return k == 3 || (k == 2 && corner_[h + 1] < 0) ? h - k : h + 1;
+  }
+  int prev(int h) const { return (h & 3) != 0 ? h - 1 : corner_[h + 3] < 0 ? h + 2 : h + 3; }
+  /// A half-edge that leaves v; the boundary's own one for a boundary vertex.
+  int out(int v) const { return out_[v]; }
+  /// The half-edge after h counterclockwise around its origin; -1 past the last element of a boundary vertex.
+  int around(int h) const { return twin_[prev(h)]; }
+  /// How many elements meet at v.
+  int valence(int v) const { return valence_[v]; }
+  Vec2 point(int v) const { return points_[v]; }
+  bool adjacent(int a, int b) const;
+
+  /// Calls f(h) for the half-edges that leave v, counterclockwise, one in each element.
+  template <class F>
+  void for_each_out(int v, F&& f) const {
+    int h = out_[v];
+    do {
+      f(h);
+      h = around(h);
+    } while (h >= 0 && h != out_[v]);
+  }
+
+  /// The hexagon of the two quads at an interior edge, counterclockwise: h's target first, its origin fourth.
+  std::array<int, 6> hexagon(int h) const;
+  /// Both elements are quads and the rotated edge would be a new one.
+  bool can_rotate(int h, bool counterclockwise) const;
+  /// Turns edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise).
+  /// Half-edges of both quads get other places; returns the new edge's half-edge in h's element.
+  int rotate(int h, bool counterclockwise);
+
+  /// Both elements at h are quads and no two of their corners are the same.
+  bool can_open(int h) const;
+  /// Turns edge h as rotate() does and opens it to two more quads: the next corners get an edge each to a new
+  /// vertex, h's ends keep theirs, one to each of the two. These are the last slots.
+  void open(int h, bool counterclockwise);
+
+  /// The opposite corner of h's quad can be merged into h's origin.
+  bool can_collapse(int h) const;
+  /// Removes h's quad by merging its opposite corner (interior) into h's origin, which keeps its place.
+  void collapse(int h);
+
+  /// Half-edges `from` and `to` leave one vertex, by interior edges, with at least two elements on either
+  /// side (one suffices on the side that holds a boundary).
+  bool can_split(int from, int to) const;
+  /// The inverse of collapse(): opens both edges to a new quad. The elements from `from`'s counterclockwise
+  /// to the one before `to`'s leave the vertex for a new one, the last slot, at the same place.
+  void split(int from, int to);
+
+  bool can_remove_doublet(int v) const;
+  /// Removes an interior vertex between two elements, which become one.
+  void remove_doublet(int v);
+
+  /// The outline of these quads passes no vertex twice.
+  bool can_pillow(std::span<const int> quads) const;
+  /// Shrinks the quads and fills the gap with a ring of quads, one for each side of their outline. The new
+  /// vertices, one for each on the outline, are the last slots. Of a single quad: one becomes five.
+  void pillow(std::span<const int> quads);
+
+  void move(int v, Vec2 to);
+
+  /// A state to come back to.
+  struct Mark {
+    std::size_t ints, moves, vertices, elements;
+  };
+  Mark mark() const { return {int_log_.size(), move_log_.size(), points_.size(), corner_.size() / 4}; }
+  void rollback(const Mark& mark);
+  /// Forgets how to go back.
+  void commit() { int_log_.clear(), move_log_.clear(); }
+
+ private:
+  enum Array : int { kCorner, kTwin, kOut, kValence };
+  struct IntChange {
+    Array array;
+    int index, old;
+  };
+  struct MoveChange {
+    int vertex;
+    Vec2 old;
+  };
+
+  std::vector<int> outline(std::span<const int> quads) const;
+  std::vector<int>& array(Array which);
+  void write(Array which, int index, int value);
+  void add_to_valence(int v, int change) { write(kValence, v, valence_[v] + change); }
+  void link(int h, int twin);
+  /// Fills an element's slot; `twins` are those of its sides.
+  void set_element(int element, std::array<int, 4> corners, std::array<int, 4> twins);
+  void kill_element(int element);
+  int add_element();
+  int add_vertex(Vec2 at);
+  void build_twins();
+
+  int n_boundary_ = 0;
+  std::vector<Vec2> points_;
+  std::vector<int> corner_, twin_;  // by half-edge; corner -1: no such corner
+  std::vector<int> out_, valence_;  // by vertex; out -1: dead
+  std::vector<IntChange> int_log_;
+  std::vector<MoveChange> move_log_;
+};
+
+/// Calls f(element) for the elements around these vertices, each once; dead vertices are skipped. The marks
+/// are of elements, in a pass of the caller's.
+template <class Vertices, class F>
+void for_each_element_around(const QuadTopology& mesh, const Vertices& vertices, Marks& met, F&& f) {
+  for (const int v : vertices)
+    if (mesh.vertex_alive(v))
+      mesh.for_each_out(v, [&](int h) {
+        if (const int e = QuadTopology::element(h); met.meet(e)) f(e);
+      });
+}
+
+}  // namespace delquad

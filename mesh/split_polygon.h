@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// Cuts a polygon in space into triangles that turn as it does, by its ears, best ones first. Seen along the
+/// axis nearest to its normal the polygon must not cross itself; corners may lie on others, as where a bridge
+/// leads to a hole. Nothing when that is not so, or when it has no area. Indices are those of the corners.
+/// Takes time with the square of their number.
+std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
+
+/// Splits every quad into two triangles, as split_polygon(), for surfaces that are to be meshed. Says so in
+/// `notes`. Throws InputError, which begins with `source`, for a quad that crosses itself or has no area.
+void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes);
+
+}  // namespace delquad

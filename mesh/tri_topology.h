@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// The side of triangle t that faces triangle u, -1 when they share none.
+int facing_side(const TriPatch& tri, int t, int u);
+
+/// Swaps side k of t, across which lies a triangle u, for the other diagonal of the two. With a the corner
+/// opposite of the side in t, b the next one and d the corner opposite in u, t begins with a, b, d and u with
+/// a, d.
+void swap_side(TriPatch& tri, int t, int k);
+
+/// Cuts side k of t, across which lies a triangle u, at a point, which becomes the last one. t and u keep
+/// what lies at the side's first end (the corner after k); the two last triangles are what they lose, t's
+/// first.
+void split_side(TriPatch& tri, int t, int k, Vec2 at);
+
+/// One corner of a triangle; side k lies opposite of it.
+struct TriCorner {
+  int t, k;
+};
+
+/// A triangulation that is edited locally. Slots of triangles and vertices that have been removed stay, dead.
+class TriTopology {
+ public:
+  explicit TriTopology(TriPatch tri);
+
+  /// Without what is dead.
+  TriPatch to_patch() const;
+
+  int triangle_slots() const { return static_cast<int>(tri_.triangles.size()); }
+  int vertex_slots() const { return static_cast<int>(tri_.points.size()); }
+  bool alive(int t) const { return tri_.triangles[t][0] >= 0; }
+  bool vertex_alive(int i) const { return triangle_of_[i] >= 0; }
+  bool on_boundary(int i) const { return i < tri_.n_boundary; }
+  const Vec2& point(int i) const { return tri_.points[i]; }
+  void move(int i, Vec2 to) { tri_.points[i] = to; }
+  /// The vertex at corner k, where k may be 3 or 4 for 0 and 1.
+  int vertex(int t, int k) const { return tri_.triangles[t][k % 3]; }
+  /// The triangle across side k; -1: boundary.
+  int across(int t, int k) const { return tri_.neighbours[t][k]; }
+  /// The corner of u opposite of its side to t.
+  int facing(int u, int t) const { return facing_side(tri_, u, t); }
+
+  /// The corners at an inner vertex, counterclockwise.
+  void star(int i, std::vector<TriCorner>& corners) const;
+  /// The corner opposite of an edge in a triangle that has it and a neighbour there; t < 0: there is none.
+  TriCorner find_inner_edge(int a, int b) const;
+  /// Whether an edge joins two vertices; boundary edges count.
+  bool adjacent(int a, int b) const;
+
+  /// As swap_side() and split_side(); the latter returns the new vertex.
+  void swap(int t, int k);
+  int split(int t, int k, Vec2 at);
+  /// Takes inner vertex `from` out by moving it onto its neighbour `to`; `star` is that of `from`.
+  void collapse(int from, int to, const std::vector<TriCorner>& star);
+
+ private:
+  int corner_at(int t, int i) const;
+  void note(int t);
+
+  TriPatch tri_;                  ///< dead triangles have -1 for their vertices
+  std::vector<int> triangle_of_;  ///< of each vertex one of its triangles; -1: dead
+};
+
+}  // namespace delquad

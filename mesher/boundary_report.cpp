@@ -1,0 +1,128 @@
+#include "mesher/boundary_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "delquad/error.h"
+
+namespace delquad {
+namespace {
+
+/// The edges of a patch, loop by loop.
+std::vector<std::vector<int>> loops_of(const PatchBoundary& patch) {
+  std::vector<int> edge_from(patch.points.size(), -1);
+  for (std::size_t e = 0; e < patch.edges.size(); ++e) edge_from[patch.edges[e][0]] = static_cast<int>(e);
+  std::vector<bool> seen(patch.edges.size());
+  std::vector<std::vector<int>> loops;
+  for (std::size_t first = 0; first < patch.edges.size(); ++first) {
+    if (seen[first]) continue;
+    loops.emplace_back();
+    for (int e = static_cast<int>(first); !seen[e]; e = edge_from[patch.edges[e][1]]) {
+      seen[e] = true;
+      loops.back().push_back(e);
+    }
+  }
+  return loops;
+}
+
+std::string entity_name(const Entity& entity, const std::string& kind) {
+  if (entity.names.empty()) return fmt::format("{} {}", kind, entity.tag);
+  return "'" + entity.names.front() + "'";
+}
+
+std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, const Mesh& boundary) {
+  std::vector<std::string> names;
+  for (const int e : loop) {
+    const std::string name = entity_name(boundary.curves[patch.edge_curve[e]], "curve");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  const Vec2 at = patch.points[patch.edges[loop.front()][0]];
+  return fmt::format("the loop of {} through ({:.6g}, {:.6g}) has {} edges", fmt::join(names, ", "), at.x,
+                     at.y, loop.size());
+}
+
+double signed_area(const std::vector<int>& loop, const PatchBoundary& patch) {
+  double area = 0;
+  for (const int e : loop)
+    area += cross(patch.points[patch.edges[e][0]], patch.points[patch.edges[e][1]]) / 2;
+  return area;
+}
+
+/// The boundary nodes on loops that surround a patch.
+std::vector<bool> outer_nodes(const PlanarDomain& domain) {
+  std::vector<bool> outer(domain.boundary.points.size());
+  for (const PatchBoundary& patch : domain.patches)
+    for (const auto& loop : loops_of(patch))
+      if (signed_area(loop, patch) > 0)
+        for (const int e : loop) outer[patch.point_node[patch.edges[e][0]]] = true;
+  return outer;
+}
+
+}  // namespace
+
+void check_holes(const PlanarModel& model, const PlanarDomain& domain) {
+  if (std::ranges::none_of(model.loops, &ModelLoop::is_hole)) return;
+  const std::vector<bool> outer = outer_nodes(domain);
+  const std::vector<Vec3>& nodes = domain.boundary.points;
+  for (const ModelLoop& loop : model.loops) {
+    if (!loop.is_hole) continue;
+    const Vec2 first = model.curves[loop.curves.front()].shape->point(0);
+    const Vec3 on{first.x, first.y, 0};
+    const auto nearest = std::min_element(nodes.begin(), nodes.end(), [&](const Vec3& a, const Vec3& b) {
+      return norm(a - on) < norm(b - on);
+    });
+    if (outer[nearest - nodes.begin()])
+      throw InputError(fmt::format("{}: the hole through ({:.6g}, {:.6g}) lies outside of every region",
+                                   loop.where, on.x, on.y));
+  }
+}
+
+std::vector<std::string> odd_boundaries(const PlanarDomain& domain) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < domain.patches.size(); ++i) {
+    const PatchBoundary& patch = domain.patches[i];
+    if (patch.edges.size() % 2 == 0) continue;
+    std::vector<std::string> odd;
+    for (const auto& loop : loops_of(patch))
+      if (loop.size() % 2 == 1) odd.push_back(loop_name(loop, patch, domain.boundary));
+    lines.push_back(fmt::format("region {}: an odd number of boundary edges ({}) leaves one triangle; {}",
+                                entity_name(domain.boundary.regions[domain.patch_region[i]], "region"),
+                                patch.edges.size(), fmt::join(odd, "; ")));
+  }
+  return lines;
+}
+
+Mesh outline(const Mesh& mesh) {
+  Mesh result;
+  result.points = mesh.points;
+  result.curves = mesh.curves;
+  if (!mesh.lines.empty()) {
+    result.lines = mesh.lines;
+    result.line_curve = mesh.line_curve;
+    return result;
+  }
+  std::vector<std::array<int, 4>> sides;  // lower node, upper node, then as the element runs
+  const auto add = [&](int a, int b) { sides.push_back({std::min(a, b), std::max(a, b), a, b}); };
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3]);
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) add(q[k], q[(k + 1) % 4]);
+  std::sort(sides.begin(), sides.end());
+  const auto same = [&](std::size_t i, std::size_t j) {
+    return j < sides.size() && sides[i][0] == sides[j][0] && sides[i][1] == sides[j][1];
+  };
+  result.curves = {{1, {}}};
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t next = i + 1;
+    while (same(i, next)) ++next;
+    if (next == i + 1) result.lines.push_back({sides[i][2], sides[i][3]});
+    i = next;
+  }
+  result.line_curve.assign(result.lines.size(), 0);
+  return result;
+}
+
+}  // namespace delquad

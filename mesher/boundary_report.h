@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// One line for each patch whose boundary has an odd number of edges, which leaves a triangle when triangles
+/// are merged to quads: names the region, its odd loops and their curves.
+std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
+
+/// Throws InputError for a loop that should be a hole but bounds a region from outside.
+void check_holes(const PlanarModel& model, const PlanarDomain& domain);
+
+/// The boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has none.
+Mesh outline(const Mesh& mesh);
+
+}  // namespace delquad

@@ -1,0 +1,123 @@
+#include "mesher/check_problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mesh/check_mesh.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kAnyAngle = 180;       // degrees
+constexpr double kMostTolerance = 0.1;  // of the diagonal: more would weld the model to itself
+
+/// Refuses a number that is neither 0, for "none", nor finite and positive.
+void check_length(double value, const std::string& what, const std::string& where) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(fmt::format("{}: {} {}: expected a finite number above 0, or 0 for none", where, what,
+                                 std::isnan(value) ? "NaN" : fmt::format("{}", value)));
+}
+
+void check(const PlanarModel& model, const std::string& where) {
+  if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
+  for (std::size_t i = 0; i < model.curves.size(); ++i)
+    if (!model.curves[i].shape)
+      throw InputError(fmt::format("{}: curve {} of the model has no shape", where, i + 1));
+  for (std::size_t i = 0; i < model.loops.size(); ++i)
+    for (const int curve : model.loops[i].curves)
+      if (curve < 0 || curve >= static_cast<int>(model.curves.size()))
+        throw InputError(fmt::format("{}: loop {} has curve {}: there are {}, counted from 0", where, i + 1,
+                                     curve, model.curves.size()));
+}
+
+void check(const LineModel& model, const std::string&) { require_readable(model.mesh, model.source); }
+
+void check(const TriangleModel& model, const std::string&) {
+  require_readable(model.mesh, model.source);
+  if (model.mesh.triangles.empty() && model.mesh.quads.empty())
+    throw InputError(model.source + ": holds neither triangles nor quads");
+}
+
+void check(const CadModel& model, const std::string& where) {
+  if (model.file.empty() && model.bytes.empty())
+    throw InputError(where + ": a CAD model needs a file or bytes, and has neither");
+}
+
+void check(const ExampleModel& model, const std::string& where) {
+  if (model.name.empty()) throw InputError(where + ": the example has no name");
+}
+
+void check(const SizeSpec& size) {
+  if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
+    throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
+  check_length(size.gradation, "gradation", size.where);
+  check_length(size.curvature, "curvature", size.where);
+  if (size.curvature > 0 && size.curvature < kLeastPerTurn)
+    throw InputError(fmt::format("{}: curvature {}: expected at least {} elements per full turn", size.where,
+                                 size.curvature, kLeastPerTurn));
+  check_length(size.min, "the least size", size.where);
+  check_length(size.max, "the largest size", size.where);
+  check_size_limits(size.curvature, size.min, size.max, size.where);
+}
+
+void check(const CrossSpec& cross) {
+  const int given = (cross.field != nullptr) + (cross.function != nullptr);
+  if (cross.kind == CrossKind::kField && given != 1)
+    throw InputError(fmt::format("{}: crosses by a field need a field or a function, and have {}",
+                                 cross.where, given == 0 ? "none" : "both"));
+  if (cross.kind != CrossKind::kField && given > 0)
+    throw InputError(cross.where + ": a field or a function of crosses is given, and another kind asked for");
+}
+
+void check(const SurfaceSpec& surface, const std::string& where) {
+  check_length(surface.merge_curves, "the length of curves that are merged", where);
+  if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
+  if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
+  if (surface.compounds == Compounds::kGroups) {
+    if (surface.groups.empty()) throw InputError(where + ": compounds by groups need a group of faces");
+    for (const auto& group : surface.groups)
+      if (group.size() < 2) throw InputError(where + ": a compound has two faces or more");
+  }
+  if (!surface.mirror) return;
+  const MirrorPlane& mirror = *surface.mirror;
+  if (!std::isfinite(norm(mirror.point))) throw InputError(where + ": the mirror's point is not finite");
+  if (!(norm(mirror.normal) > 0) || !std::isfinite(norm(mirror.normal)))
+    throw InputError(where + ": the normal of the mirror's plane has no finite length");
+  checked_weld_tolerance(mirror.tolerance, where, "the mirror's tolerance");
+}
+
+}  // namespace
+
+void check_size_limits(double curvature, double min, double max, const std::string& where) {
+  if (min > 0 && !(curvature > 0))
+    throw InputError(where + ": a least size is for sizes that follow curvature: expected 'curvature' too");
+  if (min > 0 && max > 0 && min > max)
+    throw InputError(fmt::format("{}: the least size {} is larger than the largest, {}", where, min, max));
+}
+
+double checked_feature_angle(double degrees, const std::string& where) {
+  if (degrees > 0 && degrees <= kAnyAngle) return degrees;
+  throw InputError(fmt::format("{}: feature angle {}: expected above 0 and at most {} degrees", where,
+                               degrees, kAnyAngle));
+}
+
+double checked_weld_tolerance(double part, const std::string& where, const std::string& what) {
+  if (part >= 0 && part <= kMostTolerance) return part;
+  throw InputError(fmt::format("{}: {} {}: expected a part of the model's diagonal, from 0 to {}", where,
+                               what, part, kMostTolerance));
+}
+
+void check_problem(const MeshProblem& problem) {
+  if (problem.seed < 0)
+    throw InputError(fmt::format("{}: seed {}: expected 0 or above", problem.where, problem.seed));
+  if (problem.max_elements < 1)
+    throw InputError(
+        fmt::format("{}: at most {} elements: expected 1 or above", problem.where, problem.max_elements));
+  std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
+  check(problem.size);
+  check(problem.cross);
+  check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
+}
+
+}  // namespace delquad

@@ -1,0 +1,291 @@
+#include "mesher/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/activity.h"
+#include "base/stopwatch.h"
+#include "fields/fields.h"
+#include "fields/sampled_fields.h"
+#include "mesher/boundary_report.h"
+#include "mesher/check_problem.h"
+#include "mesher/named_domain.h"
+#include "mesher/perturb.h"
+#include "mesher/prepare_surface.h"
+#include "mesher/size_aware.h"
+#include "mesher/size_warnings.h"
+#include "mesher/surface_input.h"
+
+namespace delquad {
+namespace {
+
+/// Central differences for the direction of grad delta, in diagonals of the domain: far above rounding of the
+/// coordinates, far below any feature that a mesh could show.
+constexpr double kGradientStep = 1e-6;
+/// Up to this many boundary edges, the domain is cheap enough to be built before the number of quads is
+/// known.
+constexpr double kCheapEdges = 2e5;
+/// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
+constexpr double kCoarseEdges = 4e3;
+
+/// The field without its gradation limit; `boundary` makes the one that follows the boundary's edges. A
+/// function is sampled on `domain`.
+template <class F>
+std::shared_ptr<const SizeField> make_size(const SizeSpec& spec, const SampleDomain& domain,
+                                           std::vector<Warning>& warnings, F&& boundary) {
+  std::shared_ptr<const SizeField> base = spec.field;
+  if (spec.function) base = sample_size(spec.function, domain, spec.where + ": the size function", warnings);
+  if (spec.from_boundary || (!base && spec.sources.empty())) base = boundary();
+  if (!spec.sources.empty()) base = make_source_size(std::move(base), spec.sources);
+  return spec.max > 0 ? make_capped_size(std::move(base), spec.max) : base;
+}
+
+/// What stands in for a base that was not given.
+std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why) {
+  if (size.max > 0 && !size.from_boundary) return make_constant_size(size.max);
+  throw InputError(size.where + ": " + why);
+}
+
+PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1) {
+  return
+      [size = std::move(size), scale, hint = -1](const Vec3& x) mutable { return scale * size->at(x, hint); };
+}
+
+/// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
+double rough_edges(const PlanarModel& model, const SizeField& size) {
+  constexpr int kChords = 200;  // a curve
+  double edges = 0;
+  int hint = -1;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k < kChords; ++k) {
+      const Vec2 a = curve.shape->point(double(k) / kChords), b = curve.shape->point(double(k + 1) / kChords);
+      const Vec2 m = 0.5 * (a + b);
+      edges += norm(b - a) / size.at({m.x, m.y, 0}, hint);
+    }
+  return edges;
+}
+
+void check_count(double quads, const MeshProblem& problem) {
+  if (quads <= static_cast<double>(problem.max_elements)) return;
+  const std::string count =
+      std::isfinite(quads) ? fmt::format("about {:.3g} quads", quads) : "more quads than can be counted";
+  throw InputError(fmt::format("{}: the size asks for {}, more than the {} that are allowed (max-elements)",
+                               problem.size.where, count, problem.max_elements));
+}
+
+/// Refuses a hopeless size while it is still cheap: estimates the quads on a domain with coarser boundaries.
+void check_count_early(const MeshProblem& problem, const PlanarModel& model,
+                       const std::shared_ptr<const SizeField>& size) {
+  const double edges = rough_edges(model, *size);
+  if (!(edges > kCheapEdges)) return;
+  std::optional<PlanarDomain> coarse;
+  try {
+    coarse = make_domain(model, as_function(size, edges / kCoarseEdges));
+  } catch (const InputError&) {
+    // The boundary makes sense only at its full resolution, where the same check is made again.
+  }
+  // Each boundary edge has a quad, which has two at most, but for corners.
+  check_count(coarse ? expected_quads(BackgroundMesh(coarse->patches), *size) : edges / 2, problem);
+}
+
+Box<Vec3> box_of(const PlanarModel& model) {
+  constexpr int kPoints = 64;  // a curve
+  std::vector<Vec3> points;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= kPoints; ++k) {
+      const Vec2 p = curve.shape->point(double(k) / kPoints);
+      points.push_back({p.x, p.y, 0});
+    }
+  return Box<Vec3>::around(points);
+}
+
+double diagonal_of(const PlanarModel& model) {
+  const Box<Vec3> box = box_of(model);
+  return norm(box.high - box.low);
+}
+
+PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
+                        const std::shared_ptr<const SizeField>& size) {
+  CurveMeshOptions options;
+  options.max_edges = static_cast<double>(problem.max_elements);
+  const auto on_curves = problem.seed == 0 ? size : jittered(size, problem.seed, diagonal_of(model));
+  return make_domain(model, as_function(on_curves), options);
+}
+
+PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model, PreparedProblem& p) {
+  const SizeSpec& spec = problem.size;
+  p.size = make_size(spec, {box_of(model)}, p.warnings, [&] {
+    return largest_size(
+        spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
+  });
+  check_count_early(problem, model, p.size);
+  PlanarDomain domain = mesh_model(problem, model, p.size);
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  if (spec.gradation > 0) {
+    p.size = limit_gradation(p.size, p.background, spec.gradation);
+    check_count_early(problem, model, p.size);
+    domain = mesh_model(problem, model, p.size);
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  }
+  return domain;
+}
+
+PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
+  const Mesh& mesh = model.mesh;
+  if (mesh.lines.empty())
+    throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
+  if (!mesh.triangles.empty() || !mesh.quads.empty())
+    p.warnings.push_back(
+        fmt::format("{}: {} triangles and {} quads are left out: only lines count as boundary", model.source,
+                    mesh.triangles.size(), mesh.quads.size()));
+  PlanarDomain domain = make_named_domain(mesh, model.surfaces, model.source);
+  const SizeSpec& spec = problem.size;
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
+                     [&] { return make_boundary_size(p.background, domain.boundary); });
+  if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
+  for (const std::string& line : odd_boundaries(domain))
+    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+  return domain;
+}
+
+/// Says so when the indices of a cross field do not add up to the Euler characteristic.
+void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
+  const auto [sum, expected] = *p.index_sum_and_expected;
+  if (sum == expected) return;
+  p.warnings.push_back(
+      fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
+                  "characteristic is {}/4",
+                  problem.name, sum, expected));
+}
+
+/// The field of crosses that the problem has; null: none.
+std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary,
+                                              PreparedProblem& p) {
+  if (!spec.function) return spec.field;
+  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size,
+                      spec.where + ": the cross function", p.warnings);
+}
+
+/// The field of the whole domain.
+std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
+                                             const std::shared_ptr<const CrossField>& given,
+                                             PreparedProblem& p) {
+  const CrossSpec& cross = problem.cross;
+  if (cross.kind == CrossKind::kGradient)
+    return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
+  if (cross.kind == CrossKind::kField)
+    return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
+  auto field = std::make_shared<HarmonicCrossField>(p.background);
+  p.singularities = field->singularities();
+  p.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
+  return field;
+}
+
+/// Turns domain and size by the problem's seed.
+void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
+  const Rotation rotation = Rotation::by_seed(problem.seed);
+  rotate(rotation, domain);
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size = rotated(std::move(p.size), rotation);
+}
+
+PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
+  const Stopwatch reading;
+  const DoingStage stage("reading");
+  SurfaceModel model = make_surface(problem);
+  const double read_seconds = reading.seconds();
+  const SampleDomain domain = {Box<Vec3>::around(model.fine.points), &model.fine};
+  std::vector<Warning> warnings;
+  const auto size = make_size(problem.size, domain, warnings, [&] {
+    return largest_size(problem.size, problem.size.from_boundary
+                                          ? "'boundary' extends the lengths of a planar boundary that is "
+                                            "kept; a surface's curves are meshed anew: expected a size (a "
+                                            "number or an expression)"
+                                          : "a surface needs a size (a number or an expression)");
+  });
+  PreparedProblem p =
+      prepare_surface(problem, std::move(model), size, [&](double quads) { check_count(quads, problem); });
+  p.seconds.insert(p.seconds.begin(), {"read", read_seconds});
+  p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
+  return p;
+}
+
+/// Refuses what is for surfaces.
+void check_planar(const MeshProblem& problem) {
+  const SurfaceSpec& s = problem.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.feature_angle || s.weld_tolerance ||
+      s.mirror)
+    throw InputError(
+        (s.where.empty() ? problem.where : s.where) +
+        ": the model is planar: compounds, feature angles, welding and mirrors are for surfaces");
+  if (problem.size.curvature > 0)
+    throw InputError(problem.size.where +
+                     ": sizes by curvature are for surfaces, and this is a planar domain");
+}
+
+/// Cross field and patches.
+void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const CrossField>& given,
+                     PlanarDomain&& domain, PreparedProblem& p) {
+  const Stopwatch fields;
+  const DoingStage making_fields("fields");
+  const auto cross = make_cross(problem, given, p);
+  const double z = p.boundary.points[0].z;
+  const auto size = std::make_shared<PlanarSize>(p.size, z);
+  for (std::size_t i = 0; i < domain.patches.size(); ++i)
+    p.patches.push_back(
+        {std::move(domain.patches[i]), domain.patch_region[i], cross, size, [z](Vec2 u, int&) {
+           return Vec3{u.x, u.y, z};
+         }});
+  if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+  if (p.index_sum_and_expected) check_index_sum(problem, p);
+  p.seconds.emplace_back("fields", fields.work_seconds());
+}
+
+PreparedProblem prepare_planar(const MeshProblem& problem) {
+  check_planar(problem);
+  const auto* model = std::get_if<PlanarModel>(&problem.model);
+  PreparedProblem p = with_settings_of(problem);
+  const Stopwatch watch;
+  const DoingStage meshing_curves("boundary");
+  PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, p)
+                                         : prepare_lines(problem, std::get<LineModel>(problem.model), p);
+  p.expected_quads = expected_quads(*p.background, *p.size);
+  check_count(p.expected_quads, problem);
+  warn_of_large_size(*p.size, domain.boundary, p.warnings);
+  if (model != nullptr) {
+    check_holes(*model, domain);
+    warn_of_coarse_turns(*model, domain.boundary, p.warnings);
+  }
+  const auto cross = given_cross(problem.cross, domain.boundary, p);
+  if (problem.seed != 0) turn(problem, domain, p);
+  p.boundary = std::move(domain.boundary);
+  p.curve_places = std::move(domain.places);
+  p.seconds.emplace_back("curves", watch.seconds());
+  prepare_patches(problem, cross, std::move(domain), p);
+  return p;
+}
+
+}  // namespace
+
+PreparedProblem with_settings_of(const MeshProblem& problem) {
+  PreparedProblem p;
+  p.name = problem.name;
+  p.where = problem.where;
+  p.options = problem.options;
+  p.max_elements = problem.max_elements;
+  p.keep_going = problem.keep_going;
+  return p;
+}
+
+PreparedProblem prepare(const MeshProblem& problem) {
+  check_problem(problem);
+  const bool is_planar =
+      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
+  return is_planar ? prepare_planar(problem) : prepare_surface_problem(problem);
+}
+
+}  // namespace delquad

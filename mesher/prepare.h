@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/activity.h"
+#include "base/warning.h"
+#include "boundaries/surface_domain.h"
+#include "delquad/mesher.h"
+#include "fields/fields.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
+struct PreparedPatch {
+  PatchBoundary boundary;
+  int region = 0;  ///< index into PreparedProblem::boundary.regions
+  std::shared_ptr<const CrossField> cross;
+  std::shared_ptr<const ParametricSize> size;
+  std::function<Vec3(Vec2, int& hint)> lift;
+};
+
+/// What the patches of a surface were made from.
+struct PreparedSurface {
+  SurfaceModel model;
+  SurfaceDomain domain;
+  std::vector<SurfaceCut> cuts;
+  std::shared_ptr<const SurfaceSize> size;
+};
+
+/// The maps of all patches.
+std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
+
+/// What every pipeline on a case starts from.
+struct PreparedProblem {
+  std::string name, where;  ///< as in MeshProblem, and so
+  Options options;
+  long long max_elements = 0;
+  bool keep_going = false;
+  Mesh boundary;                         ///< nodes on curves, lines, curves and regions; no elements
+  std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
+  std::vector<PreparedPatch> patches;
+  std::shared_ptr<const SizeField> size;
+  std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
+  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", "curvature"
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
+  std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
+  /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
+  /// it, in quarters.
+  std::optional<std::pair<int, int>> index_sum_and_expected;
+  /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
+  /// of it.
+  std::optional<std::pair<double, double>> dislocations;
+  std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
+  std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
+  std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
+  double expected_quads = 0;                       ///< integral of dA/delta^2
+  std::vector<Warning> warnings;
+  /// By step ("read", "maps", "curves", "fields"), as in StageLog.
+  std::vector<std::pair<std::string, double>> seconds;
+};
+
+/// Tells that this thread works on a patch.
+inline DoingFace doing_patch(const PreparedProblem& prepared, std::size_t patch) {
+  return DoingFace(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
+                   prepared.surface ? "face" : "region");
+}
+
+/// With the problem's settings, and nothing else yet.
+PreparedProblem with_settings_of(const MeshProblem& problem);
+
+/// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be
+/// meshed, and for a size that would need more than problem.max_elements, with the estimate, before that work
+/// begins.
+PreparedProblem prepare(const MeshProblem& problem);
+
+}  // namespace delquad

@@ -1,0 +1,179 @@
+#include "mesher/prepare_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/activity.h"
+#include "base/located.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "boundaries/surface_domain.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/improve_triangulation.h"
+#include "mesher/perturb.h"
+#include "mesher/recombination_options.h"
+#include "mesher/size_aware.h"
+#include "mesher/size_warnings.h"
+
+namespace delquad {
+namespace {
+
+/// Integral of dA/delta^2 over the fine triangles, by their centroids.
+double expected_quads(const Mesh& fine, const SurfaceSize& size) {
+  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  double sum = 0;
+  int hint = -1;
+  for (const auto& triangle : fine.triangles) {
+    const auto& [a, b, c] = triangle;
+    const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
+    const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
+    sum += norm(cross(q - p, r - p)) / 2 / (delta * delta);
+  }
+  return sum;
+}
+
+/// Faces that cannot be meshed: the end, or left out where the problem says so.
+class Failures {
+ public:
+  explicit Failures(const MeshProblem& problem) : where_(problem.where), keep_going_(problem.keep_going) {}
+
+  void add(int face, const std::string& reason) {
+    if (!keep_going_) throw InputError(where_ + ": " + reason);
+    failures_.push_back({face, reason});
+  }
+  bool are_left_out() const { return keep_going_; }
+  std::vector<FaceFailure> take() {
+    std::ranges::stable_sort(failures_, {}, &FaceFailure::face);
+    return std::move(failures_);
+  }
+
+ private:
+  std::string where_;
+  bool keep_going_;
+  std::vector<FaceFailure> failures_;
+};
+
+void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Failures& failures) {
+  if (flattening.failed.empty()) return;
+  std::string tags;
+  for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
+  for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
+}
+
+/// Meshes the curves; faces for which that is impossible go.
+SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                             const SizeField* asked, const Options& options, Failures& failures) {
+  const auto solver = matching_solver(recombination_options(options).solver, options);
+  while (!flattening.patches.empty()) {
+    try {
+      return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
+                                 *solver, asked);
+    } catch (const FaceError& error) {
+      failures.add(error.face(), error.what());
+      std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
+    }
+  }
+  throw InputError(model.source + ": no face can be meshed");
+}
+
+/// The growth of sizes away from curves that are shorter than the size.
+constexpr double kShortCurveGradation = 0.7;
+
+WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model,
+                       std::shared_ptr<const SizeField> base) {
+  WantedSize wanted;
+  wanted.base = std::move(base);
+  wanted.gradation = spec.gradation;
+  wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
+  if (!wanted.curve_limit.empty() && !(wanted.gradation > 0)) wanted.gradation = kShortCurveGradation;
+  if (!(spec.curvature > 0)) return wanted;
+  wanted.curvature = std::make_shared<ModelCurvature>(model);
+  wanted.per_turn = spec.curvature;
+  wanted.min = spec.min;
+  if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
+  return wanted;
+}
+
+void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedProblem& p) {
+  const std::vector<SurfacePatch>& patches = surface->domain.patches;
+  p.patches.resize(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        const SurfacePatch& patch = patches[i];
+        const DoingFace face(surface->model.fine.regions[patch.map.face].tag);
+        p.patches[i] = {
+            patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
+            std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),
+            [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }};
+      },
+      [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
+}
+
+}  // namespace
+
+std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
+  std::vector<const FlatPatch*> maps;
+  for (const SurfacePatch& patch : surface.domain.patches) maps.push_back(&patch.map);
+  return maps;
+}
+
+PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
+                                std::shared_ptr<const SizeField> size,
+                                const std::function<void(double quads)>& check_count) {
+  const bool size_aware = problem.cross.kind == CrossKind::kSizeAware;
+  if (!size_aware && problem.cross.kind != CrossKind::kBoundary)
+    throw InputError(problem.cross.where +
+                     ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
+  PreparedProblem p = with_settings_of(problem);
+  check_count(expected_quads(model.fine, SurfaceSize(size)));
+  const Stopwatch sizes;
+  const DoingStage measuring("sizes");
+  const WantedSize wanted = wanted_size(problem.size, model, std::move(size));
+  const double size_seconds = sizes.work_seconds();
+
+  const Stopwatch maps;
+  const DoingStage flattening_faces("maps");
+  improve_triangulation(model);
+  refine_for_size(model, wanted);
+  Flattening flattening = located(problem.where, [&] { return flatten(model); });
+  Failures failures(problem);
+  for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
+  add_unflattened(flattening, model, failures);
+  p.seconds.emplace_back("maps", maps.work_seconds());
+
+  const Stopwatch curves;
+  const DoingStage meshing_curves("boundary");
+  auto surface = std::make_shared<PreparedSurface>();
+  surface->cuts = flattening.cuts;
+  surface->size = std::make_shared<SurfaceSize>(model, wanted);
+  p.size = surface->size;
+  if (!wanted.curve_limit.empty()) p.size_adapted_to.push_back("short curves");
+  if (wanted.curvature) p.size_adapted_to.push_back("curvature");
+  if (!p.size_adapted_to.empty()) p.given_size = wanted.base;
+  p.expected_quads = expected_quads(model.fine, *surface->size);
+  check_count(p.expected_quads);
+  const auto on_curves = problem.seed == 0 ? p.size : jittered(p.size, problem.seed, diagonal(model.fine));
+  surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves,
+                                   wanted.curvature ? nullptr : wanted.base.get(), problem.options, failures);
+  surface->model = std::move(model);
+  p.failures = failures.take();
+  p.surface = surface;
+  p.warnings = surface->model.warnings;
+  p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
+  warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
+  warn_of_coarse_turns(wanted, *surface, p.warnings);
+  p.boundary = surface->domain.boundary;
+  p.sharp_corners = surface->domain.sharp_corners;
+  p.seconds.emplace_back("curves", curves.work_seconds());
+
+  const Stopwatch fields;
+  const DoingStage making_fields("fields");
+  prepare_patches(surface, p);
+  if (size_aware) make_crosses_size_aware(p);
+  p.seconds.emplace_back("fields", size_seconds + fields.work_seconds());
+  return p;
+}
+
+}  // namespace delquad

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+
+#include "geometry/surface/surface_model.h"
+#include "mesher/prepare.h"
+
+namespace delquad {
+
+/// Faces flattened, curves meshed once each, all patches even; cross field and size on each patch. Refuses
+/// sizes that would need more than problem.max_elements through `check_count`. Throws InputError naming faces
+/// that cannot be meshed, unless problem.keep_going leaves them out and others remain.
+PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
+                                std::shared_ptr<const SizeField> size,
+                                const std::function<void(double quads)>& check_count);
+
+}  // namespace delquad

@@ -1,0 +1,30 @@
+#include "mesher/recombination_options.h"
+
+#include "base/option_table.h"
+#include "delquad/matching.h"
+
+namespace delquad {
+namespace {
+
+const OptionTable<RecombinationOptions>& table() {
+  static const auto all =
+      OptionTable<RecombinationOptions>("recombination", "options of B and G")
+          .add({.name = "solver",
+                .help = "what matches triangles, and makes counts on curves even",
+                .names = matching_solver_names},
+               &RecombinationOptions::solver)
+          .choice({.name = "treatment", .help = "after the matching"}, &RecombinationOptions::treatment,
+                  std::vector<std::pair<std::string, Treatment>>{{"none", Treatment::kNone},
+                                                                 {"paper", Treatment::kPaper}})
+          .add(
+              {.name = "max_rounds", .help = "of the treatment", .least = 0, .most = 1e6},
+              [](auto& o) -> auto& { return o.treatment_options.max_rounds; });
+  return all;
+}
+
+}  // namespace
+
+OptionGroup recombination_group() { return table().group(); }
+RecombinationOptions recombination_options(const Options& options) { return table().read(options); }
+
+}  // namespace delquad

@@ -1,0 +1,24 @@
+#include "mesher/repair_options.h"
+
+#include "base/option_table.h"
+
+namespace delquad {
+namespace {
+
+const OptionTable<RepairOptions>& table() {
+  static const auto all =
+      OptionTable<RepairOptions>("repair", "of surfaces: what happens beside the stages")
+          .add({.name = "part_twins",
+                .help = "whether edges and quads that two faces have in common are parted"},
+               &RepairOptions::part_twins)
+          .add({.name = "lift_bad_quads", .help = "whether quads that are bad in space are lifted there"},
+               &RepairOptions::lift_bad_quads);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup repair_group() { return table().group(); }
+RepairOptions repair_options(const Options& options) { return table().read(options); }
+
+}  // namespace delquad

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "delquad/options.h"
+
+namespace delquad {
+
+/// What surfaces get beside the stages of a pipeline.
+struct RepairOptions {
+  bool part_twins = true;  ///< after each stage: see part_twins()
+  /// At the end, after a treatment: quads that are bad in space slide over the surface.
+  bool lift_bad_quads = true;
+};
+
+OptionGroup repair_group();
+RepairOptions repair_options(const Options& options);
+
+}  // namespace delquad

@@ -1,0 +1,394 @@
+#include "mesher/runner.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <new>
+#include <numbers>
+#include <stdexcept>
+#include <tuple>
+
+#include "algorithms/insertion/frontal_mesher.h"
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+#include "geometry/surface/triangle_sides.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/half_edges.h"
+#include "mesher/lift_bad_quads.h"
+#include "mesher/part_twins.h"
+#include "mesher/recombination_options.h"
+#include "mesher/repair_options.h"
+
+namespace delquad {
+namespace {
+
+long long peak_memory() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
+}
+
+const std::vector<Vec2>& points_of(const PatchMesh& patch) {
+  return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
+}
+
+/// Mesh node of each point of a patch; nodes are made for the points inside.
+std::vector<int> add_points(const std::vector<Vec3>& inside, const PreparedPatch& patch, Mesh& mesh) {
+  std::vector<int> node = patch.boundary.point_node;
+  for (const Vec3& x : inside) {
+    node.push_back(static_cast<int>(mesh.points.size()));
+    mesh.points.push_back(x);
+  }
+  return node;
+}
+
+template <std::size_t N>
+void add_elements(const std::vector<std::array<int, N>>& elements, const std::vector<int>& node, int region,
+                  std::vector<std::array<int, N>>& target, std::vector<int>& target_region) {
+  target.reserve(target.size() + elements.size());
+  for (std::array<int, N> element : elements) {
+    for (int& v : element) v = node[v];
+    target.push_back(element);
+    target_region.push_back(region);
+  }
+}
+
+/// Adds the quads around tips of cones, where meshes are still of triangles each as two.
+void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches,
+              const std::vector<char>& left_out, Mesh& mesh) {
+  for (const auto& [patch, cap] : domain.caps) {
+    const int region = domain.patches[patch].map.face;
+    if (left_out[region]) continue;
+    for (const auto& [a, b, c, d] : cap.quads) {
+      if (patches[patch].form == PatchForm::kTriangles) {
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+        mesh.triangle_region.insert(mesh.triangle_region.end(), 2, region);
+      } else {
+        mesh.quads.push_back({a, b, c, d});
+        mesh.quad_region.push_back(region);
+      }
+    }
+  }
+  if (!domain.caps.empty()) drop_unused_points(mesh);
+}
+
+/// Takes out lines that are on no element, and points that nothing uses then.
+void drop_stray_lines(Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty()) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  drop_unused_points(mesh);
+}
+
+/// max_elements bounds what is inserted, too: a quad mesh has about as many points as quads.
+long long most_points(const PreparedProblem& prepared) {
+  constexpr long long kPointsPerElement = 4;
+  return kPointsPerElement * prepared.max_elements;
+}
+
+template <std::size_t N>
+bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, int least = 0) {
+  return std::ranges::all_of(elements, [&](const auto& element) {
+    return std::ranges::all_of(element, [&](int i) { return i >= least && i < static_cast<int>(n); });
+  });
+}
+
+/// Stages from outside may leave anything: what the next ones rely on, as far as they would crash.
+void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh) {
+  const auto refuse = [&](const char* what) {
+    throw std::runtime_error(fmt::format("stage {} ({}) left {}", stage.letter, stage.name, what));
+  };
+  if (mesh.form != stage.to) refuse("a mesh of another form than it says");
+  if (mesh.form == PatchForm::kBoundary) return;
+  const bool of_triangles = mesh.form == PatchForm::kTriangles;
+  const std::vector<Vec2>& points = points_of(mesh);
+  if ((of_triangles ? mesh.triangles.n_boundary : mesh.quads.n_boundary) !=
+          static_cast<int>(boundary.points.size()) ||
+      points.size() < boundary.points.size() ||
+      !std::equal(boundary.points.begin(), boundary.points.end(), points.begin()))
+    refuse("a mesh whose first points are not those of the boundary");
+  const TriPatch& tri = mesh.triangles;
+  if (of_triangles
+          ? !are_below(tri.triangles, points.size())
+          : !are_below(mesh.quads.quads, points.size()) || !are_below(mesh.quads.triangles, points.size()))
+    refuse("an element with a corner that is no point");
+  if (of_triangles &&
+      (tri.neighbours.size() != tri.triangles.size() || !are_below(tri.neighbours, tri.triangles.size(), -1)))
+    refuse("triangles without neighbours");
+}
+
+/// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
+std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
+                         StageLog& log) {
+  const PreparedPatch& patch = prepared.patches[i];
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
+  const auto run = [&] {
+    stage.run(input, mesh, log);
+    check_stage_result(stage, patch.boundary, mesh);
+  };
+  if (!prepared.surface) {
+    run();
+    return "";
+  }
+  const std::string title =
+      fmt::format("face {}: {}: ", prepared.boundary.regions[patch.region].tag, stage.name);
+  try {
+    run();
+    return "";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const InputError& error) {
+    if (!prepared.keep_going) throw InputError(prepared.where + ": " + title + error.what());
+    return title + error.what();
+  } catch (const std::exception& error) {
+    if (!prepared.keep_going) throw std::runtime_error(prepared.where + ": " + title + error.what());
+    return title + error.what();
+  }
+}
+
+/// Adds the faces of the patches that have a reason to be left out; marks all that are.
+std::vector<char> collect_failures(const PreparedProblem& prepared, const std::vector<std::string>& reasons,
+                                   RunResult& result) {
+  result.failures = prepared.failures;
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
+  std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
+  std::vector<char> left_out(prepared.boundary.regions.size(), 0);
+  for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
+  if (std::ranges::none_of(prepared.patches, [&](const PreparedPatch& p) { return !left_out[p.region]; }))
+    throw InputError("no face can be meshed: " + result.failures.at(0).reason);
+  return left_out;
+}
+
+/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge.
+constexpr double kPartOfBound = 0.9;
+
+/// Tells bad quads that sharp corners explain from others, and names the worst corner.
+void count_bad_quads(const std::string& label, const PreparedProblem& prepared, RunResult& result) {
+  if (!(result.metrics.values.at("eta_worst") < kBadEta)) return;
+  const Mesh& mesh = result.mesh;
+  // By face and place: a mesh without the faces that failed numbers its nodes anew.
+  using Corner = std::tuple<int, double, double, double>;
+  const auto corner = [](int face, const Vec3& p) { return Corner{face, p.x, p.y, p.z}; };
+  std::map<Corner, double> bounds;
+  for (const SharpCorner& c : prepared.sharp_corners)
+    bounds.emplace(corner(c.face, prepared.boundary.points[c.node]), c.eta_bound);
+  const std::vector<double> etas = quad_etas(mesh);
+  for (std::size_t q = 0; q < etas.size(); ++q) {
+    if (etas[q] >= kBadEta) continue;
+    const auto& v = mesh.quads[q];
+    const bool in_corner = std::any_of(v.begin(), v.end(), [&](int i) {
+      const auto found = bounds.find(corner(mesh.quad_region[q], mesh.points[i]));
+      return found != bounds.end() && etas[q] >= kPartOfBound * found->second;
+    });
+    ++(in_corner ? result.bad_in_corners : result.bad_elsewhere);
+  }
+  if (result.bad_in_corners == 0) return;
+  const auto worst =
+      std::min_element(prepared.sharp_corners.begin(), prepared.sharp_corners.end(),
+                       [](const SharpCorner& a, const SharpCorner& b) { return a.eta_bound < b.eta_bound; });
+  const Vec3 at = prepared.boundary.points[worst->node];
+  result.warnings.push_back(
+      fmt::format("{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
+                  "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
+                  label, result.bad_in_corners, kBadEta, mesh.regions[worst->face].tag, at.x, at.y, at.z,
+                  mesh.curves[worst->curves[0]].tag, mesh.curves[worst->curves[1]].tag,
+                  worst->angle * 180 / std::numbers::pi, worst->eta_bound));
+}
+
+/// `left_out`: by region.
+void lift(const PreparedProblem& prepared, MeshingState& state, const std::vector<char>& left_out,
+          StageLog& log) {
+  if (!prepared.surface) return;
+  const Stopwatch watch;
+  const DoingStage lifting("lifting");
+  std::vector<char> patch_left_out;
+  for (const PreparedPatch& patch : prepared.patches) patch_left_out.push_back(left_out[patch.region]);
+  LiftingSummary summary =
+      lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
+  summary.seconds = watch.work_seconds();
+  add_summary(log, summary);
+  log.add_seconds("lifting", summary.seconds);
+}
+
+}  // namespace
+
+void require_sound(const std::string& label, const RunResult& result) {
+  if (!result.soundness.sound())
+    throw UnsoundError(label + ": the mesh is not sound: " + result.soundness.text());
+}
+
+Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
+              const std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog* log) {
+  const Stopwatch projection;
+  const DoingStage projecting("projection");
+  std::vector<std::vector<Vec3>> inside(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        if (left_out[prepared.patches[i].region]) return;
+        const DoingFace face = doing_patch(prepared, i);
+        inside[i] =
+            patches[i].inside.empty() ? places_inside(prepared, i, patches[i], nodes) : patches[i].inside;
+      },
+      [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
+  Mesh mesh = prepared.boundary;
+  mesh.points = nodes;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PatchMesh& patch = patches[i];
+    const int region = prepared.patches[i].region;
+    if (left_out[region]) continue;
+    const auto node = add_points(inside[i], prepared.patches[i], mesh);
+    if (patch.form == PatchForm::kTriangles) {
+      add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
+    } else {
+      add_elements(patch.quads.triangles, node, region, mesh.triangles, mesh.triangle_region);
+      add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
+    }
+  }
+  if (prepared.surface) add_caps(prepared.surface->domain, patches, left_out, mesh);
+  if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
+  if (log != nullptr) log->add_seconds("projection", projection.work_seconds());
+  return mesh;
+}
+
+namespace {
+
+/// Area over the square of a mean boundary edge.
+double rough_quads(const PatchBoundary& boundary) {
+  double double_area = 0, length = 0;
+  for (const auto& [i, j] : boundary.edges) {
+    const Vec2 a = boundary.points[i], b = boundary.points[j];
+    double_area += cross(a, b);
+    length += norm(b - a);
+  }
+  const double edge = length / static_cast<double>(boundary.edges.size());
+  return double_area / 2 / (edge * edge);
+}
+
+/// Insertion is told how many points it may make.
+void check_insertion(const PreparedProblem& prepared, const StageLog& log) {
+  const SummaryStep* insertion = log.summaries.find("insertion");
+  if (insertion == nullptr) return;
+  const SummaryField* termination = insertion->find("termination");
+  if (termination != nullptr && termination->value == SummaryValue(name_of(FrontalTermination::kMaxPoints)))
+    throw InputError(fmt::format(
+        "{}: insertion stopped at {} points, the most that {} elements (max-elements) allow", prepared.where,
+        log.summaries.get<long long>("insertion", "inserted"), prepared.max_elements));
+}
+
+/// Metrics and, at the same time, the report of a surface; then what both say.
+void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
+  const DoingStage measuring("report");
+  double metrics_seconds = 0, report_seconds = 0;
+  const std::function<void()> parts[] = {
+      [&] {
+        const Stopwatch watch;
+        result.metrics =
+            evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
+        metrics_seconds = watch.work_seconds();
+      },
+      [&] {
+        const Stopwatch watch;
+        const PreparedSurface& surface = *prepared.surface;
+        result.surface =
+            report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
+        report_seconds = watch.work_seconds();
+      }};
+  // A place that is not finite is nowhere near a surface.
+  const bool has_report = prepared.surface && has_finite_points(result.mesh);
+  parallel_for(has_report ? 2 : 1, [&](std::size_t i) { parts[i](); });
+  result.log.add_seconds("metrics", metrics_seconds);
+  if (has_report) result.log.add_seconds("surface report", report_seconds);
+  const Stopwatch checking;
+  result.soundness = check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
+  result.log.add_seconds("soundness", checking.work_seconds());
+}
+
+}  // namespace
+
+MeshingState begin_meshing(const PreparedProblem& prepared) {
+  MeshingState state;
+  state.patches.resize(prepared.patches.size());
+  state.reasons.resize(prepared.patches.size());
+  if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
+  state.nodes.points = prepared.boundary.points;
+  return state;
+}
+
+void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+  const Stopwatch watch;
+  const DoingStage running(stage.name.c_str());
+  std::vector<PatchMesh>& patches = state.patches;
+  std::vector<StageLog> logs(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        std::string& reason = state.reasons[i];
+        const DoingFace face = doing_patch(prepared, i);
+        patches[i].inside.clear();
+        if (reason.empty()) reason = run_on_patch(stage, prepared, i, patches[i], logs[i]);
+      },
+      [&](std::size_t i) {
+        return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
+                                                       : static_cast<double>(points_of(patches[i]).size());
+      });
+  for (const StageLog& one : logs) state.log.add(one);
+  check_insertion(prepared, state.log);
+  std::vector<char> left_out;
+  for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
+  const AllPatches all{prepared, prepared.options, patches, left_out, state.nodes};
+  if (prepared.surface && repair_options(prepared.options).part_twins) {
+    const Stopwatch parting;
+    PartingSummary parted = part_twins(all);
+    parted.seconds = parting.seconds();
+    add_summary(state.log, parted);
+    state.log.add_seconds("parting", parted.seconds);
+  }
+  if (stage.finish) stage.finish(all, state.log);
+  state.seconds += watch.seconds();
+}
+
+RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
+  const Stopwatch watch;
+  RunResult result;
+  result.log = std::move(state.log);
+  const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
+  if (recombination_options(prepared.options).treatment == Treatment::kPaper &&
+      repair_options(prepared.options).lift_bad_quads)
+    lift(prepared, state, left_out, result.log);
+  result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
+  state.patches.clear();
+  result.seconds = state.seconds + watch.seconds();
+  measure(prepared, left_out, result);
+  result.peak_memory = peak_memory();
+  count_bad_quads(label, prepared, result);
+  return result;
+}
+
+RunResult run_word(const PreparedProblem& prepared, const Word& word,
+                   const std::function<void(const std::string& stage)>& begins) {
+  MeshingState state = begin_meshing(prepared);
+  for (const Stage* stage : word.stages) {
+    if (begins) begins(stage->name);
+    run_stage(*stage, prepared, state);
+  }
+  if (begins) begins("metrics");
+  return finish_meshing(prepared, prepared.name + " " + word.text, std::move(state));
+}
+
+}  // namespace delquad

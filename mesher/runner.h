@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mesher/prepare.h"
+#include "mesher/soundness.h"
+#include "mesher/stages.h"
+#include "metrics/metrics.h"
+#include "metrics/surface/surface_report.h"
+
+namespace delquad {
+
+/// What one pipeline made of one case.
+struct RunResult {
+  Mesh mesh;
+  MeshMetrics metrics;
+  Soundness soundness;
+  StageLog log;
+  std::vector<Warning> warnings;
+  /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
+  int bad_in_corners = 0, bad_elsewhere = 0;
+  std::vector<FaceFailure> failures;     ///< by face; empty unless problem.keep_going
+  std::optional<SurfaceReport> surface;  ///< of surfaces
+  double seconds = 0;                    ///< meshing: the stages of the word
+  long long peak_memory = 0;             ///< bytes, the most that the process has held so far
+};
+
+/// A pipeline on its way: what the stages so far have made of each patch.
+struct MeshingState {
+  std::vector<PatchMesh> patches;
+  std::vector<std::string> reasons;  ///< of each patch, to leave its face out; empty: none
+  SurfaceNodes nodes;                ///< those on curves
+  StageLog log;
+  double seconds = 0;  ///< on the clock, so far
+};
+MeshingState begin_meshing(const PreparedProblem& prepared);
+/// Takes every patch through one stage. Throws InputError when the mesher had to stop.
+void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
+/// Puts the patches together, measures the mesh and says whether it is sound. `label` names the case and
+/// pipeline in warnings.
+RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
+
+/// Throws UnsoundError when the mesh is not sound, naming the case and pipeline by `label`.
+void require_sound(const std::string& label, const RunResult& result);
+
+/// Meshes every patch stage by stage, puts the patches together, measures the mesh and says whether it is
+/// sound. `begins` is called with the name of each stage, and then of the measuring, before it. Throws
+/// InputError when the mesher had to stop.
+RunResult run_word(const PreparedProblem& prepared, const Word& word,
+                   const std::function<void(const std::string& stage)>& begins = {});
+
+/// The patches as one mesh: boundary nodes, which are at `nodes`, stand once, the points inside each patch
+/// follow. Those of the faces that are `left_out` (by region), and what only they use, are missing. `log`
+/// receives the time of bringing the points back to space, as "projection".
+Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
+              const std::vector<PatchMesh>& patches, const std::vector<char>& left_out,
+              StageLog* log = nullptr);
+
+}  // namespace delquad

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "base/warning.h"
+#include "fields/fields.h"
+#include "fields/surface/surface_size.h"
+#include "geometry/planar/planar_model.h"
+#include "mesher/prepare.h"
+
+namespace delquad {
+
+/// Fewer edges than this to a full turn of a circle or fillet are said: a hole of six edges has lost 17 % of
+/// its area, one of twelve 5 %.
+inline constexpr double kFewPerTurn = 12;
+
+/// Says so when the size is larger than the model at all of its points.
+void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings);
+
+/// Tells in one line how many curves of the model got few edges to a full turn, and what would help.
+/// `boundary`: its lines.
+void warn_of_coarse_turns(const PlanarModel& model, const Mesh& boundary, std::vector<Warning>& warnings);
+
+/// The same for the curves and faces of a CAD model.
+void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
+                          std::vector<Warning>& warnings);
+
+}  // namespace delquad

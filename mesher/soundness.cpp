@@ -1,0 +1,202 @@
+#include "mesher/soundness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "base/parallel.h"
+#include "mesh/check_invariants.h"
+#include "mesh/half_edges.h"
+#include "metrics/shape.h"
+
+namespace delquad {
+namespace {
+
+using Edge = std::array<int, 2>;
+
+std::string show(const Mesh& mesh, const Place& place) {
+  const std::string at = fmt::format("({:.6g}, {:.6g}, {:.6g})", place.at.x, place.at.y, place.at.z);
+  const bool known = place.face >= 0 && static_cast<std::size_t>(place.face) < mesh.regions.size();
+  return known ? fmt::format("face {} at {}", mesh.regions[place.face].tag, at) : "at " + at;
+}
+
+/// Counts things and says where the first are; adds nothing when there are none.
+void add_reason(const Mesh& mesh, const Places& places, const char* one, const char* several,
+                Soundness& result) {
+  if (places.count == 0) return;
+  std::string text = places.count == 1 ? one : fmt::format("{} {}", places.count, several);
+  for (std::size_t i = 0; i < places.first.size(); ++i)
+    text += (i == 0 ? ": " : ", ") + show(mesh, places.first[i]);
+  if (static_cast<std::size_t>(places.count) > places.first.size()) text += ", ...";
+  result.reasons.push_back(std::move(text));
+}
+
+/// The middle of an element, and its face where it has one.
+template <std::size_t N>
+Place middle(const Mesh& mesh, const std::array<int, N>& v, const std::vector<int>& regions,
+             std::size_t element) {
+  Vec3 sum;
+  for (const int i : v) sum = sum + mesh.points[i];
+  return {(1.0 / N) * sum, element < regions.size() ? regions[element] : -1};
+}
+
+enum class QuadFlaw : char { kNone, kInverted, kFolded };
+
+QuadFlaw flaw_of(const Mesh& mesh, int q, const ElementSides& sides) {
+  if (!(eta_of(quad_shape(mesh, q, sides).angle) > 0)) return QuadFlaw::kInverted;
+  return quad_warp(corners_of(mesh, mesh.quads[q])) > kFold ? QuadFlaw::kFolded : QuadFlaw::kNone;
+}
+
+void check_shapes(const Mesh& mesh, const ElementSides& sides, Soundness& result) {
+  std::vector<QuadFlaw> flaws(mesh.quads.size());
+  parallel_ranges(flaws.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) flaws[q] = flaw_of(mesh, static_cast<int>(q), sides);
+  });
+  Places inverted, folded, triangles;
+  for (std::size_t q = 0; q < flaws.size(); ++q)
+    if (flaws[q] != QuadFlaw::kNone)
+      (flaws[q] == QuadFlaw::kInverted ? inverted : folded)
+          .add(middle(mesh, mesh.quads[q], mesh.quad_region, q));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (!(triangle_shape(mesh, static_cast<int>(t), sides).scaled_jacobian > 0))
+      triangles.add(middle(mesh, mesh.triangles[t], mesh.triangle_region, t));
+  add_reason(mesh, inverted, "1 quad is inverted or flat (eta 0)", "quads are inverted or flat (eta 0)",
+             result);
+  add_reason(mesh, folded, "1 quad is folded by more than 90 degrees",
+             "quads are folded by more than 90 degrees", result);
+  add_reason(mesh, triangles, "1 triangle is inverted or flat", "triangles are inverted or flat", result);
+}
+
+void check_finite(const Mesh& mesh, Soundness& result) {
+  std::vector<int> face(mesh.points.size(), -1);
+  for (std::size_t q = 0; q < std::min(mesh.quads.size(), mesh.quad_region.size()); ++q)
+    for (const int v : mesh.quads[q]) face[v] = mesh.quad_region[q];
+  Places places;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    if (const Vec3& p = mesh.points[i]; !std::isfinite(p.x + p.y + p.z)) places.add({p, face[i]});
+  add_reason(mesh, places, "1 point is not finite", "points are not finite", result);
+}
+
+/// How many patches of a planar domain have each edge of the boundary.
+std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
+  std::map<Edge, int> patches;
+  for (const PreparedPatch& patch : prepared.patches)
+    for (const auto& [i, j] : patch.boundary.edges) {
+      const int a = patch.boundary.point_node[i], b = patch.boundary.point_node[j];
+      ++patches[{std::min(a, b), std::max(a, b)}];
+    }
+  return patches;
+}
+
+/// How many pieces the outline of a patch has: loops, or loops that touch.
+int pieces_of(const PatchBoundary& boundary) {
+  std::vector<int> parent(boundary.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  int pieces = static_cast<int>(parent.size());
+  for (const auto& [i, j] : boundary.edges) {
+    const int a = root(i), b = root(j);
+    if (a == b) continue;
+    parent[a] = b;
+    --pieces;
+  }
+  return pieces;
+}
+
+/// Of a planar domain: points and edges on its outlines, and what is inside of each patch, a disc with holes.
+int euler_characteristic(const PreparedProblem& prepared, const std::map<Edge, int>& edges) {
+  std::set<int> nodes;
+  for (const auto& [edge, patches] : edges) nodes.insert(edge.begin(), edge.end());
+  int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size());
+  for (const PreparedPatch& patch : prepared.patches) euler += 2 - pieces_of(patch.boundary);
+  return euler;
+}
+
+void compare_euler(int mesh, int model, Soundness& result) {
+  if (mesh != model)
+    result.reasons.push_back(
+        fmt::format("its Euler characteristic is {}, that of the model {}", mesh, model));
+}
+
+/// Returns how many edges are wrong.
+int check_planar(const PreparedProblem& prepared, const Mesh& mesh, Soundness& result) {
+  const std::map<Edge, int> wanted = patches_at_edges(prepared);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  Places wrong;
+  std::size_t found = 0;
+  for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
+    const auto at = wanted.find({edge[0].lo, edge[0].hi});
+    found += at != wanted.end();
+    if (static_cast<int>(edge.size()) == (at == wanted.end() ? 2 : at->second)) return;
+    wrong.add({0.5 * (mesh.points[edge[0].lo] + mesh.points[edge[0].hi]), -1});
+  });
+  add_reason(mesh, wrong, "1 edge is in more or fewer elements than the domain asks for",
+             "edges are in more or fewer elements than the domain asks for", result);
+  if (found < wanted.size())
+    result.reasons.push_back(
+        fmt::format("{} of {} boundary edges are missing", wanted.size() - found, wanted.size()));
+  compare_euler(topology_of(mesh).euler_characteristic, euler_characteristic(prepared, wanted), result);
+  return wrong.count;
+}
+
+void check_surface(const Mesh& mesh, const SurfaceReport& report, Soundness& result) {
+  add_reason(mesh, report.turned_elements, "1 element faces away from the model",
+             "elements face away from the model", result);
+  add_reason(mesh, report.nonconforming_edges, "1 edge is in more or fewer elements than the model asks for",
+             "edges are in more or fewer elements than the model asks for", result);
+  compare_euler(report.mesh.euler_characteristic, report.model.euler_characteristic, result);
+  if (report.model.watertight() && !report.mesh.watertight())
+    result.reasons.push_back(fmt::format("it has {} open edges, the model none", report.mesh.free_edges));
+  const std::string lost = fmt::format("places of the model are lost, up to {:.3g} sizes from the mesh",
+                                       report.surface_to_mesh.max_in_sizes);
+  add_reason(mesh, report.surface_to_mesh.unexplained, ("1 of the " + lost).c_str(), lost.c_str(), result);
+  for (const Distances* d :
+       {&report.mesh_to_surface, &report.nodes_in_faces, &report.nodes_on_curves, &report.nodes_at_corners}) {
+    const std::string off =
+        fmt::format("places of the mesh are off the model, up to {:.3g} sizes", d->max_in_sizes);
+    add_reason(mesh, d->unexplained, ("1 of the " + off).c_str(), off.c_str(), result);
+  }
+}
+
+}  // namespace
+
+std::string Soundness::text() const { return fmt::format("{}", fmt::join(reasons, "; ")); }
+
+bool has_finite_points(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.points, [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); });
+}
+
+Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {
+  Soundness result;
+  check_finite(mesh, result);
+  if (result.sound())
+    check_shapes(mesh, prepared.surface ? ElementSides(mesh) : ElementSides(mesh, {0, 0, 1}), result);
+  return result;
+}
+
+Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report) {
+  std::vector<char> irregular;
+  if (prepared.surface) irregular = irregular_curves(prepared.surface->model.fine);
+  const std::vector<std::string> violations = check_invariants(mesh, irregular);
+  Soundness result = check_elements(prepared, mesh);
+  int wrong_edges = 0;
+  if (!prepared.surface) wrong_edges = check_planar(prepared, mesh, result);
+  if (report != nullptr) {
+    check_surface(mesh, *report, result);
+    wrong_edges = report->nonconforming_edges.count;
+  }
+  // Most of these are about the same edges.
+  if (!violations.empty() && wrong_edges == 0)
+    result.reasons.push_back(
+        fmt::format("it is not conforming ({} violations): {}", violations.size(), violations[0]));
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "delquad/mesher.h"
+#include "mesher/prepare.h"
+#include "metrics/surface/surface_report.h"
+
+namespace delquad {
+
+bool has_finite_points(const Mesh& mesh);
+
+/// The first two of these, which are about single elements. Planar domains are seen from above.
+Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh);
+
+/// All of them, of a mesh with the curves and regions of its case. `report`: of surfaces, without the faces
+/// that were left out; null of a mesh with points that are not finite.
+Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report);
+
+}  // namespace delquad

@@ -1,0 +1,308 @@
+#include "mesher/stages.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/insertion_options.h"
+#include "algorithms/insertion/linf_adaptation.h"
+#include "algorithms/insertion/packing.h"
+#include "algorithms/recombination/greedy.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/treatment/degree_treatment.h"
+#include "base/activity.h"
+#include "base/stopwatch.h"
+#include "boundaries/places_inside.h"
+#include "delquad/error.h"
+#include "mesher/prepare.h"
+#include "mesher/recombination_options.h"
+#include "smoothing/cvt/cvt_options.h"
+#include "smoothing/optimisation/planar_tracks.h"
+#include "smoothing/optimisation/untangle_flat.h"
+#include "smoothing/surface/surface_tracks.h"
+
+namespace delquad {
+namespace {
+
+/// `mesh`: mesh_frontal or mesh_packing.
+void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
+                   PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  FrontalSummary summary;
+  FrontalOptions options = insertion_options(in.options).frontal;
+  options.max_points = in.max_points;
+  patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
+  patch.form = PatchForm::kTriangles;
+  add_summary(log, summary);
+  log.add_seconds("insertion", watch.seconds());
+}
+
+void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  const CvtOptions options = cvt_options(in.options);
+  const auto minimiser =
+      options.method == SmoothingMethod::kLpCvt ? make_lbfgs_minimiser() : make_lloyd_minimiser();
+  SmoothingSummary summary;
+  patch.triangles =
+      smooth_points(patch.triangles, in.cross, in.size, *minimiser, options.smoothing, &summary);
+  add_summary(log, summary);
+  log.add_seconds("smoothing", watch.work_seconds());
+}
+
+/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
+/// two quads around a tube.
+bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node) {
+  std::vector<int> nodes = point_node;
+  std::ranges::sort(nodes);
+  if (std::ranges::adjacent_find(nodes) == nodes.end()) return false;
+  std::vector<std::array<int, 4>> quads = mesh.quads;
+  const int n_nodes = nodes.back() + 1;
+  for (auto& quad : quads) {
+    for (int& v : quad) v = v < mesh.n_boundary ? point_node[v] : n_nodes + v;
+    std::ranges::sort(quad);
+  }
+  std::ranges::sort(quads);
+  return std::ranges::adjacent_find(quads) != quads.end();
+}
+
+void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch recombination;
+  const DoingStage matching("matching");
+  const RecombinationOptions options = recombination_options(in.options);
+  RecombineSummary summary;
+  patch.quads = recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary);
+  patch.triangles = {};
+  patch.form = PatchForm::kQuads;
+  add_summary(log, summary);
+  log.add_seconds("matching", recombination.seconds());
+  if (options.treatment == Treatment::kNone) return;
+
+  const Stopwatch treatment;
+  const DoingStage treating("treatment");
+  TreatmentSummary treated;
+  QuadPatch result = treat_paper(patch.quads, in.size, options.treatment_options, &treated);
+  const bool discarded = closes_too_tightly(result, in.boundary.point_node);
+  if (discarded) {
+    TreatmentOptions relocation = options.treatment_options;
+    relocation.max_rounds = 0;
+    const double in_vain = treated.seconds;
+    result = treat_paper(patch.quads, in.size, relocation, &treated);
+    treated.seconds += in_vain;
+  }
+  patch.quads = std::move(result);
+  add_summary(log, DiscardSummary{.treatments = discarded});
+  add_summary(log, treated);
+  log.add_seconds("treatment", treatment.seconds());
+}
+
+void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& options) {
+  RecombineSummary summary;
+  patch.quads = recombine_greedily(patch.triangles, options, &summary);
+  patch.triangles = {};
+  patch.form = PatchForm::kQuads;
+  add_summary(log, summary);
+  log.add_seconds("matching", summary.merge_seconds);
+}
+
+void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  merge_greedily(patch, log, {});
+  const RecombinationOptions options = recombination_options(in.options);
+  if (options.treatment == Treatment::kNone) return;
+  const DoingStage treating("treatment");
+  TreatmentSummary treated;
+  patch.quads = treat_by_degrees(patch.quads, in.size, options.treatment_options, &treated);
+  add_summary(log, treated);
+  log.add_seconds("treatment", treated.seconds);
+}
+
+void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  AdaptationOptions options;
+  options.max_points = in.max_points;
+  AdaptationSummary summary;
+  patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
+  add_summary(log, summary);
+  log.add_seconds("adaptation", summary.seconds);
+  constexpr double kGoodPair = 0.5;  // eta
+  merge_greedily(patch, log, {kGoodPair, true, 0});
+}
+
+void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  CleanupSummary summary;
+  QuadPatch cleaned = clean_up(patch.quads, in.size, cleanup_options(in.options), &summary);
+  const bool discarded = closes_too_tightly(cleaned, in.boundary.point_node);
+  if (discarded) {
+    CleanupSummary nothing;
+    nothing.irregular_before = nothing.irregular_after = summary.irregular_before;
+    nothing.seconds = summary.seconds;
+    summary = nothing;
+  } else {
+    patch.quads = std::move(cleaned);
+  }
+  add_summary(log, summary);
+  add_summary(log, DiscardSummary{.cleanups = discarded});
+  log.add_seconds("clean-up", watch.seconds());
+}
+
+void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  OptimisationSummary summary;
+  summary.untangled = untangle_flat(patch.quads, in.size);
+  add_summary(log, summary);
+  log.add_seconds("optimisation", watch.seconds());
+}
+
+OptimisationSummary optimise_surface(const AllPatches& in) {
+  const PreparedSurface& surface = *in.prepared.surface;
+  std::vector<SurfaceTracks::Patch> patches;
+  for (std::size_t i = 0; i < in.patches.size(); ++i) {
+    if (in.left_out[i]) continue;
+    PatchMesh& patch = in.patches[i];
+    patch.inside = places_inside(in.prepared, i, patch, in.nodes.points);
+    patches.push_back(
+        {&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &patch.quads, &patch.inside});
+  }
+  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(patches));
+  std::vector<Vec3> points = tracks.points();
+  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, optimisation_options(in.options));
+  tracks.store(points);
+  return summary;
+}
+
+OptimisationSummary optimise_plane(const AllPatches& in) {
+  std::vector<Vec2> nodes;
+  for (const Vec3& p : in.nodes.points) nodes.push_back({p.x, p.y});
+  const std::size_t n_nodes = nodes.size();
+  std::vector<PlanarTracks::Patch> patches;
+  for (std::size_t i = 0; i < in.patches.size(); ++i) {
+    if (in.left_out[i]) continue;
+    const PreparedPatch& prepared = in.prepared.patches[i];
+    patches.push_back({&in.patches[i].quads, prepared.boundary.point_node, prepared.cross.get()});
+  }
+  PlanarTracks tracks(std::move(nodes), in.prepared.curve_places, std::move(patches),
+                      *in.prepared.patches[0].size);
+  std::vector<Vec2> points = tracks.points();
+  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, optimisation_options(in.options));
+  tracks.store(points);
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    in.nodes.points[i] = {points[i].x, points[i].y, in.nodes.points[i].z};
+  return summary;
+}
+
+/// Once each patch was untangled in its plane, all of them move together, nodes along their curves.
+void optimise_quads(const AllPatches& in, StageLog& log) {
+  const Stopwatch watch;
+  OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
+  summary.seconds = watch.work_seconds();
+  add_summary(log, summary);
+  log.add_seconds("optimisation", watch.work_seconds());
+}
+
+/// Pointers to its entries stay good when more are added.
+std::deque<Stage>& stages() {
+  static std::deque<Stage> all = {
+      insertion_stage('F', "L2 insertion", [](const Options&) { return make_l2_frontal(); }),
+      insertion_stage(
+          'D', "L-infinity insertion",
+          [](const Options& options) { return make_linf_delquad(insertion_options(options).linf); }),
+      {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(mesh_packing, *make_linf_delquad(insertion_options(in.options).linf), in, patch, log);
+       }},
+      {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
+      {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
+      {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
+      {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
+      {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
+      {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},
+  };
+  return all;
+}
+
+std::string form_name(PatchForm form) {
+  switch (form) {
+    case PatchForm::kBoundary:
+      return "a boundary";
+    case PatchForm::kTriangles:
+      return "triangles";
+    case PatchForm::kQuads:
+      return "quads";
+  }
+  return "";
+}
+
+std::string known_letters() {
+  std::string known;
+  for (const Stage& stage : stage_registry())
+    known += (known.empty() ? "" : ", ") + std::string(1, stage.letter) + " (" + stage.name + ")";
+  return known;
+}
+
+}  // namespace
+
+std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
+                                const std::vector<Vec3>& nodes) {
+  const bool of_triangles = mesh.form == PatchForm::kTriangles;
+  const std::vector<Vec2>& points = of_triangles ? mesh.triangles.points : mesh.quads.points;
+  if (!prepared.surface) {
+    std::vector<Vec3> lifted;
+    int hint = -1;
+    for (std::size_t i = prepared.patches[patch].boundary.points.size(); i < points.size(); ++i)
+      lifted.push_back(prepared.patches[patch].lift(points[i], hint));
+    return lifted;
+  }
+  std::vector<std::array<int, 2>> sides;
+  const auto add_sides = [&](const auto& elements) {
+    for (const auto& v : elements)
+      for (std::size_t k = 0; k < v.size(); ++k) sides.push_back({v[k], v[(k + 1) % v.size()]});
+  };
+  add_sides(of_triangles ? mesh.triangles.triangles : mesh.quads.triangles);
+  add_sides(mesh.quads.quads);
+  const PreparedSurface& surface = *prepared.surface;
+  return places_inside(surface.domain.patches[patch], surface.model, points, sides, nodes);
+}
+
+Stage insertion_stage(char letter, const std::string& name,
+                      std::function<std::unique_ptr<PointPlacement>(const Options&)> make_placement) {
+  return {letter, name, PatchForm::kBoundary, PatchForm::kTriangles,
+          [make = std::move(make_placement)](const StageInput& in, PatchMesh& patch, StageLog& log) {
+            const auto placement = make(in.options);
+            if (!placement) throw std::runtime_error("the stage made no placement of points");
+            insert_points(mesh_frontal, *placement, in, patch, log);
+          }};
+}
+
+const std::deque<Stage>& stage_registry() { return stages(); }
+
+void add_stage(Stage stage) {
+  if (!stage.run) throw std::invalid_argument(std::string("stage '") + stage.letter + "' has nothing to run");
+  if (std::ranges::find(stages(), stage.letter, &Stage::letter) != stages().end())
+    throw std::invalid_argument(std::string("there is a stage '") + stage.letter + "' already");
+  stages().push_back(std::move(stage));
+}
+
+bool Word::quads_only() const {
+  return result == PatchForm::kQuads && !stages.empty() &&
+         std::ranges::none_of(stages, [](const Stage* stage) { return stage->leaves_triangles; });
+}
+
+Word parse_word(const std::string& text) {
+  const std::string label = "pipeline '" + text + "': ";
+  if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
+  Word word{text, {}, PatchForm::kBoundary};
+  for (const char letter : text) {
+    const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
+    if (stage == stages().end())
+      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters());
+    if (stage->from != word.result)
+      throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
+                       (word.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +
+                       form_name(word.result));
+    word.stages.push_back(&*stage);
+    word.result = stage->to;
+  }
+  return word;
+}
+
+}  // namespace delquad

@@ -1,0 +1,126 @@
+#include "mesher/surface_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/located.h"
+#include "delquad/error.h"
+#include "geometry/cad/cad_reader.h"
+#include "geometry/cad/example_models.h"
+#include "geometry/surface/compound.h"
+#include "geometry/surface/mirror.h"
+#include "geometry/surface/triangulated_model.h"
+#include "mesh/split_polygon.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kAnyAngle = 180;
+
+CompoundOptions compound_options(const SurfaceSpec& spec) {
+  CompoundOptions options;
+  if (spec.feature_angle) options.feature_angle = *spec.feature_angle;
+  return options;
+}
+
+/// Indices of the faces with these tags.
+std::vector<std::vector<int>> faces_of_tags(const SurfaceSpec& spec, const Mesh& mesh) {
+  std::vector<std::vector<int>> groups;
+  for (const std::vector<int>& tags : spec.groups) {
+    auto& group = groups.emplace_back();
+    for (const int tag : tags) {
+      const auto at = std::find_if(mesh.regions.begin(), mesh.regions.end(),
+                                   [&](const Entity& face) { return face.tag == tag; });
+      if (at == mesh.regions.end()) {
+        const auto [low, high] =
+            std::minmax_element(mesh.regions.begin(), mesh.regions.end(),
+                                [](const Entity& a, const Entity& b) { return a.tag < b.tag; });
+        throw InputError(fmt::format(
+            "{}: compound {}: the model has no face {}: expected numbers of its {} faces, from {} "
+            "to {}",
+            spec.where, groups.size(), tag, mesh.regions.size(), low->tag, high->tag));
+      }
+      group.push_back(static_cast<int>(at - mesh.regions.begin()));
+    }
+  }
+  return groups;
+}
+
+SurfaceModel make_compounds(const SurfaceSpec& spec, SurfaceModel model) {
+  const CompoundOptions options = compound_options(spec);
+  if (spec.compounds == Compounds::kAll) {
+    const auto groups = tangent_groups(model, kAnyAngle);
+    model = make_compound(std::move(model), groups, options);
+  } else if (spec.compounds == Compounds::kTangent) {
+    const auto groups = tangent_groups(model);
+    model = make_compound(std::move(model), groups, options);
+  } else if (spec.compounds == Compounds::kGroups) {
+    const auto groups = faces_of_tags(spec, model.fine);
+    model = make_compound(std::move(model), groups, options);
+  }
+  if (spec.merge_curves > 0) model = merge_short_curves(std::move(model), spec.merge_curves, options);
+  return model;
+}
+
+void check_for_cad(const SurfaceSpec& spec) {
+  const auto refuse = [&](const char* what) {
+    throw InputError(fmt::format("{}: {} has no effect on a CAD model, whose faces and curves are its own",
+                                 spec.where, what));
+  };
+  if (spec.weld_tolerance) refuse("a weld tolerance");
+  if (spec.mirror) refuse("a mirror");
+  if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0)
+    refuse("a feature angle without compounds");
+}
+
+SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
+  ReadNotes notes = model.notes;
+  Mesh triangles = model.mesh;
+  const std::string& source = model.source;
+  split_quads(triangles, source, notes);
+  TriangulatedOptions options;
+  options.source = source;
+  if (spec.feature_angle) options.feature_angle = *spec.feature_angle;
+  if (spec.weld_tolerance) options.weld_tolerance = *spec.weld_tolerance;
+  if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
+  SurfaceModel surface = make_compounds(spec, make_surface_model(std::move(triangles), options));
+  surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
+  return surface;
+}
+
+/// CAD or an example.
+SurfaceModel make_from_cad(const MeshProblem& problem) {
+  check_for_cad(problem.surface);
+  CadOptions options;
+  options.keep_going = problem.keep_going;
+  const auto* example = std::get_if<ExampleModel>(&problem.model);
+  SurfaceModel model = example != nullptr ? read_example(example->name, options)
+                                          : read_cad(std::get<CadModel>(problem.model), options);
+  const bool changes_faces =
+      problem.surface.compounds != Compounds::kNone || problem.surface.merge_curves > 0;
+  if (!model.left_out.empty() && changes_faces)
+    throw InputError(model.left_out[0].reason + "; compounds need all faces");
+  return make_compounds(problem.surface, std::move(model));
+}
+
+}  // namespace
+
+bool holds_surface(const Mesh& mesh) {
+  const auto in_space = [&](const auto& elements) {
+    return std::ranges::any_of(elements, [&](const auto& element) {
+      return std::ranges::any_of(element,
+                                 [&](int v) { return mesh.points[v].z != mesh.points[elements[0][0]].z; });
+    });
+  };
+  return in_space(mesh.triangles) || in_space(mesh.quads);
+}
+
+SurfaceModel make_surface(const MeshProblem& problem) {
+  return located(problem.where, [&] {
+    const auto* triangles = std::get_if<TriangleModel>(&problem.model);
+    return triangles != nullptr ? make_surface(problem.surface, *triangles) : make_from_cad(problem);
+  });
+}
+
+}  // namespace delquad

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mesh/half_edges.h"
+#include "mesh/nearest_triangle.h"
+
+namespace delquad {
+
+/// Finds the distance to the elements of a mesh, each quad being four triangles around its centre.
+class NearestElement {
+ public:
+  explicit NearestElement(const Mesh& mesh) : mesh_(mesh) {
+    for_each_element(mesh, [&](int, const auto& v) {
+      auto& box = boxes_.emplace_back(Box<Vec3>::around({mesh.points[v[0]]}));
+      for (const int i : v) box.add(mesh.points[i]);
+    });
+    tree_ = BoxTree<Vec3>(boxes_);
+  }
+
+  /// Infinite where nothing is within `reach`.
+  double distance(const Vec3& x, double reach) const {
+    double best2 = reach * reach;
+    bool found = false;
+    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+      const auto w = nearest_weights(a, b, c, x);
+      const Vec3 d = w[0] * a + w[1] * b + w[2] * c - x;
+      if (dot(d, d) > best2) return;
+      best2 = dot(d, d);
+      found = true;
+    };
+    const int n_triangles = static_cast<int>(mesh_.triangles.size());
+    tree_.nearest(x, best2, [&](int element) {
+      if (boxes_[element].distance2(x) > best2) return;
+      const auto& p = mesh_.points;
+      if (element < n_triangles) {
+        const auto& [a, b, c] = mesh_.triangles[element];
+        return add(p[a], p[b], p[c]);
+      }
+      const auto& v = mesh_.quads[element - n_triangles];
+      const Vec3 centre = 0.25 * (p[v[0]] + p[v[1]] + p[v[2]] + p[v[3]]);
+      for (int k = 0; k < 4; ++k) add(p[v[k]], p[v[(k + 1) % 4]], centre);
+    });
+    return found ? std::sqrt(best2) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<Box<Vec3>> boxes_;
+  BoxTree<Vec3> tree_;
+};
+
+}  // namespace delquad

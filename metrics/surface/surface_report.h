@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "delquad/metrics.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+Topology topology_of(const Mesh& mesh);
+
+/// By curve (index), whether more than two faces of a model meet there, or two that are turned against each
+/// other.
+std::vector<char> irregular_curves(const Mesh& fine);
+
+/// How far the maps of all patches are from conformal ones, see FlatQuality.
+struct MapReport {
+  int patches = 0;
+  double sigma_mean = 1;                               ///< by area over all patches
+  double sigma_95 = 1, sigma_max = 1, area_ratio = 1;  ///< the worst patch's
+  int worst_face = -1;  ///< index of the face of the patch with the worst sigma_95
+};
+
+MapReport report_maps(std::span<const FlatPatch* const> maps);
+
+/// Compares a mesh with its model; the mesh has the model's curves and regions.
+///
+/// mesh_to_surface is sampled at the centre of each element and the middle of each edge, against the true
+/// surface (the curve, for edges on curves), or against the triangles of a triangulated model.
+/// surface_to_mesh is sampled at the points of the fine triangulation, which lie on the surface, and inside
+/// triangles so large that only plane faces have them, a 50th of the diagonal apart; against the elements, a
+/// quad being four triangles around its centre. `cuts`: curves that
+/// flatten() added, which belong to no true curve. `left_out`: faces, by index, that were not meshed; they do
+/// not count. `size`: delta, that distances are compared with; may be null. Points must be finite.
+SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
+                             const std::vector<char>& left_out, const Mesh& mesh,
+                             const SizeField* size = nullptr);
+
+}  // namespace delquad

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "mesh/quad_corners.h"
+#include "mesh/quad_topology.h"
+
+namespace delquad {
+
+/// Moves the interior vertices of a quad mesh, one by one, towards right angles and the wanted edge lengths.
+///
+/// Each vertex lowers
+///   sum over the corners that its place changes of  c + 40 max(0, c - 0.95)^2,  c = 1 - sin alpha
+/// + 0.12 * sum over its edges of  m^2 / (1 + m^2 / 2),  m = log(l/d),  l the length, d the mean of delta' at
+/// both ends (m by a Pade approximant, within 0.2 % from d/2 to 2 d), by a damped Newton step, at most a part
+/// of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that reflex and inverted
+/// corners are pulled straight. An edge's term is bounded, so that lengths which cannot be had (the
+/// boundary's edges are given) do not outweigh shapes. Only vertices near which something still moves are
+/// visited.
+class QuadRelocation {
+ public:
+  /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part
+  /// of delta'.
+  QuadRelocation(QuadTopology& mesh, const ParametricSize& size);
+
+  double delta(int v) const { return delta_[v]; }
+  /// Makes delta' known at the vertices that an edit created, `first` and later ones.
+  void adopt_new_vertices(int first);
+
+  /// From now on no step may leave more corners around a vertex flat or reflex than there were. A convex star
+  /// stays convex in any case; a raw mesh settles better where a tangle may wander.
+  void keep_convex_corners() { keep_convex_corners_ = true; }
+  /// From now on no step takes the least sine of the corners around a vertex below both this and what it was.
+  void keep_sines_above(double sine) { kept_sine_ = sine; }
+
+  /// Marks v for the next sweeps (no effect on boundary or dead vertices).
+  void activate(int v);
+  void activate_all();
+  /// Visits the active vertices until no move exceeds `tolerance` (part of the vertex's shortest edge) or
+  /// `max_sweeps` are done. Returns the number of moves.
+  long long relax(double tolerance, int max_sweeps);
+  /// Lifts the worst elements: while quads below `eta` improve, moves their vertices (and their neighbours')
+  /// so that the worst corner around the vertex gets better. Never lowers the least eta around a vertex.
+  /// Returns the number of moves.
+  long long lift_worst(double eta, int max_sweeps);
+
+  /// One Newton step of v; how far it went, as a part of its shortest edge. 0 for boundary and dead vertices.
+  double step(int v);
+  /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
+  /// grew.
+  double lift(int v, double enough);
+  /// The vertex's part of the objective where it is.
+  double cost(int v);
+  /// Elements looked at so far around vertices, each time that one was visited: the work done.
+  long long looks() const { return looks_; }
+
+ private:
+  struct Spoke {
+    Vec2 end;      ///< the neighbour
+    Vec2 left;     ///< unit vector from it along the side of the element on the spoke's left that v does not
+                   ///< touch
+    Vec2 right;    ///< same on the right
+    double delta;  ///< wanted length
+  };
+  /// A spoke as seen from a place of the vertex.
+  struct Ray {
+    Vec2 u;          ///< unit vector
+    double inverse;  ///< of the length
+    double misfit;   ///< log(length / delta), nearly
+  };
+  struct Value {
+    double cost = 0;
+    double least_sine = 1;
+    double shortest = 0;  ///< edge
+    int flat = 0;         ///< corners that do not turn left
+  };
+  struct Derivatives {
+    Vec2 gradient;
+    double hxx = 0, hxy = 0, hyy = 0;  ///< positive definite approximation of the second derivatives
+  };
+
+  void gather(int v);
+  template <bool kDerivatives>
+  Value evaluate(Vec2 at, Derivatives* derivatives) const;
+  bool strays(Vec2 from, Vec2 to) const;
+  bool shrinks(int v, const Value& before, const Value& after) const;
+  void refresh_delta(int v);
+  void activate_ring(int v);
+
+  QuadTopology& mesh_;
+  const ParametricSize& size_;
+  std::vector<double> delta_;
+  std::vector<Vec2> delta_at_;  ///< where delta_ was evaluated
+  std::vector<int> hint_;
+  std::vector<char> active_;
+  std::vector<int> queue_, visiting_;
+  std::vector<Spoke> star_;
+  mutable std::vector<Ray> rays_;  ///< as many as spokes; evaluate() fills them
+  long long looks_ = 0;
+  bool keep_convex_corners_ = false;
+  double kept_sine_ = -1;
+};
+
+}  // namespace delquad

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "smoothing/surface/surface_tracks.h"
+
+namespace delquad {
+
+/// Lifts the worst quads of a surface in space: while quads below `eta` improve, their vertices slide over
+/// the true faces and along the curves to where the worst quad around the vertex is best, also where that is
+/// outside the parameter plane's fine triangles, as happens where a face is narrower than these are exact. No
+/// least eta around a vertex gets lower; no edge at a node on a curve falls below half of the shortest that
+/// was around it. `places` are those of the tracks' vertices, and are updated. Returns how many vertices
+/// moved.
+int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps);
+
+}  // namespace delquad

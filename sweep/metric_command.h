@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cases/case.h"
+#include "delquad/metrics.h"
+
+namespace delquad {
+
+/// A measure that another program takes of each mesh of an experiment.
+struct MetricCommand {
+  Metric metric;
+  /// Program and arguments; {mesh}, {folder}, {case}, {pipeline}, {size} and {seed} stand for these. Words
+  /// that name files beside the experiment stand for them, wherever it is run; so does the program if it has
+  /// a slash.
+  std::vector<std::string> command;
+  std::vector<std::string> files = {};  ///< beside the experiment, which determine the value, too
+  unsigned timeout = 0;                 ///< seconds; 0: no limit but the cell's
+  std::filesystem::path folder = {};    ///< of the experiment
+};
+
+/// What it said of one mesh.
+struct MetricOutcome {
+  /// By key: that of the metric, or, when it gave several, "metric.name". NaN: it is not defined.
+  std::map<std::string, double> values = {};
+  std::string failure = {};  ///< why there are none; empty: there are
+};
+
+/// Runs the command in `folder`, which holds mesh.msh, and gets what it printed on stdout and stderr, as
+/// metric-NAME.out and metric-NAME.err.
+MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::string& pipeline,
+                         const std::filesystem::path& folder);
+
+/// The values in a text: a number, or a JSON object of numbers (null and NaN: not defined), as the whole or
+/// as its last line.
+MetricOutcome parse_metric_output(const std::string& key, const std::string& text);
+
+/// The files that determine the value, with their digests. Throws InputError for one of `files` that cannot
+/// be read.
+std::map<std::string, std::string> metric_files(const MetricCommand& metric);
+
+}  // namespace delquad

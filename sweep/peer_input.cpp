@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "algorithms/insertion/insertion_options.h"
+#include "cases/problem.h"
+#include "delquad/extend.h"
+#include "geometry/cad/example_models.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+#include "sweep/peer.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kScript = ".geo", *kSizeView = "size.pos";
+
+/// The edges of a patch as loops of points, the outermost first.
+std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
+  std::vector<int> next(boundary.points.size(), -1);
+  for (const auto& [a, b] : boundary.edges) next[a] = b;
+  std::vector<std::pair<double, std::vector<int>>> loops;  // twice the area
+  for (int first = 0; first < static_cast<int>(next.size()); ++first) {
+    double area = 0;
+    std::vector<int> loop;
+    for (int at = first; next[at] >= 0;) {
+      loop.push_back(at);
+      const int to = std::exchange(next[at], -1);
+      area += cross(boundary.points[at], boundary.points[to]);
+      at = to;
+    }
+    if (!loop.empty()) loops.emplace_back(area, std::move(loop));
+  }
+  std::ranges::stable_sort(loops, std::greater(), [](const auto& loop) { return loop.first; });
+  std::vector<std::vector<int>> result;
+  for (auto& [area, loop] : loops) result.push_back(std::move(loop));
+  return result;
+}
+
+/// Every edge of the boundary is a straight curve with one element.
+void write_boundary(TextWriter& out, const PreparedProblem& prepared) {
+  const Mesh& boundary = prepared.boundary;
+  for (std::size_t i = 0; i < boundary.points.size(); ++i) {
+    const Vec3& p = boundary.points[i];
+    out << "Point(" << i + 1 << ") = {" << p.x << ", " << p.y << ", " << p.z << "};\n";
+  }
+  std::map<std::array<int, 2>, int> curve_of;
+  for (const auto& [a, b] : boundary.lines) {
+    const int curve = static_cast<int>(curve_of.size()) + 1;
+    curve_of[{std::min(a, b), std::max(a, b)}] = curve;
+    out << "Line(" << curve << ") = {" << std::min(a, b) + 1 << ", " << std::max(a, b) + 1 << "};\n";
+  }
+  out << "Transfinite Curve {1:" << curve_of.size() << "} = 2;\n";
+  int n_loops = 0, n_surfaces = 0;
+  for (const PreparedPatch& patch : prepared.patches) {
+    std::string surface;
+    for (const std::vector<int>& loop : loops_of(patch.boundary)) {
+      out << "Curve Loop(" << ++n_loops << ") = {";
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const int a = patch.boundary.point_node[loop[k]];
+        const int b = patch.boundary.point_node[loop[(k + 1) % loop.size()]];
+        const int curve = curve_of.at({std::min(a, b), std::max(a, b)});
+        out << (k == 0 ? "" : ", ") << (a < b ? curve : -curve);
+      }
+      out << "};\n";
+      surface += fmt::format("{}{}", surface.empty() ? "" : ", ", n_loops);
+    }
+    out << "Plane Surface(" << ++n_surfaces << ") = {" << surface << "};\n";
+  }
+}
+
+/// delta at the corners of an F mesh, as a view of Gmsh.
+void write_size_view(const fs::path& path, const Case& c, const PreparedProblem& prepared) {
+  write_file_atomically(path, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    out << "View \"delta\" {\n";
+    for (const PreparedPatch& patch : prepared.patches) {
+      const TriPatch mesh = mesh_frontal(patch.boundary, *make_l2_frontal(), *patch.cross, *patch.size,
+                                         insertion_options(c.options).frontal);
+      int hint = -1;
+      std::vector<double> delta;
+      for (const Vec2& p : mesh.points) delta.push_back(patch.size->at(p, hint));
+      const double z = prepared.boundary.points[0].z;
+      for (const auto& v : mesh.triangles) {
+        for (int k = 0; k < 3; ++k)
+          out << (k == 0 ? "ST(" : ", ") << mesh.points[v[k]].x << ", " << mesh.points[v[k]].y << ", " << z;
+        out << "){" << delta[v[0]] << ", " << delta[v[1]] << ", " << delta[v[2]] << "};\n";
+      }
+    }
+    out << "};\n";
+    out.flush();
+  });
+}
+
+/// The file of a surface as it is, or the example as a STEP file.
+fs::path surface_file(const Peer& peer, const Case& c, const fs::path& folder) {
+  const SurfaceSpec& s = c.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.mirror || s.weld_tolerance)
+    throw PeerError("'" + peer.name + "' gets the model's file as it is, but the case changes its faces");
+  if (c.example.empty()) return fs::absolute(model_path(c));
+  const fs::path file = folder / "model.step";
+  write_file_atomically(file, [&](std::ostream& out) { write_example(c.example, CadFormat::kStep, out); });
+  return file;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char ch : text) result += (ch == '"' || ch == '\\' ? "\\" : "") + std::string(1, ch);
+  return result + '"';
+}
+
+void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
+  out << "Merge " << quoted(file.string()) << ";\n";
+  const std::string kind = kind_of_file(file);
+  if (!is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off") {
+    constexpr double kFeatureAngle = 40;  // degrees, as for our own
+    out << "ClassifySurfaces{" << c.surface.feature_angle.value_or(kFeatureAngle) * std::numbers::pi / 180
+        << ", 1, 1, Pi};\nCreateGeometry;\n";
+  }
+}
+
+void write_script(const Peer& peer, const Case& c, const PreparedProblem& prepared, const fs::path& script) {
+  const auto size = uniform_size(c);
+  const fs::path folder = script.parent_path();
+  if (prepared.surface && !size)
+    throw PeerError("'" + peer.name + "' can be told uniform sizes only on surfaces");
+  const fs::path model = prepared.surface ? surface_file(peer, c, folder) : fs::path();
+  if (!size) write_size_view(folder / kSizeView, c, prepared);
+  write_file_atomically(script, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    prepared.surface ? write_surface(out, c, model) : write_boundary(out, prepared);
+    if (size)
+      out << "Mesh.MeshSizeMin = " << *size << ";\nMesh.MeshSizeMax = " << *size << ";\n";
+    else
+      out << "Merge \"" << kSizeView
+          << "\";\nField[1] = PostView;\nField[1].ViewIndex = 0;\nBackground Field = 1;\n"
+          << "Mesh.MeshSizeFromPoints = 0;\n";
+    out << "Mesh.MeshSizeExtendFromBoundary = 0;\n";
+    out.flush();
+  });
+}
+
+}  // namespace
+
+std::optional<double> uniform_size(const Case& c) {
+  const SizeText& s = c.size;
+  auto size = as_number(s.base);
+  if (s.base.empty() && s.max > 0) size = s.max;
+  if (!size || !s.sources.empty() || s.curvature > 0) return std::nullopt;
+  return s.max > 0 ? std::min(*size, s.max) : *size;
+}
+
+fs::path write_peer_input(const Peer& peer, const Case& c, const PreparedProblem& prepared,
+                          const fs::path& folder) {
+  const fs::path file = folder / ("input" + peer.input);
+  if (peer.input == kScript) {
+    write_script(peer, c, prepared, file);
+  } else if (prepared.surface) {
+    return surface_file(peer, c, folder);
+  } else {
+    write_mesh(file, prepared.boundary);
+  }
+  return file;
+}
+
+}  // namespace delquad

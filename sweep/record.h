@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sweep/metric_command.h"
+#include "sweep/peer.h"
+
+namespace delquad {
+
+/// What the record of a cell of an experiment has besides, so that it can be found and made again.
+struct CellIdentity {
+  std::string key;  ///< digest of everything that determines the result
+  std::string model_digest, program_digest;
+  std::string experiment, data;           ///< file and folder, absolute
+  std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline, as the experiment counts them
+  std::string mesh_digest;                ///< of mesh.msh; empty: there is none
+  const Peer* peer = nullptr;             ///< in place of a pipeline
+  std::string peer_version = {};          ///< empty: it does not tell
+  /// Measures by command, and the digests of the files that determine each.
+  struct IdentifiedMetric {
+    const MetricCommand* metric;
+    std::map<std::string, std::string> files;
+  };
+  std::vector<IdentifiedMetric> metrics = {};
+};
+
+/// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
+/// Ends with a newline. `cell`: null outside of experiments.
+std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
+                       const RunResult& result, const CellIdentity* cell = nullptr);
+/// The record of one that was not run, "failed" or "skipped" by its status, and of what kind the reason is:
+/// as in ProcessFailure, or "data not found".
+std::string failure_record(const Case& c, const Word& word, const std::string& status,
+                           const std::string& kind, const std::string& reason,
+                           const CellIdentity* cell = nullptr);
+/// The metrics of a mesh from a file.
+std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
+/// What determines a peer's mesh besides the case, in one line of JSON.
+std::string peer_record(const Peer& peer, const std::string& version);
+/// What determines the values of a cell's measures by command, in one line of JSON.
+std::string metrics_by_command_record(const CellIdentity& cell);
+/// Every option of a case in one line of JSON.
+std::string options_record(const Case& c);
+/// Version, commit, compiler and libraries in one line of JSON.
+std::string versions_record();
+
+}  // namespace delquad

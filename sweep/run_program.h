@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+struct ProgramRun {
+  int error = 0;              ///< errno when the program could not be started, else 0
+  int status = 0;             ///< as waitpid() gives it
+  double seconds = 0;         ///< on the clock
+  double cpu_seconds = 0;     ///< of the program and what it waited for
+  long long peak_memory = 0;  ///< bytes, of the largest of these
+};
+
+/// In words, for "it ...": "ended with exit code 3"; empty: with 0, or one of `good`.
+std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good = {0});
+
+/// Runs a program (words[0], looked for on the PATH unless it has a slash) in `folder`, without input; what
+/// it prints goes to the file `log`, and of that what goes to stderr to the file `errors`, if there is one.
+/// Nothing that it starts outlives its end, this process's end, or `seconds` (0: no limit), after which its
+/// status is that of SIGKILL.
+ProgramRun run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                       const std::filesystem::path& log, unsigned seconds = 0,
+                       const std::filesystem::path& errors = {});
+
+}  // namespace delquad

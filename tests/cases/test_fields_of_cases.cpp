@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/insertion_options.h"
+#include "cases/case_file.h"
+#include "cases/problem.h"
+#include "mesher/prepare.h"
+#include "mesher/recombination_options.h"
+#include "mesher/runner.h"
+#include "smoothing/optimisation/optimisation_options.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+class Cases : public testing::Test {
+ protected:
+  Case read(const std::string& text) {
+    return read_model_case(testing_support::write_text(folder_ / "c.toml", text));
+  }
+  static double size_at(const PreparedProblem& p, double x, double y) {
+    int hint = -1;
+    return p.size->at({x, y, 0}, hint);
+  }
+  const std::string square_ = "loop = { rectangle = [[0, 0], [1, 1]] }\n";
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Cases, SourcesAndGradationShapeTheSize) {
+  const PreparedProblem p = prepare_case(
+      read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "
+                     "0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.05), 0.05);
+  EXPECT_NEAR(size_at(p, 0.5, 0.25), 0.125, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.9), 0.2);
+
+  const std::string step = square_ + "[size]\nbase = \"x < 0.5 ? 0.02 : 0.2\"\n";
+  EXPECT_DOUBLE_EQ(size_at(prepare_case(read(step)), 0.6, 0.5), 0.2);
+  EXPECT_LT(size_at(prepare_case(read(step + "gradation = 0.2\n")), 0.6, 0.5), 0.07);
+}
+
+TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
+  const PreparedProblem disk =
+      prepare_case(read("loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.1\n"));
+  ASSERT_TRUE(disk.index_sum_and_expected);
+  EXPECT_EQ(disk.index_sum_and_expected->first, 4);
+  EXPECT_EQ(disk.index_sum_and_expected->second, 4);
+  EXPECT_EQ(disk.singularities.size(), 4u);
+  EXPECT_TRUE(disk.warnings.empty());
+}
+
+TEST_F(Cases, AnalyticCrosses) {
+  int hint = -1;
+  const PreparedProblem angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
+  EXPECT_NEAR(angle.patches[0].cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
+  const PreparedProblem gradient =
+      prepare_case(read(square_ + "size = \"0.1 + 0.01*x + 0.02*y\"\ncross = \"gradient\"\n"));
+  hint = -1;
+  EXPECT_NEAR(gradient.patches[0].cross->at({0.5, 0.5}, hint).angle(),
+              std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
+  expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\ncross = \"atan(x\"\n")); },
+                     {"c.toml:3", "atan(x"});
+}
+
+TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
+  const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
+  const Case c = read(lewis + "size = \"0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n");
+  const PreparedProblem p = prepare_case(c);
+  ASSERT_TRUE(p.dislocations);
+  EXPECT_LT(p.dislocations->second, 0.6 * p.dislocations->first);
+  EXPECT_EQ(p.index_sum_and_expected, std::pair(4, 4));
+  EXPECT_GT(p.singularities.size(), 4u);
+  for (const char* word : {"DB", "PB"}) {
+    Case aligned = c;
+    aligned.cross.text = "boundary";
+    const auto before = run_word(prepare_case(aligned), parse_word(word)).metrics.values;
+    const auto after = run_word(p, parse_word(word)).metrics.values;
+    for (const char* metric : {"eta_mean", "d4", "tau"})
+      EXPECT_GT(after.at(metric), before.at(metric)) << word;
+  }
+}
+
+// The finer the mesh, the more rows end; the size-aware field keeps its part of them.
+TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
+  const auto dislocations = [&](const std::string& factor) {
+    return *prepare_case(read("loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\nsize = \"" + factor +
+                              "*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n"))
+                .dislocations;
+  };
+  const auto coarse = dislocations("0.01"), fine = dislocations("0.0025");
+  EXPECT_NEAR(fine.first, 4 * coarse.first, 0.05 * fine.first);
+  EXPECT_NEAR(fine.second, 4 * coarse.second, 0.1 * fine.second);
+}
+
+TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
+  // Two patches: a square and the square inside it.
+  const std::string text =
+      square_ +
+      "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = \"in\", "
+      "count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
+  const PreparedProblem aligned = prepare_case(read(text)),
+                        aware = prepare_case(read(text + "cross = \"size-aware\"\n"));
+  ASSERT_EQ(aware.patches.size(), 2u);
+  EXPECT_EQ(aware.index_sum_and_expected, aligned.index_sum_and_expected);
+  EXPECT_EQ(aware.dislocations->first, aware.dislocations->second);
+  int hint = -1, other = -1;
+  for (std::size_t i = 0; i < aware.patches.size(); ++i) {
+    for (const Vec2 u : aware.patches[i].boundary.points) {
+      const Cross a = aligned.patches[i].cross->at(u, hint), b = aware.patches[i].cross->at(u, other);
+      EXPECT_EQ(a.c, b.c);
+      EXPECT_EQ(a.s, b.s);
+    }
+  }
+}
+
+TEST_F(Cases, OptionsReachTheStages) {
+  const Case c = read(
+      square_ +
+      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, boundary_height = 0.4, lower_clamp = true "
+      "}\nrecombination = { treatment = \"none\", max_rounds = 3 }\n");
+  const InsertionOptions insertion = insertion_options(c.options);
+  EXPECT_EQ(insertion.frontal.h_max, 1.2);
+  EXPECT_EQ(insertion.frontal.rejection, 0.6);
+  EXPECT_EQ(insertion.frontal.boundary_height, 0.4);
+  EXPECT_TRUE(insertion.linf.lower_clamp);
+  EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
+  EXPECT_EQ(recombination_options(c.options).treatment_options.max_rounds, 3);
+  const RunResult result = run_word(prepare_case(c), parse_word("FB"));
+  EXPECT_TRUE(result.log.summaries.has("recombination"));
+  EXPECT_FALSE(result.log.summaries.has("treatment"));
+}
+
+TEST_F(Cases, CleanupOptionsReachTheStage) {
+  const std::string text = square_ + "size = 0.1\ncleanup = { rounds = 2, tolerance = 0.01, seed = 7 }\n";
+  const Case c = read(text);
+  EXPECT_EQ(cleanup_options(c.options).rounds, 2);
+  EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
+  EXPECT_EQ(cleanup_options(c.options).seed, 7);
+  const RunResult result = run_word(prepare_case(c), parse_word("FBC"));
+  const Summaries& done = result.log.summaries;
+  ASSERT_TRUE(done.has("cleanup"));
+  EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { rounds = -1 }\n"); }, {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { tolerance = 2 }\n"); },
+                     {"c.toml:3", "'cleanup.tolerance' is 2", "at most 1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { sead = 2 }\n"); }, {"c.toml:3", "'seed'"});
+}
+
+TEST_F(Cases, OptimisationOptionsReachTheStage) {
+  const Case c = read(
+      square_ + "size = 0.1\noptimisation = { passes = 1, iterations = 3, size = 0, alignment = 0.5 }\n");
+  EXPECT_EQ(optimisation_options(c.options).passes, 1);
+  EXPECT_EQ(optimisation_options(c.options).iterations, 3);
+  EXPECT_EQ(optimisation_options(c.options).size, 0);
+  EXPECT_EQ(optimisation_options(c.options).alignment, 0.5);
+  const RunResult result = run_word(prepare_case(c), parse_word("FBO"));
+  const Summaries& done = result.log.summaries;
+  ASSERT_TRUE(done.has("optimisation"));
+  EXPECT_GT(done.number("optimisation", "iterations"), 0);
+  EXPECT_LT(done.number("optimisation", "energy_after"), done.number("optimisation", "energy_before"));
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { size = -1 }\n"); },
+                     {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { iterations = 0 }\n"); },
+                     {"c.toml:3", "'optimisation.iterations' is 0"});
+}
+
+TEST_F(Cases, MistakesAreLocated) {
+  expect_input_error([&] { read(square_ + "size = { base = 1, sources = [] }"); }, {"c.toml:2", "'source'"});
+  expect_input_error(
+      [&] {
+        read(square_ +
+             "[size]\nsource = { at = [0, 0], near = 1, far = 2, radius_near = 3, "
+             "radius_far = 2 }");
+      },
+      {"c.toml:3", "larger than 'radius_near'"});
+  expect_input_error([&] { read(square_ + "size = [1]"); }, {"c.toml:2", "number or an expression"});
+  expect_input_error([&] { read(square_ + "mesh = \"a.msh\""); }, {"c.toml:2", "exclude"});
+  expect_input_error([&] { read("mesh = \"a.vtu\""); }, {"c.toml:1", "not a .msh file"});
+  expect_input_error([&] { read("model = \"c.toml\""); }, {"c.toml:1", "another"});
+  expect_input_error([&] { prepare_case(read(square_)); }, {"c.toml", "expected a size"});
+}
+
+TEST_F(Cases, HopelessSizesAreRefusedEarly) {
+  Case c = read(square_ +
+                "pattern = { circle = { centre = [0.1, 0.1], radius = 0.001 }, count = [5, 5], step = [0.2, "
+                "0.2] }\nsize = 1e-6\n");
+  expect_input_error([&] { prepare_case(c); }, {"c.toml:3", "1e+12 quads", "50000000"});
+  c = read(square_ + "size = 0.1\n");
+  c.max_elements = 99;
+  expect_input_error([&] { prepare_case(c); }, {"about 100 quads", "99"});
+}
+
+TEST_F(Cases, MostPointsFollowMostElements) {
+  PreparedProblem p = prepare_case(read(square_ + "size = 0.1\n"));
+  p.max_elements = 20;  // far less than what was checked
+  expect_input_error([&] { run_word(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
+}
+
+TEST_F(Cases, PatchesShareTheirInterface) {
+  const Case c = read(
+      "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"
+      "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = \"inside\"\n");
+  for (const char* word : {"F", "D", "FB", "DB"}) {
+    const RunResult result = run_word(prepare_case(c), parse_word(word));
+    EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{}) << word;
+    EXPECT_EQ(result.mesh.regions.size(), 2u);
+  }
+}
+
+}  // namespace
+}  // namespace delquad

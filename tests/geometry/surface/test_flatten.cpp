@@ -1,0 +1,169 @@
+#include "geometry/surface/flatten.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/surface/improve_triangulation.h"
+#include "tests/support/flat_patch_checks.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+
+/// Largest relative change of a side's length.
+double length_error(const SurfaceModel& model, const FlatPatch& p) {
+  double worst = 0;
+  for (const auto& v : p.flat.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = v[k], b = v[(k + 1) % 3];
+      const double l = norm(model.fine.points[p.fine_node[a]] - model.fine.points[p.fine_node[b]]);
+      worst = std::max(worst, std::abs(norm(p.flat.points[a] - p.flat.points[b]) / l - 1));
+    }
+  return worst;
+}
+
+Flattening flatten_to_one_patch(SurfaceModel& model) {
+  Flattening f = flatten(model);
+  expect_sound_flattening(model, f);
+  EXPECT_EQ(f.patches.size(), 1u);
+  return f;
+}
+
+TEST(Flatten, CylinderUnrollsExactly) {
+  SurfaceModel model = cylinder(40, 12, 1, 4);
+  const Flattening f = flatten_to_one_patch(model);
+  ASSERT_EQ(f.cuts.size(), 1u);
+  EXPECT_FALSE(f.cuts[0].divides);
+  EXPECT_NEAR(f.cuts[0].length, 4, 1e-9);
+  EXPECT_LT(length_error(model, f.patches[0]), 1e-9);
+  EXPECT_EQ(f.patches[0].method, "boundary-first");
+}
+
+TEST(Flatten, ConesUnrollExactly) {
+  for (double half_angle : {0.1, 0.5, 1.0, 1.3}) {
+    SurfaceModel model = cone(36, 18, half_angle);
+    const Flattening f = flatten(model);
+    expect_sound_flattening(model, f);
+    ASSERT_EQ(f.patches.size(), 1u) << half_angle;
+    if (f.cuts.empty()) {
+      EXPECT_LE(f.patches[0].quality.area_ratio, 2) << half_angle;
+      continue;
+    }
+    ASSERT_EQ(f.cuts.size(), 1u) << half_angle;
+    EXPECT_LT(length_error(model, f.patches[0]), 1e-8) << half_angle;
+  }
+}
+
+TEST(Flatten, PlaneWithHolesStaysWhole) {
+  // A ring in a tilted plane.
+  SurfaceModel model = grid_surface({30, 3, true}, [](double u, double v) {
+    const double phi = 2 * std::numbers::pi * u, r = 2 - v;
+    return Vec3{r * std::cos(phi), r * std::sin(phi), 0.3 * r * std::cos(phi) + 7};
+  });
+  const Flattening f = flatten_to_one_patch(model);
+  EXPECT_TRUE(f.cuts.empty());
+  EXPECT_EQ(f.patches[0].method, "plane");
+  EXPECT_LT(length_error(model, f.patches[0]), 1e-12);
+}
+
+TEST(Flatten, TorusOpensToOnePatch) {
+  SurfaceModel model = torus(60, 24, 3, 1);
+  const Flattening f = flatten_to_one_patch(model);
+  EXPECT_EQ(f.cuts.size(), 2u);
+  // The scale of the conformal map goes with the distance from the axis, from 2 to 4: with its square, the
+  // area.
+  EXPECT_NEAR(f.patches[0].quality.area_ratio, 4, 0.3);
+}
+
+// Every shape, with what it must not exceed.
+TEST(Flatten, AllShapes) {
+  struct Case {
+    const char* name;
+    SurfaceModel model;
+    std::size_t max_patches;
+  };
+  Case cases[] = {
+      {"bump", bump(30, 0.8), 1},
+      {"steep bump", bump(50, 2.5), 14},
+      {"long tube", cylinder(16, 60, 1, 40), 1},
+      {"needle cone", cone(12, 10, 0.05), 1},
+      {"cap", sphere_cap(30, 15, 1), 1},
+      {"nearly a sphere", sphere_cap(60, 40, 2.97), 3},
+      {"sphere", round_sphere(8), 2},
+      {"tee", tee(4), 4},
+      {"two handles", double_torus(4), 9},
+      {"cube", CubeSurface({{0, 0, 0}}, {}, 1).rounded(0), 6},
+      {"angular tee",
+       CubeSurface({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{-2, 0, 0}, {2, 0, 0}, {0, 0, 2}}, 3)
+           .rounded(0),
+       6}};
+  for (Case& c : cases) {
+    SCOPED_TRACE(c.name);
+    improve_triangulation(c.model);
+    const Flattening f = flatten(c.model);
+    expect_sound_flattening(c.model, f);
+    EXPECT_LE(f.patches.size(), c.max_patches);
+    EXPECT_EQ(c.model.fine.curves.size() >= f.cuts.size(), true);
+    for (const FlatPatch& p : f.patches) EXPECT_LE(p.quality.area_ratio, 10);
+  }
+}
+
+// The cut of one face ends inside a curve that another face shares: both agree on the new corner.
+TEST(Flatten, NeighboursOfACutStayConforming) {
+  // A closed cylinder: wall, top and bottom.
+  SurfaceModel model = cylinder(24, 6, 1, 3);
+  Mesh& fine = model.fine;
+  for (int curve : {0, 1}) {
+    const int centre = static_cast<int>(fine.points.size());
+    double z = 0;
+    for (std::size_t l = 0; l < fine.lines.size(); ++l) {
+      if (fine.line_curve[l] != curve) continue;
+      fine.triangles.push_back({fine.lines[l][1], fine.lines[l][0], centre});
+      fine.triangle_region.push_back(1 + curve);
+      z = fine.points[fine.lines[l][0]].z;
+    }
+    fine.points.push_back({0, 0, z});
+    fine.regions.push_back({2 + curve, {}});
+  }
+  ASSERT_TRUE(check_invariants(fine).empty());
+  improve_triangulation(model);
+  const Flattening f = flatten(model);
+  expect_sound_flattening(model, f);
+  ASSERT_EQ(f.patches.size(), 3u);
+  EXPECT_EQ(f.cuts.size(), 1u);
+  EXPECT_EQ(f.patches[1].method, "plane");
+  EXPECT_EQ(f.patches[2].method, "plane");
+  EXPECT_EQ(model.corners.size(), 2u);
+}
+
+TEST(Flatten, SameInputSameOutput) {
+  auto run = [] {
+    SurfaceModel model = double_torus(3);
+    improve_triangulation(model);
+    return std::pair(flatten(model), model.fine.points);
+  };
+  const auto [a, points_a] = run();
+  const auto [b, points_b] = run();
+  EXPECT_EQ(points_a, points_b);
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  for (std::size_t i = 0; i < a.patches.size(); ++i)
+    EXPECT_EQ(a.patches[i].flat.points, b.patches[i].flat.points);
+}
+
+TEST(Flatten, NamesFacesThatCannotBe) {
+  // A face of zero area.
+  SurfaceModel model = one_face({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
+  const Flattening f = flatten(model);
+  EXPECT_TRUE(f.patches.empty());
+  EXPECT_EQ(f.failed, std::vector<int>{0});
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0].text, "face 1: could not be flattened");
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,393 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "delquad/error.h"
+#include "geometry/surface/triangulated_model.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/surface_model_checks.h"
+#include "tests/support/triangulated_shapes.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::box;
+using testing_support::can;
+using testing_support::expect_counts;
+using testing_support::soup;
+using testing_support::triangle_grid;
+using testing_support::violations;
+using testing_support::volume;
+using testing_support::without_regions;
+
+const std::vector<std::string> kSound;
+
+SurfaceModel model_of(const Mesh& mesh, double feature_angle = 40) {
+  return make_surface_model(mesh, {.feature_angle = feature_angle, .source = "case.off"});
+}
+
+bool has_warning(const SurfaceModel& model, const std::string& part) {
+  return std::any_of(model.warnings.begin(), model.warnings.end(),
+                     [&](const Warning& w) { return w.text.find(part) != std::string::npos; });
+}
+
+TEST(TriangulatedModel, BoxIsCutAtItsFeatures) {
+  const SurfaceModel model = model_of(without_regions(box(3)));
+  expect_counts(model, 6, 12, 8);
+  EXPECT_EQ(model.fine.lines.size(), 12u * 3);
+  EXPECT_TRUE(model.warnings.empty());
+  std::vector<int> tags;
+  for (const Entity& face : model.fine.regions) tags.push_back(face.tag);
+  EXPECT_EQ(tags, (std::vector<int>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(TriangulatedModel, AboveTheDihedralAngleABoxIsOneFaceWithoutCurves) {
+  expect_counts(model_of(without_regions(box(3)), 91), 1, 0, 0);
+}
+
+TEST(TriangulatedModel, RegionsCutWhereNothingIsSharp) {
+  const SurfaceModel model = model_of(box(3), 91);
+  expect_counts(model, 6, 12, 8);
+}
+
+TEST(TriangulatedModel, CanHasTwoClosedCurvesWithoutCorners) {
+  expect_counts(model_of(without_regions(can(24, 3))), 3, 2, 0);
+  // Where the wall turns by 60 degrees at a step, it is six faces and the circles have corners.
+  expect_counts(model_of(without_regions(can(6, 3))), 8, 18, 12);
+}
+
+TEST(TriangulatedModel, OutlineHasCornersWhereItTurns) {
+  Mesh square = triangle_grid(4, 4);
+  square.lines.clear();
+  square.line_curve.clear();
+  square.curves.clear();
+  expect_counts(model_of(square), 1, 4, 4);
+  expect_counts(model_of(square, 91), 1, 1, 0);
+}
+
+TEST(TriangulatedModel, GivenCurvesAndRegionsKeepTagsAndNames) {
+  Mesh square = triangle_grid(4, 4);
+  square.regions = {{7, {"plate"}}};
+  square.curves[0].tag = 30;
+  const SurfaceModel model = model_of(square, 91);
+  expect_counts(model, 1, 4, 4);
+  EXPECT_EQ(model.fine.regions[0].tag, 7);
+  EXPECT_EQ(model.fine.regions[0].names, (std::vector<std::string>{"plate"}));
+  const auto south = std::find_if(model.fine.curves.begin(), model.fine.curves.end(),
+                                  [](const Entity& e) { return e.tag == 30; });
+  ASSERT_NE(south, model.fine.curves.end());
+  EXPECT_EQ(south->names, (std::vector<std::string>{"south"}));
+}
+
+TEST(TriangulatedModel, PiecesOfARegionShareItsNames) {
+  // Two squares apart, one region; a line across the second cuts it.
+  Mesh mesh = triangle_grid(2, 2);
+  const int n = static_cast<int>(mesh.points.size());
+  const Mesh other = mesh;
+  for (Vec3 p : other.points) mesh.points.push_back(p + Vec3{3, 0, 0});
+  for (auto v : other.triangles) mesh.triangles.push_back({v[0] + n, v[1] + n, v[2] + n});
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  mesh.lines = {{n + 3, n + 4}, {n + 4, n + 5}};
+  mesh.line_curve = {0, 0};
+  mesh.curves = {{5, {"across"}}};
+  mesh.regions = {{2, {"both"}}};
+  const SurfaceModel model = model_of(mesh);
+  // Outlines: four sides of the first; the second has its left and right sides cut in two, and the line.
+  expect_counts(model, 3, 4 + 6 + 1, 4 + 6);
+  std::vector<int> tags;
+  for (const Entity& face : model.fine.regions) {
+    tags.push_back(face.tag);
+    EXPECT_EQ(face.names, (std::vector<std::string>{"both"}));
+  }
+  EXPECT_EQ(tags, (std::vector<int>{2, 3, 4}));
+}
+
+TEST(TriangulatedModel, CutsThatEndInsideAFaceAreDropped) {
+  Mesh mesh = triangle_grid(4, 4);
+  mesh.lines = {{10, 11}, {11, 12}};  // from the left part of the middle row to its middle
+  mesh.line_curve = {0, 0};
+  mesh.curves = {{1, {"scratch"}}};
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 1, 4, 4);
+  EXPECT_TRUE(has_warning(model, "left out 2 lines that only led into a face"));
+  // One that crosses all of the face stays.
+  mesh.lines = {{10, 11}, {11, 12}, {12, 13}, {13, 14}};
+  mesh.line_curve.assign(4, 0);
+  expect_counts(model_of(mesh), 2, 7, 6);
+}
+
+TEST(TriangulatedModel, FeaturesThatFadeAreDropped) {
+  // A roof whose ridge is sharp at one end and flat at the other.
+  Mesh roof = triangle_grid(4, 4, 2, 2);
+  roof.lines.clear();
+  roof.line_curve.clear();
+  roof.curves.clear();
+  for (Vec3& p : roof.points) p.z = -std::abs(p.x - 1) * p.y / 2;
+  expect_counts(model_of(roof), 1, 5, 5);  // the gable has a corner
+  for (Vec3& p : roof.points) p.z = -std::abs(p.x - 1);
+  expect_counts(model_of(roof), 2, 7, 6);
+}
+
+TEST(TriangulatedModel, SeamOfATubeStays) {
+  Mesh tube = can(12, 2);
+  size_t wall = 0;
+  while (tube.triangle_region[wall] == 0) ++wall;
+  tube.triangles.resize(wall);
+  tube.triangle_region.resize(wall);
+  tube.lines = {{tube.triangles[0][0], tube.triangles[1][2]}, {tube.triangles[2][0], tube.triangles[3][2]}};
+  tube.line_curve = {0, 0};
+  tube.curves = {{9, {"seam"}}};
+  expect_counts(model_of(tube), 1, 3, 2);
+}
+
+TEST(TriangulatedModel, SliversMakeNoFeatures) {
+  // A point just beside the edge of a flat face, out of its plane by as much as single precision leaves.
+  Mesh mesh = without_regions(box(1));
+  for (int k = 0; k < 3; ++k) {
+    auto& v = mesh.triangles[0];
+    const int a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b];
+    if (norm(p - q) < 1.2) continue;  // the diagonal
+    mesh.points.push_back(0.5 * (p + q) + Vec3{2e-8, 3e-8, -3e-8});
+    const int m = static_cast<int>(mesh.points.size()) - 1;
+    v = {a, m, c};
+    mesh.triangles.push_back({m, b, c});
+    mesh.triangles.push_back({a, b, m});
+    break;
+  }
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  ASSERT_EQ(mesh.triangles.size(), 14u);
+  expect_counts(model_of(mesh), 6, 12, 8);
+}
+
+TEST(TriangulatedModel, SplitBoundaryOfAMoebiusBandIsRefused) {
+  Mesh band;
+  constexpr int n = 12;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n;
+    for (const double s : {-0.3, 0.3}) {
+      const double r = 1 + s * std::cos(t / 2);
+      band.points.push_back({r * std::cos(t), r * std::sin(t), s * std::sin(t / 2)});
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 * i, b = a + 1, c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
+    band.triangles.push_back({a, c, b});
+    band.triangles.push_back({b, c, d});
+  }
+  band.regions = {{1, {}}};
+  band.triangle_region.assign(band.triangles.size(), 0);
+  expect_input_error([&] { model_of(band); }, {"case.off: ", "one side only", "edge from ("});
+}
+
+TEST(TriangulatedModel, TheSameInputGivesTheSameModel) {
+  const SurfaceModel a = model_of(without_regions(can(24, 3))), b = model_of(without_regions(can(24, 3)));
+  EXPECT_EQ(a.fine.points, b.fine.points);
+  EXPECT_EQ(a.fine.triangles, b.fine.triangles);
+  EXPECT_EQ(a.fine.lines, b.fine.lines);
+}
+
+TEST(TriangulatedModel, FeatureAngleOutOfRangeIsRefused) {
+  for (const double angle : {0.0, -1.0, 181.0, std::nan("")}) {
+    EXPECT_THROW(model_of(box(1), angle), std::invalid_argument) << angle;
+  }
+}
+
+TEST(TriangleRepair, SoupIsWeldedAtItsOpenEdges) {
+  const SurfaceModel model = model_of(without_regions(soup(box(2))));
+  expect_counts(model, 6, 12, 8);
+  EXPECT_EQ(model.fine.points.size(), box(2).points.size());
+  EXPECT_TRUE(has_warning(model, "welded"));
+}
+
+TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
+  Mesh mesh = soup(without_regions(box(2)));
+  for (size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i].x += 1e-7 * double(i % 3);
+  const SurfaceModel open = model_of(mesh);
+  EXPECT_GT(open.fine.regions.size(), 6u);
+  EXPECT_TRUE(has_warning(open, "gaps that a larger weld tolerance would close"));
+  const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 1e-6});
+  expect_counts(closed, 6, 12, 8);
+  EXPECT_FALSE(has_warning(closed, "gaps"));
+}
+
+TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
+  Mesh mesh = without_regions(box(2));
+  const auto first = mesh.triangles[0];
+  mesh.triangles.push_back({first[0], first[1], first[0]});
+  mesh.triangles.push_back({first[1], first[2], first[0]});
+  mesh.triangles.push_back({first[1], first[0], first[2]});
+  mesh.points.push_back({9, 9, 9});
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 6, 12, 8);
+  EXPECT_EQ(model.fine.triangles.size(), box(2).triangles.size());
+  EXPECT_TRUE(has_warning(model, "left out 1 triangle without area (the first at (0, "));
+  EXPECT_TRUE(has_warning(model, "left out 2 triangles on the vertices of another"));
+  EXPECT_TRUE(has_warning(model, "left out 1 point that no triangle uses"));
+}
+
+TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
+  // One side of the box refined on its edge only: the other side keeps the long edge, flat triangles fill it.
+  Mesh mesh = without_regions(box(1));
+  auto& v = mesh.triangles[0];
+  int k = 0;
+  while (norm(mesh.points[v[(k + 1) % 3]] - mesh.points[v[k]]) > 1.2) ++k;
+  const int a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], m = static_cast<int>(mesh.points.size());
+  for (const double s : {0.25, 0.5, 0.75})
+    mesh.points.push_back(mesh.points[a] + s * (mesh.points[b] - mesh.points[a]));
+  v = {a, m, c};
+  mesh.triangles.insert(mesh.triangles.end(), {{m, m + 1, c},
+                                               {m + 1, m + 2, c},
+                                               {m + 2, b, c},  // cut
+                                               {a, b, m + 2},
+                                               {a, m + 2, m + 1},
+                                               {a, m + 1, m}});  // flat
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 6, 12, 8);
+  EXPECT_NEAR(volume(model.fine), 1, 1e-12);
+  EXPECT_TRUE(has_warning(model, "left out 3 triangles without area"));
+}
+
+TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
+  Mesh mesh = triangle_grid(1, 1);
+  mesh.points.push_back({0.5, 0, 0});
+  mesh.triangles[0] = {0, 4, 3};
+  mesh.triangles.push_back({4, 1, 3});
+  mesh.triangles.push_back({0, 1, 4});
+  // The square again below the line, so that the flat triangle lies between two faces.
+  mesh.points.insert(mesh.points.end(), {{0, -1, 0}, {1, -1, 0}});
+  mesh.triangles.push_back({5, 1, 0});
+  mesh.triangles.push_back({5, 6, 1});
+  mesh.triangle_region = {0, 0, 0, 0, 1, 1};
+  mesh.regions = {{1, {}}, {2, {}}};
+  mesh.lines = {{0, 1}};
+  mesh.line_curve = {0};
+  mesh.curves = {{4, {"middle"}}};
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 2, 7, 6);
+  const auto is_middle = [](const Entity& e) { return e.names == std::vector<std::string>{"middle"}; };
+  const auto middle = std::find_if(model.fine.curves.begin(), model.fine.curves.end(), is_middle);
+  ASSERT_NE(middle, model.fine.curves.end());
+  EXPECT_EQ(std::count(model.fine.line_curve.begin(), model.fine.line_curve.end(),
+                       static_cast<int>(middle - model.fine.curves.begin())),
+            2);
+}
+
+TEST(TriangleRepair, OrientationFollowsTheMajorityAndFacesOutwards) {
+  Mesh mesh = without_regions(box(2));
+  for (size_t t = 0; t < mesh.triangles.size(); t += 5) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  const SurfaceModel some = model_of(mesh);
+  EXPECT_NEAR(volume(some.fine), 1, 1e-12);
+  EXPECT_TRUE(has_warning(some, "turned over 10 triangles"));
+
+  Mesh inwards = without_regions(box(2));
+  for (auto& v : inwards.triangles) std::swap(v[0], v[1]);
+  const SurfaceModel all = model_of(inwards);
+  EXPECT_NEAR(volume(all.fine), 1, 1e-12);
+  EXPECT_TRUE(has_warning(all, "turned outwards 1 closed surface"));
+}
+
+TEST(TriangleRepair, ACavityKeepsFacingInwards) {
+  Mesh mesh = without_regions(box(2));
+  const int n = static_cast<int>(mesh.points.size());
+  const Mesh inner = mesh;
+  for (const Vec3& p : inner.points) mesh.points.push_back(0.5 * p + Vec3{0.25, 0.25, 0.25});
+  for (const auto& v : inner.triangles) mesh.triangles.push_back({v[0] + n, v[2] + n, v[1] + n});
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 12, 24, 16);
+  EXPECT_NEAR(volume(model.fine), 1 - 0.125, 1e-12);
+}
+
+TEST(TriangleRepair, SurfacesThatTouchAtAVertexAreParted) {
+  Mesh mesh = without_regions(box(1));
+  const int n = static_cast<int>(mesh.points.size());
+  const Mesh other = mesh;
+  int shared = -1, touching = -1;
+  for (int i = 0; i < n; ++i) {
+    if (other.points[i] == Vec3{1, 1, 1}) shared = i;
+    if (other.points[i] == Vec3{0, 0, 0}) touching = i;
+    mesh.points.push_back(other.points[i] + Vec3{1, 1, 1});
+  }
+  for (const auto& v : other.triangles) {
+    std::array<int, 3> w{};
+    for (int k = 0; k < 3; ++k) w[k] = v[k] == touching ? shared : v[k] + n;
+    mesh.triangles.push_back(w);
+  }
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 12, 24, 16);
+  EXPECT_EQ(model.fine.points.size(), 16u);
+  EXPECT_TRUE(has_warning(model, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
+}
+
+TEST(TriangleRepair, BranchingEdgesAreRefusedByCoordinates) {
+  Mesh mesh = triangle_grid(1, 1);
+  mesh.points.push_back({0.5, 0.5, 1});
+  mesh.triangles.push_back({0, 3, 4});
+  mesh.triangle_region.push_back(0);
+  expect_input_error([&] { model_of(mesh); },
+                     {"case.off: ", "branches at 1 edge: (0, 0, 0) to (1, 1, 0) (3 triangles)"});
+}
+
+TEST(TriangleRepair, WhatIsNoSurfaceOfTrianglesIsRefused) {
+  Mesh nan = triangle_grid(1, 1);
+  nan.points[2].y = std::numeric_limits<double>::quiet_NaN();
+  expect_input_error([&] { model_of(nan); }, {"case.off: point 3", "finite"});
+  expect_input_error([&] { model_of(testing_support::quad_grid(2, 2)); }, {"case.off: 4 quads", "triangles"});
+  expect_input_error([&] { model_of(Mesh{}); }, {"case.off: no triangles"});
+  Mesh flat = triangle_grid(2, 2, 1, 0);
+  expect_input_error([&] { model_of(flat); }, {"case.off: no triangle has an area"});
+}
+
+TEST(TriangleRepair, DamagedSurfacesBecomeSoundModelsOrAreRefused) {
+  std::mt19937 random(5);
+  int refused = 0, made = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    Mesh mesh = trial % 2 == 0 ? box(2) : can(8, 2);
+    for (unsigned changes = 1 + random() % 4; changes > 0; --changes) {
+      const size_t t = random() % mesh.triangles.size();
+      const int v = static_cast<int>(random() % mesh.points.size());
+      const size_t kind = random() % 6;
+      if (kind == 0) mesh.triangles[t][random() % 3] = v;
+      if (kind == 1) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+      if (kind == 2) mesh.points[mesh.triangles[t][0]] = mesh.points[mesh.triangles[t][1]];
+      if (kind == 3) mesh.triangle_region[t] = 0;
+      if (kind == 4)
+        mesh.points[v] = 0.5 * (mesh.points[mesh.triangles[t][0]] + mesh.points[mesh.triangles[t][1]]);
+      if (kind == 5) {
+        mesh.triangles.erase(mesh.triangles.begin() + static_cast<long>(t));
+        mesh.triangle_region.erase(mesh.triangle_region.begin() + static_cast<long>(t));
+      }
+    }
+    try {
+      const SurfaceModel model = model_of(mesh);
+      EXPECT_EQ(violations(model), kSound) << "trial " << trial;
+      ++made;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(made, 300);
+}
+
+TEST(TriangleRepair, LinesOffTheTrianglesGo) {
+  Mesh mesh = triangle_grid(2, 2);
+  mesh.lines.push_back({0, 8});
+  mesh.lines.push_back(mesh.lines[0]);
+  mesh.line_curve.insert(mesh.line_curve.end(), {0, 0});
+  const SurfaceModel model = model_of(mesh);
+  expect_counts(model, 1, 4, 4);
+  EXPECT_TRUE(has_warning(model, "left out 1 line along no side"));
+}
+
+}  // namespace
+}  // namespace delquad

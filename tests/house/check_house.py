@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The rooms of the house and their doors, as the build files say and as the code does.
+
+Usage: check_house.py FOLDER. Prints what is wrong, a line each; exit code 1 when there is anything.
+"""
+import pathlib
+import re
+import sys
+
+MOST_LINES = 60  # of a function
+MOST_PUBLIC_HEADERS = 9
+LAST_OF_LIBRARY = "mesher"
+# Below and in the last room of the library: no formats of text, no streams, no process of its own.
+NOT_IN_LIBRARY = [
+    r"#include <(toml|nlohmann|CLI|iostream|muParser)",
+    r"\b(stderr|stdout)\b",
+    r"std::(cerr|cout|clog)\b",
+    r"\b(signal|sigaction|fork|setlocale|setenv)\(",
+]
+
+
+def rooms(root):
+    """Folder -> rooms that it links, in the order of the build."""
+    text = (root / "CMakeLists.txt").read_text()
+    names = re.search(r"set\(DELQUAD_ROOMS([^)]*)\)", text)[1].split()
+    links = {}
+    for name in names:
+        calls = re.findall(r"delquad_room\(([^)]*)\)", (root / name / "CMakeLists.txt").read_text())
+        found = set()
+        for call in calls:
+            words = re.search(r"LINKS((?:\s+[a-z_/]+)*)", call)
+            found |= set(words[1].split()) if words else set()
+        links[name] = found
+    return links
+
+
+def sources(root, room, all_rooms):
+    """Files of a room, those of rooms inside of its folder left out."""
+    inner = [root / r for r in all_rooms if r.startswith(room + "/")]
+    for path in sorted((root / room).rglob("*")):
+        if path.suffix in (".h", ".cpp") and not any(i in path.parents for i in inner):
+            yield path
+
+
+def room_of(header, all_rooms):
+    folder = header.rpartition("/")[0]
+    while folder and folder not in all_rooms:
+        folder = folder.rpartition("/")[0]
+    return folder
+
+
+def check_links(root, links):
+    order = list(links)
+    for room, linked in links.items():
+        for other in sorted(linked):
+            if other not in links:
+                yield f"{room}: links '{other}', which is no room"
+            elif order.index(other) >= order.index(room):
+                yield f"{room}: links {other}, which does not stand below it"
+        used = {}
+        for path in sources(root, room, links):
+            for header in re.findall(r'#include "([^"]+)"', path.read_text()):
+                other = room_of(header, links)
+                if other and other != room:
+                    used.setdefault(other, path)
+        for other, path in sorted(used.items()):
+            if other not in linked:
+                yield f"{path.relative_to(root)}: includes a header of {other}, which {room} does not link"
+
+
+def check_library(root, links):
+    order = list(links)
+    for room in order[: order.index(LAST_OF_LIBRARY) + 1]:
+        for path in sources(root, room, links):
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                code = line.split("//")[0]
+                if any(re.search(pattern, code) for pattern in NOT_IN_LIBRARY):
+                    yield f"{path.relative_to(root)}:{number}: not in a library: {code.strip()}"
+
+
+def check_public(root):
+    headers = sorted((root / "include/delquad").glob("*.h"))
+    if not 0 < len(headers) <= MOST_PUBLIC_HEADERS:
+        yield f"include/delquad: {len(headers)} headers: expected at most {MOST_PUBLIC_HEADERS}"
+    names = {f"delquad/{h.name}" for h in headers}
+    for path in headers:
+        for header in re.findall(r'#include ["<]([^">]+)[">]', path.read_text()):
+            if header not in names and not re.fullmatch(r"[a-z_]+", header):
+                yield f"{path.relative_to(root)}: includes {header}: expected the standard library or delquad/"
+
+
+def check_lengths(root, links):
+    opening = re.compile(r"^( *)[^ #/}].*[)a-z\]] \{$")
+    for room in links:
+        for path in sources(root, room, links):
+            lines = path.read_text().splitlines()
+            for first, line in enumerate(lines):
+                start = opening.match(line)
+                if not start or len(start[1]) > 2 or re.match(r" *(namespace|class|struct|enum|union)\b", line):
+                    continue
+                end = re.compile(start[1] + r"\}([^a-z]|$)")
+                for last in range(first + 1, len(lines)):
+                    if end.match(lines[last]):
+                        if last - first > MOST_LINES:
+                            yield f"{path.relative_to(root)}:{first + 1}: a function of {last - first} lines"
+                        break
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    links = rooms(root)
+    wrong = [*check_links(root, links), *check_library(root, links), *check_public(root), *check_lengths(root, links)]
+    for line in wrong:
+        print(line)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

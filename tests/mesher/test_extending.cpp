@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "delquad/extend.h"
+#include "delquad/matching.h"
+#include "geometry/planar/planar_model.h"
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+/// A disc at size 0.2.
+MeshProblem disc() {
+  PlanarModel model;
+  model.curves.push_back({make_circle({0, 0}, 1), "", "test"});
+  model.loops.push_back({{0}, "", "test"});
+  MeshProblem problem;
+  problem.model = std::move(model);
+  problem.size.field = make_constant_size(0.2);
+  return problem;
+}
+
+RunResult run(const MeshProblem& problem, const char* word) {
+  return run_word(prepare(problem), parse_word(word));
+}
+
+std::string complaint(const MeshProblem& problem, const char* word) {
+  try {
+    run(problem, word);
+    return "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// What it is called with last.
+std::function<void(const StageInput&, PatchMesh&, StageLog&)>& stage_work() {
+  static std::function<void(const StageInput&, PatchMesh&, StageLog&)> work;
+  return work;
+}
+
+class OwnStage : public testing::Test {
+ protected:
+  OwnStage() {
+    if (std::ranges::find(stage_registry(), 'Y', &Stage::letter) == stage_registry().end())
+      add_stage(
+          {'Y', "a test's", PatchForm::kTriangles, PatchForm::kTriangles,
+           [](const StageInput& in, PatchMesh& patch, StageLog& log) { stage_work()(in, patch, log); }});
+  }
+};
+
+TEST_F(OwnStage, TellsWhatItDid) {
+  stage_work() = [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+    log.summaries.add("own", {{"points", static_cast<long long>(patch.triangles.points.size())},
+                              {"rejection", in.options.number("insertion.rejection"), Over::kMost}});
+  };
+  MeshProblem problem = disc();
+  problem.options.set("insertion.rejection", 0.6);
+  const RunResult result = run(problem, "DYB");
+  EXPECT_GT(result.log.summaries.number("own", "points"), 50);
+  EXPECT_EQ(result.log.summaries.number("own", "rejection"), 0.6);
+  EXPECT_TRUE(result.soundness.sound());
+}
+
+/// Whatever it leaves, the next stage does not crash on it.
+TEST_F(OwnStage, WhatItLeavesIsChecked) {
+  const auto left = [](std::function<void(PatchMesh&)> spoil) {
+    stage_work() = [spoil = std::move(spoil)](const StageInput&, PatchMesh& patch, StageLog&) {
+      spoil(patch);
+    };
+    return complaint(disc(), "DYB");
+  };
+  EXPECT_EQ(left([](PatchMesh&) {}), "");
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.form = PatchForm::kQuads; }), "another form"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles = {}; }), "not those of the boundary"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.points[0].x += 1; }), "not those of the boundary"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.triangles[0][1] = 1 << 30; }), "no point"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.triangles[0][1] = -1; }), "no point"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours.clear(); }), "without neighbours"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours[0][0] = -2; }), "without neighbours"));
+  EXPECT_TRUE(has(left([](PatchMesh&) { throw std::runtime_error("out of ideas"); }), "out of ideas"));
+}
+
+TEST_F(OwnStage, NeedsALetterAndWork) {
+  EXPECT_THROW(add_stage({'Y', "another", PatchForm::kTriangles, PatchForm::kTriangles, stage_work()}),
+               std::invalid_argument);
+  EXPECT_THROW(add_stage({'Q', "nothing", PatchForm::kTriangles, PatchForm::kTriangles, {}}),
+               std::invalid_argument);
+}
+
+/// A placement that sees the layers and the size elsewhere.
+class Curious final : public PointPlacement {
+ public:
+  std::string name() const override { return "curious"; }
+  double default_h_max() const override { return 1.4; }
+  double triangle_size(const std::array<Vec2, 3>& t, Cross cross, double delta) const override {
+    return linf_->triangle_size(t, cross, delta);
+  }
+  Candidates candidates(const FrontEdge& edge) const override {
+    most_layers = std::max(most_layers, edge.layer);
+    least_layer = std::min(least_layer, edge.layer);
+    worst = std::max(worst, std::abs(edge.delta_at({0.5, 0}) - 0.3));
+    return linf_->candidates(edge);
+  }
+  double length(Vec2 v, const Frame& frame) const override { return linf_->length(v, frame); }
+
+  inline static int most_layers = 0, least_layer = 1000;
+  inline static double worst = 0;
+
+ private:
+  std::unique_ptr<PointPlacement> linf_ = make_linf_delquad();
+};
+
+TEST(OwnPlacement, KnowsLayersAndTheSizeElsewhere) {
+  if (std::ranges::find(stage_registry(), 'W', &Stage::letter) == stage_registry().end())
+    add_stage(insertion_stage('W', "curious", [](const Options&) { return std::make_unique<Curious>(); }));
+  MeshProblem problem = disc();
+  problem.size.field = make_function_size([](const Vec3& x) { return 0.25 + 0.1 * x.x; }, "slope");
+  const RunResult result = run(problem, "W");
+  EXPECT_EQ(Curious::least_layer, 1);
+  EXPECT_EQ(Curious::most_layers, result.log.summaries.number("insertion", "layers"));
+  EXPECT_GT(Curious::most_layers, 2);
+  EXPECT_LT(Curious::worst, 1e-12);
+}
+
+/// Gives what the test wants.
+struct Fake final : MatchingSolver {
+  std::function<void(const MatchingGraph&, MatchingResult&)> spoil;
+  explicit Fake(std::function<void(const MatchingGraph&, MatchingResult&)> spoil_)
+      : spoil(std::move(spoil_)) {}
+  std::string name() const override { return "fake"; }
+  MatchingResult solve(const MatchingGraph& graph) const override {
+    MatchingResult result = matching_solver("lemon")->solve(graph);
+    if (result.status == MatchingStatus::kOptimal) spoil(graph, result);
+    return result;
+  }
+};
+
+std::function<void(const MatchingGraph&, MatchingResult&)>& solver_work() {
+  static std::function<void(const MatchingGraph&, MatchingResult&)> work;
+  return work;
+}
+
+class OwnSolver : public testing::Test {
+ protected:
+  OwnSolver() {
+    if (std::ranges::count(matching_solver_names(), "fake") == 0)
+      add_matching_solver("fake", [](const Options&) {
+        return std::make_unique<Fake>([](const auto& graph, auto& result) { solver_work()(graph, result); });
+      });
+    problem_.options.set("recombination.solver", "fake");
+  }
+  std::string with(std::function<void(MatchingResult&)> spoil) {
+    solver_work() = [spoil = std::move(spoil)](const MatchingGraph&, MatchingResult& result) {
+      spoil(result);
+    };
+    return complaint(problem_, "DB");
+  }
+  MeshProblem problem_ = disc();
+};
+
+TEST_F(OwnSolver, IsChosenByItsOption) {
+  solver_work() = [](const MatchingGraph& graph, MatchingResult& result) {
+    result.fields = {{"nodes", static_cast<long long>(graph.n_nodes)}};
+  };
+  const RunResult own = run(problem_, "DB"), usual = run(disc(), "DB");
+  EXPECT_EQ(own.log.summaries.number("recombination", "nodes"),
+            own.log.summaries.number("recombination", "triangles"));
+  EXPECT_EQ(usual.log.summaries.find("recombination")->find("nodes"), nullptr);
+  EXPECT_EQ(own.mesh.quads, usual.mesh.quads);
+}
+
+TEST_F(OwnSolver, ItsResultsAreChecked) {
+  EXPECT_EQ(with([](MatchingResult&) {}), "");
+  EXPECT_TRUE(has(with([](MatchingResult& r) { r.mate.pop_back(); }), "'fake': its result has"));
+  EXPECT_TRUE(has(with([](MatchingResult& r) { std::ranges::reverse(r.mate); }), "no perfect matching"));
+  EXPECT_TRUE(
+      has(with([](MatchingResult& r) { r.mate.assign(r.mate.size(), 1 << 30); }), "no perfect matching"));
+  EXPECT_TRUE(has(with([](MatchingResult& r) { ++r.cost; }), "it costs"));
+  EXPECT_TRUE(has(with([](MatchingResult&) { throw std::runtime_error("no time"); }), "no time"));
+}
+
+TEST(Solvers, MistakesAreNamed) {
+  expect_input_error([] { matching_solver("lemom"); }, {"'lemom'", "known: lemon", "did you mean 'lemon'?"});
+  EXPECT_THROW(add_matching_solver("lemon", {}), std::invalid_argument);
+  EXPECT_THROW(add_matching_solver("", {}), std::invalid_argument);
+}
+
+std::function<double(const MetricInput&)>& metric_work() {
+  static std::function<double(const MetricInput&)> work;
+  return work;
+}
+
+TEST(OwnMetrics, AreMeasuredWithTheOthers) {
+  const auto measured = [](std::function<double(const MetricInput&)> work) {
+    metric_work() = std::move(work);
+    if (find_metric("own") == nullptr)
+      add_metric({"own", "own", "", Better::kLower, 1, "a test"},
+                 [](const MetricInput& in) { return metric_work()(in); });
+    return run(disc(), "DB").metrics;
+  };
+  const MeshMetrics good = measured([](const MetricInput& in) {
+    int hint = -1;
+    return static_cast<double>(in.mesh.quads.size()) + in.size->at({0, 0, 0}, hint) +
+           in.options.number("optimisation.size");
+  });
+  EXPECT_DOUBLE_EQ(good.values.at("own"), good.values.at("n_quads") + 0.2 + 0.4);
+  EXPECT_TRUE(good.failures.empty());
+  const MeshMetrics undefined = measured([](const MetricInput&) { return std::nan(""); });
+  EXPECT_TRUE(std::isnan(undefined.values.at("own")) && undefined.failures.empty());
+  const MeshMetrics thrown =
+      measured([](const MetricInput&) -> double { throw std::runtime_error("no solution"); });
+  EXPECT_TRUE(std::isnan(thrown.values.at("own")));
+  EXPECT_EQ(thrown.failures.at("own"), "no solution");
+  EXPECT_EQ(thrown.values.at("n_quads"), good.values.at("n_quads"));
+  const MeshMetrics odd = measured([](const MetricInput&) -> double { throw 3; });
+  EXPECT_TRUE(has(odd.failures.at("own"), "no std::exception"));
+  const MeshMetrics infinite = measured([](const MetricInput&) { return INFINITY; });
+  EXPECT_TRUE(std::isnan(infinite.values.at("own")));
+  EXPECT_TRUE(has(infinite.failures.at("own"), "infinite"));
+  EXPECT_THROW(measured([](const MetricInput&) -> double { throw Cancelled("stop"); }), Cancelled);
+  metric_work() = [](const MetricInput&) { return 0.0; };
+}
+
+TEST(OwnMetrics, MistakesOfProgrammersAreNamed) {
+  const auto measure = [](const MetricInput&) { return 0.0; };
+  EXPECT_THROW(add_metric({"tau", "tau", "", Better::kHigher, 0, ""}, measure), std::invalid_argument);
+  EXPECT_THROW(add_metric({"", "", "", Better::kHigher, 0, ""}, measure), std::invalid_argument);
+  EXPECT_THROW(add_metric({"nothing", "", "", Better::kHigher, 0, ""}, {}), std::invalid_argument);
+  EXPECT_EQ(find_metric("nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace delquad

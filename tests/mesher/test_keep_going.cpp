@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cases/problem.h"
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/triangulated_shapes.h"
+
+namespace delquad {
+namespace {
+
+/// A cube, prepared for meshing, of which faces can be damaged.
+class KeepGoing : public ::testing::Test {
+ protected:
+  KeepGoing() {
+    const Mesh cube = testing_support::box(1);
+    std::ofstream out(folder_ / "cube.off");
+    out << "OFF\n" << cube.points.size() << " " << cube.triangles.size() << " 0\n";
+    for (const Vec3& p : cube.points) out << p.x << " " << p.y << " " << p.z << "\n";
+    for (const auto& v : cube.triangles) out << "3 " << v[0] << " " << v[1] << " " << v[2] << "\n";
+    out.close();
+    case_.name = "cube";
+    case_.where = "cube.off";
+    case_.surface_file = folder_ / "cube.off";
+    case_.size.base = "0.25";
+    prepared_ = prepare_case(case_);
+  }
+  /// Makes the boundary of a patch cross itself.
+  void damage(int patch) {
+    auto& points = prepared_.patches[patch].boundary.points;
+    std::swap(points[1], points[9]);
+  }
+  RunResult run() { return run_word(prepared_, parse_word("DB")); }
+
+  testing_support::TemporaryFolder folder_;
+  Case case_;
+  PreparedProblem prepared_;
+};
+
+TEST_F(KeepGoing, NothingIsLeftOutOfASoundModel) {
+  prepared_.keep_going = true;
+  const RunResult result = run();
+  EXPECT_TRUE(result.failures.empty());
+  EXPECT_EQ(result.mesh.quads.size(), 96u);
+  ASSERT_TRUE(result.surface);
+  EXPECT_TRUE(result.surface->mesh.watertight());
+  EXPECT_EQ(result.surface->nonconforming_edges.count, 0);
+}
+
+TEST_F(KeepGoing, WithoutItTheFaceIsNamed) {
+  damage(2);
+  expect_input_error([&] { run(); }, {"cube.off: face 3: ", "cross"});
+}
+
+TEST_F(KeepGoing, TheRestIsMeshed) {
+  prepared_.keep_going = true;
+  damage(2);
+  const RunResult result = run();
+  ASSERT_EQ(result.failures.size(), 1u);
+  EXPECT_EQ(result.failures[0].face, 2);
+  EXPECT_EQ(result.failures[0].reason.rfind("face 3: ", 0), 0u) << result.failures[0].reason;
+  EXPECT_EQ(result.mesh.quads.size(), 80u);
+  EXPECT_EQ(std::count(result.mesh.quad_region.begin(), result.mesh.quad_region.end(), 2), 0);
+  EXPECT_EQ(result.mesh.lines.size(), 12u * 4);  // all of them still bound another face
+  EXPECT_EQ(result.surface->mesh.free_edges, 16);
+  EXPECT_EQ(result.surface->nonconforming_edges.count, 0) << "free where the model without the face is";
+}
+
+TEST_F(KeepGoing, LinesAndPointsOfMissingFacesGo) {
+  prepared_.keep_going = true;
+  // Two that share a curve, which bounds nothing then.
+  damage(0);
+  damage(2);
+  const RunResult result = run();
+  EXPECT_EQ(result.failures.size(), 2u);
+  EXPECT_EQ(result.mesh.lines.size(), 11u * 4);
+  EXPECT_TRUE(check_invariants(result.mesh).empty());
+}
+
+TEST_F(KeepGoing, SomeFaceMustRemain) {
+  prepared_.keep_going = true;
+  for (int p = 0; p < 6; ++p) damage(p);
+  expect_input_error([&] { run(); }, {"no face can be meshed: face 1"});
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,41 @@
+#include "mesher/lift_bad_quads.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fields/fields.h"
+#include "mesher/prepare_surface.h"
+#include "mesher/runner.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+namespace surfaces = testing_support;
+
+/// A ball with noise: bends sharper than any size, and no curve along them.
+SurfaceModel rough_ball(int seed, double noise) {
+  SurfaceModel model = surfaces::round_sphere(5);
+  std::mt19937_64 random(seed);
+  for (Vec3& p : model.fine.points) p = (1 + noise * (2 * shapes::uniform(random) - 1)) * p;
+  return model;
+}
+
+TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
+  double rings = 0;
+  for (int seed = 0; seed < 8; ++seed) {
+    MeshProblem c;
+    c.name = c.where = "ball";
+    const PreparedProblem prepared =
+        prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4), [](double) {});
+    const RunResult result = run_word(prepared, parse_word("DB"));
+    rings += result.log.summaries.number("lift_bad_quads", "rings");
+    EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
+  }
+  EXPECT_GT(rings, 0);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,139 @@
+#include "mesher/part_twins.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "fields/fields.h"
+#include "geometry/surface/triangulated_model.h"
+#include "mesher/prepare_surface.h"
+#include "mesher/runner.h"
+#include "tests/support/quad_patches.h"
+#include "tests/support/triangulated_shapes.h"
+
+namespace delquad {
+namespace {
+
+// With four to eight nodes on the circle both caps have chords between the same two of them, or are one quad
+// each. check_invariants() says where an edge has more than two elements or two elements have the same nodes.
+TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
+  MeshProblem c;
+  c.name = c.where = "lens";
+  for (const double height : {0.45, 0.7})
+    for (const double size : {5.0, 1.5, 1.2, 1.0, 0.8, 0.6}) {
+      const PreparedProblem prepared =
+          prepare_surface(c, make_surface_model(testing_support::lens(64, 12, height)),
+                          make_constant_size(size), [](double) {});
+      for (const char* word : {"F", "D", "DL", "FB", "DB", "PB", "DLB", "DBC", "DBCO"}) {
+        SCOPED_TRACE(std::string(word) + " " + std::to_string(size) + " " + std::to_string(height));
+        const RunResult result = run_word(prepared, parse_word(word));
+        EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
+        EXPECT_EQ(result.surface->mesh.euler_characteristic, 2);
+        EXPECT_TRUE(result.surface->mesh.watertight());
+      }
+    }
+}
+
+/// Two faces of two triangles or one quad each on the same four nodes, as a pillow has.
+class Pillow : public testing::Test {
+ protected:
+  Pillow() {
+    prepared.patches.resize(2);
+    for (const bool mirrored : {false, true}) {
+      PreparedPatch& patch = prepared.patches[mirrored];
+      patch.boundary.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+      patch.boundary.point_node = mirrored ? std::vector<int>{1, 0, 3, 2} : std::vector<int>{0, 1, 2, 3};
+      patch.size = std::make_shared<UniformSize>();
+      patches[mirrored].quads.points = patches[mirrored].triangles.points = patch.boundary.points;
+      patches[mirrored].quads.n_boundary = patches[mirrored].triangles.n_boundary = 4;
+    }
+  }
+
+  struct UniformSize : ParametricSize {
+    double at(Vec2, int&) const override { return 0.5; }
+  };
+
+  PreparedProblem prepared;
+  std::vector<PatchMesh> patches{2};
+  const std::vector<char> left_out{0, 0};
+  Options options;
+  SurfaceNodes nodes;
+  const AllPatches all{prepared, options, patches, left_out, nodes};
+};
+
+TEST_F(Pillow, AChordBetweenTheSameNodesIsPartedInOneOfThem) {
+  for (PatchMesh& patch : patches) patch.form = PatchForm::kTriangles;
+  patches[0].triangles.triangles = {{0, 1, 2}, {0, 2, 3}};
+  patches[0].triangles.neighbours = {{-1, 1, -1}, {-1, -1, 0}};
+  patches[1].triangles.triangles = {{0, 1, 3}, {1, 2, 3}};
+  patches[1].triangles.neighbours = {{1, -1, -1}, {-1, 0, -1}};
+  const auto first = patches[0].triangles.triangles;
+  part_twins(all);
+  EXPECT_EQ(patches[0].triangles.triangles, first);
+  const TriPatch& parted = patches[1].triangles;
+  ASSERT_EQ(parted.points.size(), 5u);
+  EXPECT_EQ(parted.points[4], Vec2(0.5, 0.5));
+  ASSERT_EQ(parted.triangles.size(), 4u);
+  for (int t = 0; t < 4; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = parted.triangles[t][(k + 1) % 3], b = parted.triangles[t][(k + 2) % 3];
+      const int n = parted.neighbours[t][k];
+      EXPECT_EQ(n < 0, a < 4 && b < 4);
+      if (n < 0) continue;
+      const auto& beside = parted.triangles[n];
+      EXPECT_EQ(std::ranges::count(beside, a) + std::ranges::count(beside, b), 2);
+    }
+  part_twins(all);
+  EXPECT_EQ(patches[1].triangles.triangles.size(), 4u);
+}
+
+TEST_F(Pillow, OfTwoQuadsOnTheSameNodesOneGetsARing) {
+  for (PatchMesh& patch : patches) patch.form = PatchForm::kQuads, patch.quads.quads = {{0, 1, 2, 3}};
+  part_twins(all);
+  EXPECT_EQ(patches[0].quads.quads.size(), 1u);
+  EXPECT_EQ(patches[1].quads.quads.size(), 5u);
+  part_twins(all);
+  EXPECT_EQ(patches[1].quads.quads.size(), 5u);
+}
+
+/// Pairs of quads that share two sides of one node, of patches whose boundaries have the same nodes.
+int two_sides_in_common(const std::vector<PatchMesh>& patches, const PreparedProblem& prepared) {
+  std::set<std::array<int, 3>> corners;
+  int pairs = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (const auto& quad : patches[p].quads.quads)
+      for (int k = 0; k < 4; ++k) {
+        const auto node = [&](int i) {
+          const int v = quad[i % 4], n = patches[p].quads.n_boundary;
+          return v < n ? prepared.patches[p].boundary.point_node[v] : 1000 * (1 + static_cast<int>(p)) + v;
+        };
+        const auto [low, high] = std::minmax({node(k + 1), node(k + 3)});
+        pairs += !corners.insert({node(k), low, high}).second;
+      }
+  return pairs;
+}
+
+TEST_F(Pillow, NoTwoQuadsShareTwoSides) {
+  for (const int n : {1, 2, 5}) {
+    for (const bool mirrored : {false, true}) {
+      const QuadPatch grid = testing_support::grid_patch(n, n);
+      PatchMesh& patch = patches[mirrored];
+      patch.form = PatchForm::kQuads;
+      patch.quads = grid;
+      PatchBoundary& boundary = prepared.patches[mirrored].boundary;
+      boundary = shapes::rectangle(n, n, n, n);
+      // The other side of the pillow runs round the other way.
+      if (mirrored)
+        for (int i = 0; i < 4 * n; ++i) boundary.point_node[i] = (4 * n - i) % (4 * n);
+    }
+    EXPECT_GT(two_sides_in_common(patches, prepared), 0) << n;
+    const PartingSummary summary = part_twins(all);
+    EXPECT_EQ(two_sides_in_common(patches, prepared), 0) << n;
+    EXPECT_EQ(summary.corners_left, 0) << n;
+    for (const PatchMesh& patch : patches) EXPECT_TRUE(QuadTopology(patch.quads).check_invariants().empty());
+  }
+}
+
+}  // namespace
+}  // namespace delquad

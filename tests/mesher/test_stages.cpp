@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include "mesher/stages.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+TEST(Words, SomeMayLeaveTriangles) {
+  for (const char* word : {"FB", "DBC", "DLBCO"}) EXPECT_TRUE(parse_word(word).quads_only()) << word;
+  for (const char* word : {"FG", "DT", "FGC", "F"}) EXPECT_FALSE(parse_word(word).quads_only()) << word;
+  expect_input_error([] { parse_word("FGB"); }, {"'B'", "quads"});
+}
+
+TEST(Words, AreReadFromLeftToRight) {
+  const Word d = parse_word("D");
+  ASSERT_EQ(d.stages.size(), 1u);
+  EXPECT_EQ(d.stages[0]->letter, 'D');
+  EXPECT_EQ(d.result, PatchForm::kTriangles);
+  const Word fb = parse_word("FB");
+  ASSERT_EQ(fb.stages.size(), 2u);
+  EXPECT_EQ(fb.stages[0]->letter, 'F');
+  EXPECT_EQ(fb.stages[1]->letter, 'B');
+  EXPECT_EQ(fb.result, PatchForm::kQuads);
+  EXPECT_EQ(parse_word("PB").result, PatchForm::kQuads);
+}
+
+TEST(Words, SmoothingComesBetween) {
+  for (const char* text : {"FL", "DL", "FLB", "DLB", "FLLB"}) EXPECT_EQ(parse_word(text).text, text);
+  EXPECT_EQ(parse_word("DL").result, PatchForm::kTriangles);
+  EXPECT_EQ(parse_word("DLB").result, PatchForm::kQuads);
+  expect_input_error([] { parse_word("L"); }, {"'L' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_word("DBL"); }, {"'L' starts from triangles", "leaves quads"});
+}
+
+TEST(Words, StagesOnQuadsFollowRecombination) {
+  EXPECT_EQ(parse_word("DBC").result, PatchForm::kQuads);
+  EXPECT_EQ(parse_word("FBCO").stages.size(), 4u);
+  EXPECT_EQ(parse_word("DBO").result, PatchForm::kQuads);
+  expect_input_error([] { parse_word("DC"); }, {"'C' starts from quads", "leaves triangles"});
+}
+
+TEST(Words, MistakesNameTheLetter) {
+  expect_input_error([] { parse_word(""); }, {"F (", "D (", "B ("});
+  expect_input_error([] { parse_word("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});
+  expect_input_error([] { parse_word("db"); }, {"'d'"});
+  expect_input_error([] { parse_word("B"); }, {"'B' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_word("FD"); }, {"'D' starts from a boundary", "leaves triangles"});
+  expect_input_error([] { parse_word("DBB"); }, {"'B' starts from triangles", "leaves quads"});
+}
+
+TEST(Words, LettersDiffer) {
+  std::string letters;
+  for (const Stage& stage : stage_registry()) {
+    EXPECT_EQ(letters.find(stage.letter), std::string::npos) << stage.letter;
+    letters += stage.letter;
+  }
+}
+
+TEST(StageLogs, SumEachStep) {
+  StageLog log;
+  log.add_seconds("insertion", 1);
+  log.add_seconds("matching", 2);
+  log.add_seconds("insertion", 3);
+  EXPECT_EQ(log.seconds, (std::vector<std::pair<std::string, double>>{{"insertion", 4}, {"matching", 2}}));
+}
+
+}  // namespace
+}  // namespace delquad

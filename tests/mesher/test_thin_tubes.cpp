@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fields/fields.h"
+#include "geometry/surface/surface_editor.h"
+#include "mesher/prepare_surface.h"
+#include "mesher/runner.h"
+#include "metrics/metrics.h"
+#include "tests/support/polygon_face.h"
+#include "tests/support/surfaces.h"
+
+namespace delquad {
+namespace {
+
+namespace surfaces = testing_support;
+
+PreparedProblem prepared_surface(SurfaceModel model, double size) {
+  MeshProblem c;
+  c.name = c.where = "tube";
+  return prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
+}
+
+/// Elements do not meet themselves, and no two have the same vertices.
+RunResult mesh_of(const PreparedProblem& prepared, const char* word) {
+  RunResult result = run_word(prepared, parse_word(word));
+  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
+  return result;
+}
+
+RunResult mesh_of(SurfaceModel model, double size, const char* word) {
+  return mesh_of(prepared_surface(std::move(model), size), word);
+}
+
+double worst_eta(const Mesh& mesh) {
+  const std::vector<double> etas = quad_etas(mesh);
+  return *std::min_element(etas.begin(), etas.end());
+}
+
+TEST(ThinTubes, QuadsDoNotMeetThemselvesAround) {
+  for (const double size : {0.2, 0.5, 1.0, 2.0}) {
+    const RunResult result = mesh_of(surfaces::cylinder(16, 96, 0.1, 4), size, "DB");
+    EXPECT_TRUE(result.mesh.triangles.empty());
+    EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
+    EXPECT_GT(worst_eta(result.mesh), 0.3) << size;
+  }
+}
+
+TEST(ThinTubes, TwoQuadsMeetAtAPointedTip) {
+  for (const double degrees : {2, 5, 10, 20, 33}) {
+    const double half_angle = degrees * std::numbers::pi / 180;
+    for (const double size : {0.07, 0.2}) {
+      const RunResult result = mesh_of(surfaces::cone(48, 24, half_angle), size, "DB");
+      EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
+      const auto at_tip = std::ranges::count_if(result.mesh.quads, [&](const auto& quad) {
+        return std::ranges::any_of(quad, [&](int v) { return norm(result.mesh.points[v]) < 1e-12; });
+      });
+      EXPECT_EQ(at_tip, 2) << degrees << " " << size;
+      // Their sides lie on opposite generators.
+      EXPECT_GT(worst_eta(result.mesh), std::min(0.3, 0.95 * degrees / 45)) << degrees << " " << size;
+      EXPECT_EQ(result.bad_elsewhere, 0);
+    }
+  }
+}
+
+TEST(ThinTubes, ATipDoesNotKeepTheRestFromTreatment) {
+  // Where treatment leaves but two quads around, the whole patch keeps what the matching left: flat boundary
+  // corners.
+  for (const auto& [half_angle, n] : {std::pair(0.05, 76), {0.05, 88}, {0.066, 64}, {0.09, 94}})
+    EXPECT_EQ(mesh_of(surfaces::cone(48, 64, half_angle), 1.0 / n, "DB").bad_elsewhere, 0)
+        << half_angle << " " << n;
+}
+
+TEST(ThinTubes, VerticesMoveBesideTips) {
+  const RunResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
+  EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
+  EXPECT_GT(worst_eta(result.mesh), 0.9 * 0.15 / (std::numbers::pi / 4));
+}
+
+TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
+  PreparedProblem prepared =
+      prepared_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
+  ASSERT_EQ(prepared.sharp_corners.size(), 1u);
+  EXPECT_LT(prepared.sharp_corners[0].eta_bound, 0.1);
+  const RunResult result = mesh_of(prepared, "DB");
+  EXPECT_EQ(result.bad_in_corners, 1);
+  EXPECT_EQ(result.bad_elsewhere, 0);
+  prepared.sharp_corners[0].eta_bound *= 1.5;
+  const RunResult other = mesh_of(prepared, "DB");
+  EXPECT_EQ(other.bad_in_corners, 0);
+  EXPECT_EQ(other.bad_elsewhere, 1);
+}
+
+/// A square of side 10 with a slit from the middle of a side to its centre, in so many lines.
+SurfaceModel slit_square(int lines) {
+  const int n = 2 * lines;
+  SurfaceModel model = surfaces::grid_surface({n, n}, [](double u, double v) {
+    return Vec3{10 * u, 10 * v, 0};
+  });
+  std::vector<int> chain;
+  for (int i = 0; i <= lines; ++i) {
+    const Vec3 x{5.0 * i / lines, 5, 0};
+    const auto at =
+        std::ranges::find_if(model.fine.points, [&](const Vec3& p) { return norm(p - x) < 1e-9; });
+    chain.push_back(static_cast<int>(at - model.fine.points.begin()));
+  }
+  SurfaceEditor editor(model);
+  editor.add_curve(chain);
+  editor.finish();
+  model.corners = {chain.front(), chain.back()};
+  std::ranges::sort(model.corners);
+  return model;
+}
+
+TEST(ThinTubes, ASlitIsNone) {
+  for (const int lines : {1, 5})
+    for (const double size : {0.5, 1.0, 2.0}) {
+      const RunResult result = mesh_of(slit_square(lines), size, "DB");
+      EXPECT_LT(static_cast<double>(result.mesh.quads.size()), 1.5 * 100 / (size * size))
+          << lines << " " << size;
+      EXPECT_GT(worst_eta(result.mesh), 0.3) << lines << " " << size;
+    }
+}
+
+TEST(ThinTubes, TrianglesCoverThemToo) {
+  EXPECT_EQ(mesh_of(surfaces::cylinder(16, 96, 0.1, 4), 1, "D").surface->mesh.euler_characteristic, 0);
+  EXPECT_EQ(mesh_of(surfaces::cone(48, 24, 0.15), 0.2, "D").surface->mesh.euler_characteristic, 1);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,114 @@
+"""What can be meshed."""
+
+import math
+
+import numpy as np
+import pytest
+
+import delquad
+from shapes import SQUARE, area, octahedron, square
+
+
+def test_polygons_with_a_hole():
+    hole = 0.4 + 0.2 * np.array(SQUARE)
+    r = delquad.mesh(delquad.polygons([SQUARE, hole]), size=0.05)
+    assert area(r) == pytest.approx(1 - 0.04)
+    assert len(r.triangles) == 0 and r.sound and r.unsound == []
+
+
+def test_planar_curves_and_their_names():
+    sides = [
+        delquad.segment((0, 0), (2, 0), name="bottom"),
+        delquad.arc((2, 1), 1, -math.pi / 2, math.pi / 2, name="right"),
+        delquad.polyline([(2, 2), (1, 2), (0, 2)], name="top"),
+        delquad.segment((0, 2), (0, 0), name="left"),
+    ]
+    hole = delquad.circle((1, 1), 0.4, name="hole")
+    r = delquad.mesh(delquad.planar([delquad.loop(sides, region="plate"), [hole]]), size=0.1)
+    assert [names for _, names in r.regions] == [["plate"]]
+    assert {names[0] for _, names in r.curves} == {"bottom", "right", "top", "left", "hole"}
+    assert area(r) == pytest.approx(4 + math.pi / 2 - math.pi * 0.16, rel=5e-3)
+    index = [names for _, names in r.curves].index(["hole"])
+    on_hole = r.points[np.unique(r.lines[r.line_curve == index])]
+    assert np.hypot(*(on_hole[:, :2] - 1).T) == pytest.approx(0.4, abs=1e-12)
+
+
+def test_a_filled_hole_shares_its_curve():
+    circle = delquad.circle((0.5, 0.5), 0.3)
+    outer = [delquad.polyline(SQUARE + SQUARE[:1])]
+    model = delquad.planar([delquad.loop(outer, region="a"), delquad.loop([circle], region="b")])
+    r = delquad.mesh(model, size=0.1)
+    assert sorted(names[0] for _, names in r.regions) == ["a", "b"]
+    assert area(r) == pytest.approx(1)
+
+
+def test_curve_functions_get_arrays():
+    calls = []
+
+    def ellipse(t):
+        calls.append(t.shape)
+        return np.column_stack([2 * np.cos(t), np.sin(t)])
+
+    r = delquad.mesh(delquad.planar([[delquad.curve(ellipse, 0, 2 * np.pi, name="rim")]]), size=0.1)
+    x, y = r.points[np.unique(r.lines)][:, :2].T
+    assert x**2 / 4 + y**2 == pytest.approx(1, abs=1e-8)
+    assert 0 < len(calls) < 10 and all(len(shape) == 1 for shape in calls)
+
+
+def test_lines_are_kept():
+    points = np.array(SQUARE, dtype=float)
+    n = 10
+    corners = np.repeat(points, n, axis=0)
+    ring = corners + np.tile(np.arange(n) / n, 4)[:, None] * (np.roll(corners, -n, axis=0) - corners)
+    lines = np.column_stack([np.arange(4 * n), np.roll(np.arange(4 * n), -1)])
+    r = delquad.mesh(delquad.lines(ring, lines, np.repeat(np.arange(4), n)))
+    assert len(r.lines) == 4 * n and len(r.curves) == 4
+    assert {tuple(p) for p in ring} <= {tuple(p[:2]) for p in r.points}
+
+
+def test_triangles_of_lists_and_arrays():
+    points, triangles = octahedron()
+    r = delquad.mesh(delquad.triangles(points.tolist(), triangles.tolist()), size=0.3)
+    assert area(r) == pytest.approx(4 * math.sqrt(3), rel=1e-6)
+    assert r.sound and len(r.regions) == 8
+    one = delquad.mesh(delquad.triangles(points, triangles), 0.3, compounds="all")
+    assert len(one.regions) == 1
+
+
+def test_examples():
+    assert "bracket" in delquad.examples()
+    r = delquad.mesh(delquad.example("bracket"), size=10, word="DB")
+    assert r.sound and len(r.quads) > 100
+
+
+def test_files(tmp_path):
+    r = delquad.mesh(square(), size=0.2)
+    r.write(tmp_path / "square.msh")
+    again = delquad.mesh(tmp_path / "square.msh")
+    assert len(again.lines) == len(r.lines)
+    assert delquad.mesh(str(tmp_path / "square.msh"), size="boundary").metrics == again.metrics
+    (tmp_path / "drawn.toml").write_text('size = 0.1\n[[loop]]\nrectangle = [[0, 0], [2, 1]]\nregion = "fluid"\n')
+    drawn = delquad.mesh(tmp_path / "drawn.toml")
+    assert len(drawn.quads) == 200 and drawn.regions == [(1, ["fluid"])]
+    assert len(delquad.mesh(tmp_path / "drawn.toml", size=0.2).quads) == 50
+
+
+def test_a_mesh_is_a_model():
+    points, triangles = octahedron()
+    first = delquad.mesh(delquad.triangles(points, triangles), size=0.5)
+    again = delquad.mesh(first, size=0.3)
+    assert area(again) == pytest.approx(area(first))
+
+
+def test_cad_from_bytes():
+    r = delquad.mesh(delquad.cad(delquad.example_step("bracket")), size=10, word="DB")
+    same = delquad.mesh(delquad.example("bracket"), size=10, word="DB")
+    assert len(r.quads) == len(same.quads)
+
+
+def test_cad_from_a_file(tmp_path):
+    step = tmp_path / "bracket.step"
+    step.write_bytes(delquad.example_step("bracket"))
+    r = delquad.mesh(step, size=10, word="DB")
+    same = delquad.mesh(delquad.example("bracket"), size=10, word="DB")
+    assert len(r.quads) == len(same.quads)
