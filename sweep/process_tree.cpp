@@ -229,6 +229,8 @@ class Family {
       return {report.substr(0, line), report.substr(line + 1)};
     if (!WIFSIGNALED(status)) return {"crash", fmt::format("ended with exit code {}", WEXITSTATUS(status))};
     const int number = WTERMSIG(status);
+    if (number == SIGTERM || number == SIGINT || number == SIGHUP)
+      return {"interrupted", fmt::format("interrupted from outside ({})", strsignal(number))};
     return {"crash", fmt::format("ended by signal {} ({}){}", number, strsignal(number),
                                  number == SIGKILL ? ": perhaps the machine ran out of memory" : "")};
   }

@@ -9,7 +9,9 @@ namespace delquad {
 
 /// What becomes of a process that did not get to its end.
 struct ProcessFailure {
-  std::string kind;    ///< "bad input", "unsound", "peer", "internal error", "timeout", "memory" or "crash"
+  /// "bad input", "unsound", "peer", "internal error", "timeout", "memory", "crash"; or "interrupted", where
+  /// somebody else ended it, as a scheduler does: this says nothing of the work
+  std::string kind;
   std::string reason;  ///< for people
 };
 

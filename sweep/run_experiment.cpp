@@ -138,17 +138,18 @@ struct Work {
     fs::remove_all(scratch_of(cell.folder), ignored);
   }
 
+  /// Leaves a record of why there is no mesh; none where the cell was interrupted: it is to be made yet.
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
     remove_scratch(cell);
-    try {
-      write_cell(cell.folder, [&](const fs::path& at) {
-        write_file_atomically(at / "record.json", [&](std::ostream& out) {
-          out << failure_record(c, *cell.word, status, why.kind, why.reason, &cell.identity);
+    if (why.kind != "interrupted") try {
+        write_cell(cell.folder, [&](const fs::path& at) {
+          write_file_atomically(at / "record.json", [&](std::ostream& out) {
+            out << failure_record(c, *cell.word, status, why.kind, why.reason, &cell.identity);
+          });
         });
-      });
-    } catch (const InputError& error) {
-      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
-    }
+      } catch (const InputError& error) {
+        say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
+      }
     if (status == "failed")
       progress->failed();
     else

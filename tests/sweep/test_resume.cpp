@@ -138,6 +138,25 @@ TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
   for (const CellRecord& record : read_records(out())) EXPECT_EQ(record.kind, "timeout") << record.group;
 }
 
+/// A scheduler takes the machine away: that says nothing of the mesh.
+TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
+  const std::string flag = out("flag");
+  const std::string file =
+      write(kSweep + "[[metric]]\nname = \"one\"\ncommand = [\"sh\", \"-c\", '''[ -e " + flag +
+            " ] || { touch " + flag + "; kill -TERM $PPID; sleep 1; }; echo 1''', \"{mesh}\"]\n")
+          .string();
+  const auto first = program({"run", file, "-o", out()});
+  EXPECT_EQ(first.exit_code, 1) << first.err;
+  EXPECT_NE(first.err.find("interrupted from outside"), std::string::npos) << first.err;
+  EXPECT_NE(first.out.find("1 of 24 cells have no result yet"), std::string::npos) << first.out;
+  const auto before = record_times(out());
+  EXPECT_EQ(before.size(), std::size_t{kCells - 1});
+  EXPECT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  const auto after = record_times(out());
+  EXPECT_EQ(after.size(), std::size_t{kCells});
+  for (const auto& [path, time] : before) EXPECT_EQ(after.at(path), time) << path;
+}
+
 TEST_F(Resume, TablesLeaveOutWhatTheExperimentNoLongerHas) {
   run_experiment(Experiment::read(write(kSweep)), out());
   std::string fewer = kSweep;
