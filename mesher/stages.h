@@ -38,12 +38,10 @@ template <>
 struct Counters<PartingSummary> {
   using S = PartingSummary;
   static constexpr const char* step = "part_twins";
-  static constexpr auto all = std::tuple{counter("chords", &S::chords),
-                                         counter("left", &S::left),
-                                         counter("rings", &S::rings),
-                                         counter("corners", &S::corners),
-                                         counter("corners_left", &S::corners_left),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all =
+      std::tuple(counter("chords", &S::chords), counter("left", &S::left), counter("rings", &S::rings),
+                 counter("corners", &S::corners), counter("corners_left", &S::corners_left),
+                 counter("seconds", &S::seconds));
 };
 
 /// What became of quads that were bad in space, at the end.

@@ -37,18 +37,12 @@ template <>
 struct Counters<CleanupSummary> {
   using S = CleanupSummary;
   static constexpr const char* step = "cleanup";
-  static constexpr auto all = std::tuple{counter("irregular_before", &S::irregular_before),
-                                         counter("irregular_after", &S::irregular_after),
-                                         counter("rotations", &S::rotations),
-                                         counter("diamonds", &S::diamonds),
-                                         counter("doublets", &S::doublets),
-                                         counter("splits", &S::splits),
-                                         counter("openings", &S::openings),
-                                         counter("tried", &S::tried),
-                                         counter("annealed", &S::annealed),
-                                         counter("relocated", &S::relocated),
-                                         counter("looks", &S::looks),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple(
+      counter("irregular_before", &S::irregular_before), counter("irregular_after", &S::irregular_after),
+      counter("rotations", &S::rotations), counter("diamonds", &S::diamonds),
+      counter("doublets", &S::doublets), counter("splits", &S::splits), counter("openings", &S::openings),
+      counter("tried", &S::tried), counter("annealed", &S::annealed), counter("relocated", &S::relocated),
+      counter("looks", &S::looks), counter("seconds", &S::seconds));
 };
 
 /// Lowers the number of irregular vertices of a quad mesh.

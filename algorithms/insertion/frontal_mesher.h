@@ -44,14 +44,11 @@ template <>
 struct Counters<FrontalSummary> {
   using S = FrontalSummary;
   static constexpr const char* step = "insertion";
-  static constexpr auto all = std::tuple{counter("termination", &S::termination, Over::kMost),
-                                         counter("inserted", &S::inserted),
-                                         counter("packed", &S::packed),
-                                         counter("rejected", &S::rejected),
-                                         counter("unresolved", &S::unresolved),
-                                         counter("layers", &S::layers, Over::kMost),
-                                         counter("h_max", &S::h_max, Over::kMost),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all =
+      std::tuple(counter("termination", &S::termination, Over::kMost), counter("inserted", &S::inserted),
+                 counter("packed", &S::packed), counter("rejected", &S::rejected),
+                 counter("unresolved", &S::unresolved), counter("layers", &S::layers, Over::kMost),
+                 counter("h_max", &S::h_max, Over::kMost), counter("seconds", &S::seconds));
 };
 
 /// Frontal Delaunay mesher [paper, section 5]: layer by layer, largest active triangle first, one strategy

@@ -22,12 +22,10 @@ template <>
 struct Counters<AdaptationSummary> {
   using S = AdaptationSummary;
   static constexpr const char* step = "adaptation";
-  static constexpr auto all = std::tuple{counter("sweeps", &S::sweeps, Over::kMost),
-                                         counter("splits", &S::splits),
-                                         counter("collapses", &S::collapses),
-                                         counter("swaps", &S::swaps),
-                                         counter("moves", &S::moves),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all =
+      std::tuple(counter("sweeps", &S::sweeps, Over::kMost), counter("splits", &S::splits),
+                 counter("collapses", &S::collapses), counter("swaps", &S::swaps),
+                 counter("moves", &S::moves), counter("seconds", &S::seconds));
 };
 
 /// Adapts a triangulation to a size and a cross field by local edits, so that its edges have the length 1 in

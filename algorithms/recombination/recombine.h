@@ -23,18 +23,13 @@ template <>
 struct Counters<RecombineSummary> {
   using S = RecombineSummary;
   static constexpr const char* step = "recombination";
-  static constexpr auto all = std::tuple{counter("triangles", &S::triangles),
-                                         counter("split_chords", &S::split_chords),
-                                         counter("extra_edges", &S::extra_edges),
-                                         counter("matched_extra", &S::matched_extra),
-                                         counter("pentagon_swaps", &S::pentagon_swaps),
-                                         counter("duplications", &S::duplications),
-                                         counter("leftover_triangles", &S::leftover_triangles),
-                                         counter("cost", &S::cost),
-                                         counter("graph_seconds", &S::graph_seconds),
-                                         counter("matching_seconds", &S::matching_seconds),
-                                         counter("merge_seconds", &S::merge_seconds),
-                                         counter("solver", &S::solver)};
+  static constexpr auto all = std::tuple(
+      counter("triangles", &S::triangles), counter("split_chords", &S::split_chords),
+      counter("extra_edges", &S::extra_edges), counter("matched_extra", &S::matched_extra),
+      counter("pentagon_swaps", &S::pentagon_swaps), counter("duplications", &S::duplications),
+      counter("leftover_triangles", &S::leftover_triangles), counter("cost", &S::cost),
+      counter("graph_seconds", &S::graph_seconds), counter("matching_seconds", &S::matching_seconds),
+      counter("merge_seconds", &S::merge_seconds), counter("solver", &S::solver));
 };
 
 /// Merges the triangles of a patch two by two by minimum-cost perfect matching on the dual graph

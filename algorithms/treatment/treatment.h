@@ -27,16 +27,11 @@ template <>
 struct Counters<TreatmentSummary> {
   using S = TreatmentSummary;
   static constexpr const char* step = "treatment";
-  static constexpr auto all = std::tuple{counter("rounds", &S::rounds, Over::kMost),
-                                         counter("doublets", &S::doublets),
-                                         counter("diamonds", &S::diamonds),
-                                         counter("swaps", &S::swaps),
-                                         counter("openings", &S::openings),
-                                         counter("boundary_repairs", &S::boundary_repairs),
-                                         counter("ring_quads", &S::ring_quads),
-                                         counter("relocated", &S::relocated),
-                                         counter("looks", &S::looks),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple(
+      counter("rounds", &S::rounds, Over::kMost), counter("doublets", &S::doublets),
+      counter("diamonds", &S::diamonds), counter("swaps", &S::swaps), counter("openings", &S::openings),
+      counter("boundary_repairs", &S::boundary_repairs), counter("ring_quads", &S::ring_quads),
+      counter("relocated", &S::relocated), counter("looks", &S::looks), counter("seconds", &S::seconds));
 };
 
 /// The treatment after matching that the paper's tables include [Remacle et al. 2012, section 7; its

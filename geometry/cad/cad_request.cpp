@@ -12,50 +12,43 @@ namespace {
 /// To be changed with what is sent either way.
 constexpr int kProtocol = 1;
 
-template <class T>
-void put(std::ostream& out, const T& number) {
-  out.write(reinterpret_cast<const char*>(&number), sizeof number);
-}
-template <class T>
-void get(std::istream& in, T& number) {
-  in.read(reinterpret_cast<char*>(&number), sizeof number);
+/// Calls `visit` with every number of a request that has a fixed size, in the order in which they are sent.
+template <class Request, class Visit>
+void visit_numbers(Request& r, const Visit& visit) {
+  visit(r.source);
+  visit(r.options.deflection);
+  visit(r.options.angle);
+  visit(r.options.face_seconds);
+  visit(r.options.healing_seconds);
+  visit(r.threads);
+  visit(r.seconds);
+  visit(r.heals);
 }
 
 }  // namespace
 
 std::string to_bytes(const CadRequest& r) {
-  std::ostringstream out;
-  put(out, kProtocol);
-  put(out, r.source);
-  put(out, r.options.deflection);
-  put(out, r.options.angle);
-  put(out, r.options.face_seconds);
-  put(out, r.options.healing_seconds);
-  put(out, r.threads);
-  put(out, r.seconds);
-  put(out, r.heals);
-  put(out, r.late_faces.size());
-  out << to_bytes(r.late_faces) << r.text;
-  return out.str();
+  std::string bytes;
+  const auto put = [&](const auto& number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  put(kProtocol);
+  visit_numbers(r, put);
+  put(r.late_faces.size());
+  return bytes + to_bytes(r.late_faces) + r.text;
 }
 
 CadRequest request_from(const std::string& bytes) {
   std::istringstream in(bytes);
+  const auto get = [&](auto& number) { in.read(reinterpret_cast<char*>(&number), sizeof number); };
   int protocol = 0;
-  get(in, protocol);
+  get(protocol);
   if (protocol != kProtocol)
     throw InputError("the program that reads CAD files is of another version than the library that asks it");
   CadRequest r;
-  get(in, r.source);
-  get(in, r.options.deflection);
-  get(in, r.options.angle);
-  get(in, r.options.face_seconds);
-  get(in, r.options.healing_seconds);
-  get(in, r.threads);
-  get(in, r.seconds);
-  get(in, r.heals);
+  visit_numbers(r, get);
   std::size_t n_late = 0;
-  get(in, n_late);
+  get(n_late);
   const std::string rest = bytes.substr(static_cast<std::size_t>(in.tellg()));
   r.late_faces = numbers_from(rest.substr(0, n_late * sizeof(int)));
   r.text = rest.substr(n_late * sizeof(int));

@@ -17,7 +17,6 @@
 #include <OSD_ThreadPool.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <cmath>
@@ -32,6 +31,7 @@
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/shape_bytes.h"
 #include "geometry/cad/shape_file.h"
+#include "geometry/cad/sub_shapes.h"
 #include "geometry/cad/tessellate.h"
 #include "geometry/cad/unwind_faces.h"
 #include "geometry/cad/watch_kernel.h"
@@ -43,12 +43,6 @@ namespace {
 
 /// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
 constexpr double kSewing = 1e-6;
-
-TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, kind, map);
-  return map;
-}
 
 double diagonal_of(const TopoDS_Shape& shape) {
   Bnd_Box box;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/prepare_shape.h"
 #include "geometry/cad/shape_projector.h"
+#include "geometry/cad/sub_shapes.h"
 #include "geometry/cad/tessellate.h"
 #include "geometry/cad/weld_faces.h"
 #include "geometry/surface/report_edges.h"
@@ -26,12 +26,6 @@ namespace {
 /// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
 /// surfaces with a singular parametrisation, where Newton's method converges linearly.
 constexpr double kProjection = 1e-12;
-
-TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, kind, map);
-  return map;
-}
 
 /// Faces of each solid, and of each shell outside solids.
 std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {

@@ -56,19 +56,14 @@ struct Counters<SmoothingSummary> {
   using S = SmoothingSummary;
   static constexpr const char* step = "smoothing";
   static double weight(const S& summary) { return summary.cells; }
-  static constexpr auto all = std::tuple{counter("termination", &S::termination),
-                                         counter("cells", &S::cells),
-                                         counter("outer_iterations", &S::outer_iterations, Over::kMost),
-                                         counter("iterations", &S::iterations),
-                                         counter("evaluations", &S::evaluations),
-                                         counter("refused", &S::refused),
-                                         counter("flips", &S::flips),
-                                         counter("rebuilds", &S::rebuilds),
-                                         counter("first_energy", &S::first_energy, Over::kMean),
-                                         counter("final_energy", &S::final_energy, Over::kMean),
-                                         counter("gradient_norm", &S::gradient_norm, Over::kMost),
-                                         counter("seconds", &S::seconds),
-                                         counter("energy_by_evaluation", &S::samples)};
+  static constexpr auto all = std::tuple(
+      counter("termination", &S::termination), counter("cells", &S::cells),
+      counter("outer_iterations", &S::outer_iterations, Over::kMost), counter("iterations", &S::iterations),
+      counter("evaluations", &S::evaluations), counter("refused", &S::refused), counter("flips", &S::flips),
+      counter("rebuilds", &S::rebuilds), counter("first_energy", &S::first_energy, Over::kMean),
+      counter("final_energy", &S::final_energy, Over::kMean),
+      counter("gradient_norm", &S::gradient_norm, Over::kMost), counter("seconds", &S::seconds),
+      counter("energy_by_evaluation", &S::samples));
 };
 
 /// Moves the inner points of a patch so that their Voronoi cells become squares of side delta' along the

@@ -28,15 +28,11 @@ template <>
 struct Counters<OptimisationSummary> {
   using S = OptimisationSummary;
   static constexpr const char* step = "optimisation";
-  static constexpr auto all = std::tuple{counter("untangled", &S::untangled),
-                                         counter("held", &S::held),
-                                         counter("iterations", &S::iterations),
-                                         counter("evaluations", &S::evaluations),
-                                         counter("energy_before", &S::energy_before),
-                                         counter("energy_after", &S::energy_after),
-                                         counter("worst_before", &S::worst_before, Over::kLeast),
-                                         counter("worst_after", &S::worst_after, Over::kLeast),
-                                         counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple(
+      counter("untangled", &S::untangled), counter("held", &S::held), counter("iterations", &S::iterations),
+      counter("evaluations", &S::evaluations), counter("energy_before", &S::energy_before),
+      counter("energy_after", &S::energy_after), counter("worst_before", &S::worst_before, Over::kLeast),
+      counter("worst_after", &S::worst_after, Over::kLeast), counter("seconds", &S::seconds));
 };
 
 /// The least eta never falls below both this and what it was.
