@@ -10,6 +10,13 @@ namespace {
 
 constexpr int kMostDecimals = 9;
 
+/// Without the sign of what is rounded to 0.
+std::string fixed(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
 }  // namespace
 
 int decimals_of(double half_width, int digits) {
@@ -26,8 +33,18 @@ std::string half_width_text(double half_width, int decimals) {
 
 std::string interval_text(double value, const Interval& interval, int digits) {
   const int decimals = decimals_of((interval.high - interval.low) / 2, digits);
-  return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", value, decimals, interval.low, decimals, interval.high,
-                     decimals);
+  return fmt::format("{} [{}, {}]", fixed(value, decimals), fixed(interval.low, decimals),
+                     fixed(interval.high, decimals));
+}
+
+std::string p_text(double p) {
+  constexpr double kLeastShown = 0.0001;
+  return p < kLeastShown ? "< 0.0001" : fmt::format("{:.4f}", p);
+}
+
+std::string seconds_text(double seconds) {
+  constexpr double kTwoDecimals = 1;
+  return seconds < kTwoDecimals ? fmt::format("{:.3g}", seconds) : fmt::format("{:.2f}", seconds);
 }
 
 }  // namespace delquad

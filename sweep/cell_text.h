@@ -15,4 +15,9 @@ std::string half_width_text(double half_width, int decimals);
 /// "0.012 [0.010, 0.015]", with two significant digits of half the interval's width.
 std::string interval_text(double value, const Interval& interval, int digits);
 
+/// "0.0123"; "< 0.0001" below that.
+std::string p_text(double p);
+/// Seconds, with three significant digits or two decimals.
+std::string seconds_text(double seconds);
+
 }  // namespace delquad

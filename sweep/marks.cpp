@@ -96,7 +96,7 @@ std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<con
         "Single runs: a value that is better here need not be better on the same domain, turned a "
         "little. Nothing is marked as the best; that takes several seeds.");
   else if (too_few)
-    notes.push_back("Where nothing is marked there are too few seeds to tell.");
+    notes.push_back("Where nothing is marked, all are alike or there are too few seeds to tell.");
   if (mixed)
     notes.push_back(
         "Words that leave triangles do not compete in measures of quads (eta, d4 and the like), "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "sweep/cell_text.h"
@@ -51,6 +52,8 @@ TableRow row_of(const PairComparison& pair, const ClaimFamily& family) {
     row.values["high"] = interval->high;
     row.texts["effect"] = interval_text(effect, *interval, pair.metric.digits);
   }
+  for (const char* key : {"p", "p_corrected"})
+    if (!std::isnan(row.values[key])) row.texts[key] = p_text(row.values[key]);
   row.texts["first_is"] = in_words(pair, family);
   if (first_is_better(pair, family)) row.marks["effect"] = Mark::kBest;
   return row;

@@ -134,7 +134,8 @@ class RepeatedVariant {
     CellTimes& cell = cells_[i];
     for (int round = 0; round < experiment_.repeat_times && cell.failure.empty(); ++round) try {
         std::ifstream in(file_of(i, round));
-        for (const auto& [key, value] : Json::parse(in).items()) cell.seconds[key].push_back(value);
+        const Json json = Json::parse(in);
+        for (const auto& [key, value] : json.items()) cell.seconds[key].push_back(value);
       } catch (const Json::exception&) {
         cell.failure = fmt::format("{}: was not written", file_of(i, round).string());
       }

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
+#include <cctype>
+#include <string_view>
 
 #include "sweep/rendered_table.h"
 
@@ -13,9 +13,10 @@ namespace delquad {
 namespace {
 
 constexpr double kPageWidth = 345;    ///< points: \textwidth of LaTeX's classes on A4 at 10 points
-constexpr double kCharacter = 4.3;    ///< points: a figure at 8 points has 4.25, letters less on average
+constexpr double kFigure = 4.25;      ///< points, at 8 points
+constexpr double kBold = 1.15;        ///< times as wide
 constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
-constexpr double kMostOfNames = 130;  ///< points that one of the names' columns takes; longer ones are broken
+constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
 
 /// The next character of UTF-8 and its bytes; U+FFFD for what is none.
@@ -39,13 +40,16 @@ bool is_in_every_font(char32_t code) {
   return code >= 0xC0 && code <= 0xFF && kMissing.find(code) == kMissing.npos;
 }
 
+constexpr const char* kTilde = "$\\sim$";
+
 std::string tex_character(char c) {
   switch (c) {
     case '\\':
       return "\\textbackslash{}";
     case '^':
+      return "\\^{}";
     case '~':
-      return fmt::format("\\{}{{}}", c);
+      return kTilde;  // as marks have it
     case '<':
     case '>':
     case '|':
@@ -81,25 +85,32 @@ std::string tex_escaped(const std::string& text) {
 /// Comments end with their line.
 std::string in_one_line(const std::string& text) { return replace_all(text, "\n", " "); }
 
-constexpr TableStyle kTex = {"\\textbf{", "}", "$\\sim$", " $\\pm$ ", tex_escaped};
+constexpr TableStyle kTex = {"\\textbf{", "}", kTilde, " $\\pm$ ", tex_escaped};
 
-/// What a text takes, in characters: commands are at most one.
-std::size_t characters(const std::string& text) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\\') {
-      ++n;
-      if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
-      while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
-    } else if (c != '{' && c != '}' && c != '$' && (static_cast<unsigned char>(c) & 0xC0) != 0x80) {
-      ++n;
-    }
-  }
-  return n;
+/// In widths of a figure, rounded up.
+double width_of(char c) {
+  constexpr std::string_view kNarrow = " .,:;'!il|", kWide = "mwMW%";
+  if ((static_cast<unsigned char>(c) & 0xC0) == 0x80 || c == '{' || c == '}' || c == '$') return 0;
+  if (kNarrow.find(c) != kNarrow.npos) return 0.67;
+  if (kWide.find(c) != kWide.npos) return 2.1;
+  return c >= 'A' && c <= 'Z' ? 1.65 : 1.07;
 }
 
-double width_of(const std::string& text) { return kCharacter * static_cast<double>(characters(text)); }
+/// In points. Commands are signs, of at most two figures; bold is wider by a seventh.
+double width_of(const std::string& text) {
+  const bool is_bold = text.starts_with(kTex.best_begin);
+  double figures = 0;
+  for (std::size_t i = is_bold ? std::string_view(kTex.best_begin).size() : 0; i < text.size(); ++i) {
+    if (text[i] != '\\') {
+      figures += width_of(text[i]);
+      continue;
+    }
+    figures += 2;
+    if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
+    while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
+  }
+  return kFigure * figures * (is_bold ? kBold : 1);
+}
 
 /// With places where a long name may be broken: after what is no letter or figure, and in long words.
 std::string breakable(const std::string& text) {
@@ -143,7 +154,9 @@ class TexTable {
       names_[k] = std::min(width, kMostOfNames);
       broken_[k] = width > kMostOfNames;
     }
-    const double failed = width_of("skipped");
+    const bool is_missing =
+        std::ranges::any_of(rendered_.lines, [](const auto& l) { return !l.missing.empty(); });
+    const double failed = is_missing ? width_of("skipped") : 0;
     for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
       double width = std::max(failed, width_of(rendered_.head.values[k]));
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.values[k]));

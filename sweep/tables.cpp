@@ -9,6 +9,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "sweep/cell_text.h"
 #include "sweep/inference.h"
 #include "sweep/statistics.h"
 #include "sweep/times.h"
@@ -85,6 +86,7 @@ class Tabulation {
     row.values[key] = !is_time            ? mean(values)
                       : key == kLeastTime ? *std::ranges::min_element(values)
                                           : median(values);
+    if (is_time) row.texts[key] = seconds_text(row.values[key]);
     if (!is_time && values.size() > 1) row.half_widths[key] = confidence_half_width(values);
   }
 

@@ -2,12 +2,12 @@
 """Prints rank_tests.inc: tests by ranks, intervals and corrections as SciPy has them, for test_statistics.cpp.
 
 Usage: make_rank_tests.py > rank_tests.inc. Made with SciPy 1.10.1. Where there are ties or zeros SciPy's exact tests do not
-hold; there all choices of signs, or of a sample, are tried.
+hold; there all choices of signs, or of a sample, are tried. clang-format lays the file out.
 """
 import itertools
 import random
 
-from scipy import stats
+from scipy import special, stats
 
 
 def wilcoxon_by_force(d):
@@ -64,8 +64,9 @@ def main():
     print("};\n\nconst std::vector<OneSample> kHalfWidths = {")
     for n in (2, 3, 8, 40):
         x = sample(n, 5)
-        low, high = stats.t.interval(0.95, n - 1, loc=sum(x) / n, scale=stats.sem(x))
-        print(f"    {{{text(x)}, {(high - low) / 2!r}}},")
+        # stats.t.ppf is right to eight figures only; the incomplete beta function to all.
+        b = special.betaincinv((n - 1) / 2, 0.5, 0.05)
+        print(f"    {{{text(x)}, {float(((n - 1) * (1 - b) / b) ** 0.5 * stats.sem(x))!r}}},")
     print("};\n\nconst std::vector<Adjusted> kHolm = {")
     for p in ([0.01, 0.04, 0.03, 0.005], [0.2], [0.5, 0.02, 0.02, 0.9, 0.0001]):
         order = sorted(range(len(p)), key=lambda i: p[i])

@@ -107,14 +107,15 @@ TEST_F(RepeatTimes, ColumnsAreChecked) {
     return Experiment::read(write_text(folder_ / "study.toml", "columns = " + columns + "\n" + kStudy));
   };
   EXPECT_EQ(read("[\"n_quads\", \"seconds\", \"seconds_matching\", \"aspect_max\"]").columns.size(), 4u);
-  expect_input_error([&] { read("[\"eta_maen\"]"); }, {"columns", "eta_maen", "did you mean 'eta_mean'"});
+  expect_input_error([&] { read("[\"eta_maen\"]"); },
+                     {"study.toml:1", "eta_maen", "did you mean 'eta_mean'"});
   expect_input_error([&] { read("[\"d4\", \"d4\"]"); }, {"'d4' twice"});
   expect_input_error([&] { read("[]"); }, {"'columns' is empty"});
 }
 
 TEST_F(RepeatTimes, ChosenColumnsAreShown) {
   run("columns = [\"aspect_max\", \"eta_mean\", \"seconds\"]\n" + kStudy);
-  EXPECT_NE(table().find(" | n | aspect max | eta mean | s, median | s, least |"), std::string::npos)
+  EXPECT_NE(table().find("|   n | aspect max | eta mean | s, median | s, least |"), std::string::npos)
       << table();
   EXPECT_NE(read_text(out() + "/table.csv").find("n_vertices"), std::string::npos);
 }

@@ -111,6 +111,11 @@ TEST(CellText, DigitsFollowTheInterval) {
   EXPECT_EQ(decimals_of(0, 3), 3);
   EXPECT_EQ(decimals_of(std::nan(""), 1), 1);
   EXPECT_EQ(half_width_text(1e-12, decimals_of(1e-12, 3)), "< 0.000000001") << "hidden by no rounding";
+  EXPECT_EQ(interval_text(-0.0001, {-0.04, 0.05}, 4), "0.000 [-0.040, 0.050]");
+  EXPECT_EQ(p_text(3e-8), "< 0.0001") << "never 0";
+  EXPECT_EQ(p_text(0.0123), "0.0123");
+  EXPECT_EQ(seconds_text(0.000785432), "0.000785");
+  EXPECT_EQ(seconds_text(12.346), "12.35");
   EXPECT_EQ(interval_text(0.01234, {0.01, 0.0149}, 4), "0.0123 [0.0100, 0.0149]");
 }
 

@@ -66,7 +66,7 @@ TEST(Tables, TexSaysWhatFailedAndWhatMarksMean) {
 TEST(Tables, ColumnsCanBeChosenAndOrdered) {
   Table table = example();
   table.shown = {"d4", "eta_mean"};
-  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |   d4 |               eta mean |"))
+  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |     d4 |             eta mean |"))
       << to_markdown(table);
   EXPECT_TRUE(holds(to_tex(table), "case & pipeline & d4 & eta mean \\\\")) << to_tex(table);
   table.shown = {"d4"};
