@@ -1,16 +1,23 @@
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "apps/commands.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
 #include "sweep/comparison.h"
+#include "sweep/times.h"
 
 namespace delquad {
 namespace {
 
 /// The results in a folder, or the metrics of a mesh.
 std::vector<CellRecord> records_of(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) return read_records(path);
+  if (!std::filesystem::is_regular_file(path)) {
+    std::vector<CellRecord> records = read_records(path);
+    for (const std::string& problem : attach_times(records)) fmt::print(stderr, "warning: {}\n", problem);
+    return records;
+  }
   CellRecord record;
   record.group = "mesh";
   record.values = evaluate_metrics(read_mesh(path), nullptr).values;

@@ -42,6 +42,22 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
                    (near ? "; did you mean '" + *near + "'?" : ""));
 }
 
+/// Keys of columns: measures and times.
+std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::string> known) {
+  if (!table.has("columns")) return {};
+  for (const char* key : {kRuns, "seconds"}) known.push_back(key);
+  for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
+  std::vector<std::string> columns = table.texts("columns");
+  for (const std::string& key : columns) {
+    check_known(table, "columns", key, known);
+    if (std::ranges::count(columns, key) > 1)
+      throw InputError(table.where("columns") + ": '" + key + "' twice among the columns");
+  }
+  if (columns.empty())
+    throw InputError(table.where("columns") + ": 'columns' is empty: expected keys of measures");
+  return columns;
+}
+
 std::vector<PublishedRow> read_published(const std::filesystem::path& file,
                                          std::vector<std::string> columns) {
   const TomlTable top = TomlTable::read(file);
@@ -354,6 +370,8 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   if (table.has("reference"))
     experiment.published = read_published(file.parent_path() / table.text("reference"), metrics);
   experiment.step_times = table.flag("step_times", false);
+  experiment.repeat_times = static_cast<int>(read_count(table, "repeat_times", 2, kMostRepetitions, 0));
+  experiment.columns = read_columns(table, metrics);
   if (const auto ratio = table.optional_table("ratio")) {
     experiment.ratio = read_ratio(*ratio, metrics);
     for (const std::string& text : {experiment.ratio->numerator, experiment.ratio->denominator})

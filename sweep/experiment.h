@@ -61,8 +61,10 @@ class Experiment {
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
   std::vector<Axis> axes;
-  bool step_times = false;                              ///< the table has a column for each step's time
-  std::optional<LinfStudy> linf;                        ///< then there are no cases
+  bool step_times = false;           ///< the table has a column for each step's time
+  int repeat_times = 0;              ///< how often every pipeline is run again for its time; 0: not at all
+  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
+  std::optional<LinfStudy> linf;     ///< then there are no cases
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
 
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given

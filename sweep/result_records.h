@@ -22,6 +22,8 @@ struct CellRecord {
   std::string kind = {};                  ///< of the reason: as in failure_record()
   bool skipped = false;                   ///< for that reason, and not failed
   bool quads_only = false;                ///< triangles that are left are an error
+  /// Of runs repeated for their times, by key: "seconds" and "seconds_total". Not in the record: see times.h.
+  std::map<std::string, std::vector<double>> times = {};
   std::vector<std::string> warnings = {};
   std::vector<std::string> unsound = {};          ///< why its mesh is not sound; empty: it is
   std::string uniform_size = {};                  ///< delta, where it was asked to be the same everywhere

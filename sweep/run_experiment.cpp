@@ -26,6 +26,7 @@
 #include "sweep/digest.h"
 #include "sweep/folder_lock.h"
 #include "sweep/linf_study.h"
+#include "sweep/repeat_times.h"
 #include "sweep/study_file.h"
 #include "sweep/sweep_progress.h"
 
@@ -351,6 +352,7 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     check_study(experiment, folder);
     write_study(folder, describe(experiment));
     Sweep(experiment, folder, options).run();
+    if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
   }
   for (const std::string& error : write_tables(folder, outcome)) {

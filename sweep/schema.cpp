@@ -18,6 +18,8 @@ const std::string kPoints =
     R"({"type": "array", "items": {"type": "integer", "minimum": 3, "maximum": 10000000}, "minItems": 1})";
 const std::string kSeeds =
     R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 1000000000}, "minItems": 1})";
+const std::string kColumns =
+    R"({"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": true})";
 const std::string kFolder = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
@@ -126,6 +128,9 @@ TomlKeys experiment_keys() {
                    {"metric", "measures that other programs take", "", metric_keys, true},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
+                   {"columns", "of tables in Markdown and LaTeX, by key", kColumns},
+                   {"repeat_times", "how often all is run again for its time, in changing order",
+                    between("integer", 2, kMostRepetitions)},
                    {"ratio", "of a measure between two pipelines", "", ratio_keys},
                    {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
                    // Its keys are those of cases, see whole_matrix_schema().

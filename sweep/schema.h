@@ -15,7 +15,7 @@ const TomlKeys& ratio_keys();
 const TomlKeys& linf_study_keys();
 
 /// Limits of what a metric by command may ask for: digits, and seconds (a week).
-inline constexpr int kMostDigits = 12, kMostSeconds = 604'800;
+inline constexpr int kMostDigits = 12, kMostSeconds = 604'800, kMostRepetitions = 1000;
 
 /// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
 /// with a newline.

@@ -21,6 +21,8 @@ Json to_json(const StudyFile& study) {
                {"cells", study.cells},       {"step_times", study.step_times},
                {"compare", study.compare},   {"axes", study.axes},
                {"published", Json::array()}, {"ratio", Json()}};
+  if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
+  if (!study.columns.empty()) json["columns"] = study.columns;
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
   if (const auto& ratio = study.ratio)
@@ -41,6 +43,8 @@ StudyFile from_json(const Json& json) {
   json.at("axes").get_to(study.axes);
   json.at("cells").get_to(study.cells);
   json.at("step_times").get_to(study.step_times);
+  study.repeat_times = json.value("repeat_times", 0);
+  study.columns = json.value("columns", study.columns);
   json.at("compare").get_to(study.compare);
   for (const Json& row : json.at("published"))
     study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
@@ -62,6 +66,8 @@ StudyFile describe(const Experiment& experiment) {
   study.published = experiment.published;
   study.ratio = experiment.ratio;
   study.step_times = experiment.step_times;
+  study.repeat_times = experiment.repeat_times;
+  study.columns = experiment.columns;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
     study.cases.push_back(c.name);

@@ -21,6 +21,8 @@ struct StudyFile {
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
   bool step_times = false;
+  int repeat_times = 0;              ///< as in Experiment
+  std::vector<std::string> columns;  ///< as in Experiment
   /// case -> pipeline -> name of the published row beside it
   std::map<std::string, std::map<std::string, std::string>> compare;
 };

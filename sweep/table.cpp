@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
+#include "sweep/rendered_table.h"
 
 namespace delquad {
 namespace {
@@ -20,47 +21,6 @@ double value_or_nan(const std::map<std::string, double>& values, const std::stri
   return at == values.end() ? kUnknown : at->second;
 }
 
-/// How a format shows what is the best, and what is perhaps as good.
-struct Style {
-  const char *best_begin, *best_end, *as_good, *plus_minus;
-};
-constexpr Style kMarkdown = {"**", "**", "~", " \u00b1 "};
-constexpr Style kTex = {"\\textbf{", "}", "$\\sim$", " $\\pm$ "};
-
-std::string cell(const TableRow& row, const TableColumn& column, const Style& style) {
-  const double ours = value_or_nan(row.values, column.key),
-               published = value_or_nan(row.published, column.key),
-               half_width = value_or_nan(row.half_widths, column.key);
-  std::string text = std::isnan(ours) ? "-" : fmt::format("{:.{}f}", ours, column.digits);
-  if (const auto mark = row.marks.find(column.key); mark != row.marks.end())
-    text = mark->second == Mark::kBest ? style.best_begin + text + style.best_end : style.as_good + text;
-  if (!std::isnan(half_width)) text += fmt::format("{}{:.{}f}", style.plus_minus, half_width, column.digits);
-  if (std::isnan(published)) return text;
-  if (std::isnan(ours)) return fmt::format("{} ({})", text, published);
-  return fmt::format("{} ({}, {:+.{}f})", text, published, ours - published, column.digits);
-}
-
-std::string replace_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-std::string tex_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '\\')
-      result += "\\textbackslash{}";
-    else if (c == '^' || c == '~')
-      result += fmt::format("\\{}{{}}", c);
-    else if (std::string("&%$#_{}").find(c) != std::string::npos)
-      result += fmt::format("\\{}", c);
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// Of UTF-8.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(
@@ -69,39 +29,19 @@ std::size_t characters(const std::string& text) {
 
 std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
 
-/// Header and body as text; a failed row's reason goes to the notes.
-struct Rendered {
-  std::vector<std::vector<std::string>> lines;  // the first is the header
-  std::vector<std::string> notes;
-};
+constexpr TableStyle kMarkdown = {"**", "**", "~", " \u00b1 ", markdown_escaped};
+/// As to_json() has it: marks stand by themselves.
+constexpr TableStyle kPlain = {"", "", "", " \u00b1 ", [](const std::string& text) { return text; }};
 
-Rendered render(const Table& table, const Style& style, std::string (*escape)(const std::string&)) {
-  Rendered result;
-  result.lines.push_back({escape(table.group_title), escape(table.name_title)});
-  for (const TableColumn& column : table.columns) result.lines.back().push_back(escape(column.title));
-  bool compared = false, as_good = false, means = false;
-  for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = {escape(row.group), escape(shown_name(row))};
-    for (const TableColumn& column : table.columns) {
-      const bool first = line.size() == 2;
-      const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
-      line.push_back(missing.empty() ? cell(row, column, style) : first ? missing : "");
-    }
-    result.lines.push_back(std::move(line));
-    compared = compared || !row.published.empty();
-    means = means || !row.half_widths.empty();
-    for (const auto& [key, mark] : row.marks) as_good = as_good || mark == Mark::kAsGoodAsBest;
-    if (!row.failure.empty())
-      result.notes.push_back(fmt::format("{} {} failed: {}", row.group, row.name, row.failure));
+/// A line with "failed" where its first value would be.
+std::vector<std::string> cells_of(const RenderedTable::Line& line) {
+  std::vector<std::string> cells = line.names;
+  bool said = line.missing.empty();
+  for (const std::string& value : line.values) {
+    cells.push_back(!said && value.empty() ? line.missing : value);
+    said = said || value.empty();
   }
-  if (means) result.notes.push_back("Means, and half the width of their 95 % confidence intervals.");
-  if (as_good) result.notes.push_back("~: no difference is proven (Wilcoxon's signed-rank test, 5 %).");
-  if (compared) result.notes.push_back("In brackets: the published number, and ours minus it.");
-  for (const TableRow& row : table.rows)
-    if (!row.source.empty())
-      result.notes.push_back(fmt::format("{} {}: {}", row.group, row.name, row.source));
-  result.notes.insert(result.notes.end(), table.notes.begin(), table.notes.end());
-  return result;
+  return cells;
 }
 
 std::string csv_quoted(const std::string& text) {
@@ -112,10 +52,18 @@ std::string csv_quoted(const std::string& text) {
 std::string status(const TableRow& row) {
   if (!row.failure.empty()) return "failed: " + row.failure;
   if (!row.skipped.empty()) return "skipped: " + row.skipped;
-  return row.unsound.empty() ? "ok" : row.unsound;
+  if (row.unsound.empty() && row.incomplete.empty()) return "ok";
+  return row.unsound + (row.unsound.empty() || row.incomplete.empty() ? "" : ", ") + row.incomplete;
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+/// The number; where there is none, what stands for it.
+std::string csv_value(const TableRow& row, const std::string& key) {
+  const auto text = row.texts.find(key);
+  const double value = value_or_nan(row.values, key);
+  return std::isnan(value) && text != row.texts.end() ? csv_quoted(text->second) : csv_number(value);
+}
 
 }  // namespace
 
@@ -126,21 +74,35 @@ const std::vector<TableFormat>& table_formats() {
 }
 
 std::string shown_name(const TableRow& row) {
-  return row.unsound.empty() ? row.name : row.name + " (" + row.unsound + ")";
+  std::string name = row.name;
+  if (!row.unsound.empty()) name += " (" + row.unsound + ")";
+  if (!row.incomplete.empty()) name += " (" + row.incomplete + ")";
+  return name;
+}
+
+std::vector<TableColumn> shown_columns(const Table& table) {
+  if (table.shown.empty()) return table.columns;
+  std::vector<TableColumn> columns;
+  for (const std::string& key : table.shown) {
+    const auto at = std::ranges::find(table.columns, key, &TableColumn::key);
+    if (at != table.columns.end()) columns.push_back(*at);
+  }
+  return columns;
 }
 
 std::string to_markdown(const Table& table) {
-  const Rendered rendered = render(table, kMarkdown, markdown_escaped);
-  std::vector<std::size_t> width(rendered.lines[0].size(), 3);
-  for (const auto& line : rendered.lines)
+  const RenderedTable rendered = render(table, kMarkdown);
+  std::vector<std::vector<std::string>> lines = {cells_of(rendered.head)};
+  for (const RenderedTable::Line& line : rendered.lines) lines.push_back(cells_of(line));
+  std::vector<std::size_t> width(lines[0].size(), 3);
+  for (const auto& line : lines)
     for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], characters(line[k]));
   std::string text = fmt::format("# {}\n\n", table.title);
-  for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
     text += "|";
     for (std::size_t k = 0; k < width.size(); ++k) {
-      const std::string& content = rendered.lines[i][k];
-      const std::string padding(width[k] - characters(content), ' ');
-      text += " " + (k < 2 ? content + padding : padding + content) + " |";
+      const std::string padding(width[k] - characters(lines[i][k]), ' ');
+      text += " " + (k < 2 ? lines[i][k] + padding : padding + lines[i][k]) + " |";
     }
     text += "\n";
     if (i > 0) continue;
@@ -151,20 +113,6 @@ std::string to_markdown(const Table& table) {
   }
   if (!rendered.notes.empty()) text += "\n";
   for (const std::string& note : rendered.notes) text += fmt::format("- {}\n", replace_all(note, "\n", " "));
-  return text;
-}
-
-std::string to_tex(const Table& table) {
-  const Rendered rendered = render(table, kTex, tex_escaped);
-  std::string text = fmt::format("% {}\n\\begin{{tabular}}{{ll{}}}\n\\toprule\n",
-                                 replace_all(table.title, "\n", " "), std::string(table.columns.size(), 'r'));
-  for (std::size_t i = 0; i < rendered.lines.size(); ++i) {
-    for (std::size_t k = 0; k < rendered.lines[i].size(); ++k)
-      text.append(k ? " & " : "").append(rendered.lines[i][k]);
-    text += i == 0 ? " \\\\\n\\midrule\n" : " \\\\\n";
-  }
-  text += "\\bottomrule\n\\end{tabular}\n";
-  for (const std::string& note : rendered.notes) text += fmt::format("% {}\n", replace_all(note, "\n", " "));
   return text;
 }
 
@@ -179,9 +127,9 @@ std::string to_csv(const Table& table) {
     for (const TableColumn& column : table.columns) {
       const double ours = value_or_nan(row.values, column.key),
                    published = value_or_nan(row.published, column.key);
-      text +=
-          fmt::format(",{},{},{},{}", csv_number(ours), csv_number(value_or_nan(row.half_widths, column.key)),
-                      csv_number(published), csv_number(ours - published));
+      text += fmt::format(",{},{},{},{}", csv_value(row, column.key),
+                          csv_number(value_or_nan(row.half_widths, column.key)), csv_number(published),
+                          csv_number(ours - published));
     }
     text += "\n";
   }
@@ -200,38 +148,79 @@ nlohmann::ordered_json json_without_rows(const Table& table) {
   return json;
 }
 
+namespace {
+
+/// Of the row's values, by column.
+nlohmann::ordered_json by_column(const Table& table, const std::map<std::string, double>& values) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const TableColumn& column : table.columns)
+    if (values.contains(column.key)) json[column.key] = values.at(column.key);
+  return json;
+}
+
+/// What there is of a row that has values: the numbers, what they are marked as, and how they are shown.
+void add_values(const Table& table, const TableRow& row, const RenderedTable::Line& shown,
+                nlohmann::ordered_json& line) {
+  if (!row.unsound.empty()) line["unsound"] = row.unsound;
+  if (!row.incomplete.empty()) line["incomplete"] = row.incomplete;
+  line["values"] = by_column(table, row.values);
+  if (!row.half_widths.empty()) line["half_widths"] = by_column(table, row.half_widths);
+  for (const auto& [key, mark] : row.marks) line["marks"][key] = mark == Mark::kBest ? "best" : "as good";
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (row.values.contains(table.columns[k].key) || row.texts.contains(table.columns[k].key))
+      line["shown"][table.columns[k].key] = shown.values[k];
+}
+
+}  // namespace
+
 std::string to_json(const Table& table) {
   using Json = nlohmann::ordered_json;
-  const auto object = [&](const std::map<std::string, double>& values) {
-    Json json = Json::object();
-    for (const TableColumn& column : table.columns)
-      if (values.contains(column.key)) json[column.key] = values.at(column.key);
-    return json;
-  };
   Json json = json_without_rows(table);
-  for (const TableRow& row : table.rows) {
+  Table whole = table;
+  whole.shown.clear();
+  for (TableRow& row : whole.rows) row.published.clear();
+  const RenderedTable rendered = render(whole, kPlain);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const TableRow& row = table.rows[i];
     Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
     if (!row.failure.empty() || !row.skipped.empty()) {
       line["status"] = row.failure.empty() ? "skipped" : "failed";
       line["reason"] = row.failure.empty() ? row.skipped : row.failure;
     } else {
       line["status"] = "ok";
-      if (!row.unsound.empty()) line["unsound"] = row.unsound;
-      line["values"] = object(row.values);
-      if (!row.half_widths.empty()) line["half_widths"] = object(row.half_widths);
+      add_values(table, row, rendered.lines[i], line);
     }
     if (!row.published.empty()) {
-      line["published"] = object(row.published);
+      line["published"] = by_column(table, row.published);
       std::map<std::string, double> difference;
       for (const auto& [key, value] : row.published)
         if (row.values.contains(key)) difference[key] = row.values.at(key) - value;
-      line["difference"] = object(difference);
+      line["difference"] = by_column(table, difference);
       line["source"] = row.source;
     }
     json["rows"].push_back(std::move(line));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+namespace {
+
+void read_values(const nlohmann::ordered_json& line, TableRow& row) {
+  const auto read = [&](const char* key, std::map<std::string, double>& values) {
+    if (!line.contains(key)) return;
+    for (const auto& [column, value] : line[key].items())
+      if (!value.is_null()) values[column] = value;
+  };
+  read("values", row.values);
+  read("half_widths", row.half_widths);
+  row.unsound = line.value("unsound", "");
+  row.incomplete = line.value("incomplete", "");
+  if (line.contains("marks"))
+    for (const auto& [key, mark] : line["marks"].items())
+      row.marks[key] = mark == "best" ? Mark::kBest : Mark::kAsGoodAsBest;
+}
+
+}  // namespace
 
 Table read_table(const std::filesystem::path& file) {
   using Json = nlohmann::ordered_json;
@@ -249,9 +238,7 @@ Table read_table(const std::filesystem::path& file) {
       TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};
       if (line.at("status") != "ok")
         (line.at("status") == "failed" ? row.failure : row.skipped) = line.at("reason");
-      if (line.contains("values"))
-        for (const auto& [key, value] : line["values"].items())
-          if (!value.is_null()) row.values[key] = value;
+      read_values(line, row);
       table.rows.push_back(std::move(row));
     }
     return table;

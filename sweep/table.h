@@ -15,8 +15,8 @@ struct TableColumn {
 };
 
 enum class Mark {
-  kBest,         ///< of its group
-  kAsGoodAsBest  ///< nothing proves that the best is better
+  kBest,         ///< of its group, as is proven
+  kAsGoodAsBest  ///< the best of its group, which is not proven, or not proven to be worse
 };
 
 struct TableRow {
@@ -29,10 +29,16 @@ struct TableRow {
   /// Of means over several runs: half the width of their 95 % confidence interval, by column key.
   std::map<std::string, double> half_widths = {};
   std::map<std::string, Mark> marks = {};  ///< by column key
-  std::string unsound = {};                ///< how many of the meshes are not sound; empty: all are
+  std::map<std::string, std::string> texts =
+      {};                       ///< what stands for a value, by column key; absent: the number
+  std::string unsound = {};     ///< how many of the meshes are not sound; empty: all are
+  std::string incomplete = {};  ///< how many of the runs failed; empty: none, or all
 };
 
-/// The second column, where it says so when meshes are not sound.
+/// The column that says of how many runs the values are.
+inline constexpr const char* kRuns = "n";
+
+/// The second column, where it says so when meshes are not sound or runs have failed.
 std::string shown_name(const TableRow& row);
 
 /// Results beside published ones.
@@ -42,7 +48,10 @@ struct Table {
   std::vector<TableColumn> columns;
   std::vector<TableRow> rows;
   std::vector<std::string> notes;
+  std::vector<std::string> shown = {};  ///< keys of columns in Markdown and LaTeX, in their order; empty: all
 };
+/// The columns in Markdown and LaTeX.
+std::vector<TableColumn> shown_columns(const Table& table);
 
 /// The extensions of what a table is written to, and what writes them.
 struct TableFormat {
@@ -51,16 +60,18 @@ struct TableFormat {
 };
 const std::vector<TableFormat>& table_formats();
 
-/// A cell of ours with a published counterpart reads "ours (published, difference)".
+/// A cell of ours with a published counterpart reads "ours (published, difference)". Values that have a
+/// half-width are shown with two significant digits of it.
 std::string to_markdown(const Table& table);
-/// Booktabs.
+/// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
+/// the notes below them.
 std::string to_tex(const Table& table);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);
 /// What the JSON of a table begins with: title, heads, columns; rows that are still empty; notes.
 nlohmann::ordered_json json_without_rows(const Table& table);
 std::string to_json(const Table& table);
-/// What to_json() has written, but for half-widths and marks. Throws InputError naming the file.
+/// What to_json() has written. Throws InputError naming the file.
 Table read_table(const std::filesystem::path& file);
 
 }  // namespace delquad

@@ -9,150 +9,38 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "metrics/metrics.h"
+#include "sweep/cell_text.h"
+#include "sweep/inference.h"
 #include "sweep/statistics.h"
+#include "sweep/times.h"
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSeed = "seed";  // the axis whose values are samples of the same thing
-constexpr double kSignificance = 0.05;
-/// With fewer pairs Wilcoxon's test can prove nothing at 5 %.
-constexpr std::size_t kFewestPairs = 6;
-
-constexpr const char* kSeconds = "seconds";
-constexpr const char* kTauGiven = "tau_given";
-/// What the paper's tables show, then the counts and the time.
-const std::vector<std::pair<const char*, int>> kColumns = {
-    {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0}, {"eta_worst", 3}, {"eta_mean", 3},     {"d4", 1},
-    {"d_min", 0},      {"d_max", 0},   {"tau", 1},         {kTauGiven, 1},   {"percent_quads", 1}};
-/// What pairs of pipelines are compared by.
-const std::vector<const char*> kCompared = {"eta_mean", "eta_worst", "d4", "tau", kSeconds};
-
-/// With a column for each step's time, or one for the stages of the pipeline; and one for tau against the
-/// size as it was given, where that is another than what it was measured against.
-std::vector<TableColumn> table_columns(bool step_times, bool sizes_adapted, const std::vector<Metric>& own) {
-  std::vector<TableColumn> columns;
-  for (const auto& [key, digits] : kColumns) {
-    const Metric* metric = find_metric(key);
-    if (key == std::string(kTauGiven) && !sizes_adapted) continue;
-    columns.push_back({key, metric == nullptr ? key : metric->title, digits});
-  }
-  for (const Metric& metric : own) columns.push_back({metric.key, metric.title, metric.digits});
-  if (!step_times) {
-    columns.push_back({kSeconds, "s", 2});
-    return columns;
-  }
-  for (const StepTime& step : step_times_of_tables()) columns.push_back({step.key, step.title, 2});
-  return columns;
-}
-
-double value_of(const CellRecord& record, const std::string& key) {
-  const auto at = record.values.find(key);
-  return at == record.values.end() ? std::nan("") : at->second;
-}
-
-bool makes_quads(const CellRecord& record) { return value_of(record, "n_quads") > 0; }
-
-/// The case and what else tells the samples of a row from those of others.
-std::string row_group(const CellRecord& record) {
-  std::string group = record.name;
-  for (const auto& [title, value] : record.variant)
-    if (title != kSeed) group += fmt::format(", {}={}", title, value);
-  return group;
-}
-
-/// The cells of one row: a pipeline on a variant, with every seed.
-struct Samples {
-  std::string group, pipeline;
-  std::vector<const CellRecord*> done, skipped, failed;
-
-  std::vector<double> of(const std::string& key) const {
-    std::vector<double> values;
-    for (const CellRecord* record : done)
-      if (const double v = value_of(*record, key); !std::isnan(v)) values.push_back(v);
-    return values;
-  }
-};
-
-std::vector<Samples> group_samples(const std::vector<CellRecord>& records) {
-  std::vector<Samples> rows;
-  std::map<std::pair<std::string, std::string>, std::size_t> known;
-  for (const CellRecord& record : records) {
-    const std::string group = row_group(record);
-    const auto [at, is_new] = known.try_emplace({group, record.pipeline}, rows.size());
-    if (is_new) rows.push_back({group, record.pipeline, {}, {}, {}});
-    Samples& row = rows[at->second];
-    (record.reason.empty() ? row.done : record.skipped ? row.skipped : row.failed).push_back(&record);
-  }
-  // Groups stay together: by the first of their cells.
-  std::map<std::string, std::size_t> order;
-  for (const Samples& row : rows) order.try_emplace(row.group, order.size());
-  std::ranges::stable_sort(rows, {}, [&](const Samples& row) { return order.at(row.group); });
-  return rows;
-}
-
-/// a - b of every case, variant and seed on which both have a value.
-std::vector<double> differences(const std::vector<const CellRecord*>& a,
-                                const std::vector<const CellRecord*>& b, const std::string& key) {
-  std::map<std::string, double> others;
-  for (const CellRecord* record : b) others[record->group] = value_of(*record, key);
-  std::vector<double> result;
-  for (const CellRecord* record : a)
-    if (const auto at = others.find(record->group); at != others.end())
-      if (const double d = value_of(*record, key) - at->second; !std::isnan(d)) result.push_back(d);
-  return result;
-}
-
-/// Marks the best value of each measure among the rows of a group that make quads, and sound meshes.
-void mark_best(const std::vector<Metric>& metrics, std::span<const Samples> samples,
-               std::span<TableRow> rows) {
-  for (const Metric& metric : metrics) {
-    if (metric.better == Better::kNeither) continue;
-    const std::string& key = metric.key;
-    const double sign = metric.better == Better::kHigher ? 1 : -1;
-    std::vector<std::size_t> rivals;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].values.contains(key) && rows[i].unsound.empty() && makes_quads(*samples[i].done[0]))
-        rivals.push_back(i);
-    const auto score = [&](std::size_t i) { return sign * rows[i].values.at(key); };
-    const auto [worst, best] = std::ranges::minmax_element(rivals, {}, score);
-    if (rivals.empty() || score(*worst) == score(*best)) continue;
-    for (const std::size_t i : rivals) {
-      if (score(i) == score(*best)) {
-        rows[i].marks[key] = Mark::kBest;
-      } else if (samples[i].done.size() > 1 &&
-                 wilcoxon_p(differences(samples[*best].done, samples[i].done, key)) > kSignificance) {
-        rows[i].marks[key] = Mark::kAsGoodAsBest;
-      }
-    }
-  }
-}
-
 class Tabulation {
  public:
   Tabulation(const StudyFile& study, const std::vector<CellRecord>& records)
-      : study_(study), records_(records), samples_(group_samples(records)), own_(own_metrics_of(records)) {}
+      : study_(study), records_(records), inference_(study, records) {}
 
   Outcome run() {
     Table& table = outcome_.table;
     table.title = study_.title;
-    table.columns =
-        table_columns(study_.step_times,
-                      std::ranges::any_of(
-                          records_, [](const CellRecord& record) { return !record.size_adapted_to.empty(); }),
-                      own_);
+    table.columns = table_columns(study_, records_);
+    choose_columns();
     for (const PublishedRow& row : study_.published)
       table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
     const std::size_t first = table.rows.size();
-    for (const Samples& row : samples_) add_row(row);
-    mark_groups(std::span(table.rows).subspan(first));
+    for (const Samples& row : inference_.samples()) add_row(row);
+    const auto rows = std::span(table.rows).subspan(first);
+    inference_.marking().mark(inference_.family(), rows);
+    note_claims(rows);
+    note_times();
     note_cells();
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
-    compare_pairs();
+    outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
     return std::move(outcome_);
   }
 
@@ -176,6 +64,9 @@ class Tabulation {
                           ? "unsound"
                           : fmt::format("{} of {} unsound", unsound, samples.done.size());
       if (!samples.failed.empty())
+        row.incomplete = fmt::format("{} of {} failed", samples.failed.size(),
+                                     samples.failed.size() + samples.done.size());
+      if (!samples.failed.empty())
         outcome_.table.notes.push_back(fmt::format(
             "{} {}: {} of {} runs failed, the first: {}", samples.group, samples.pipeline,
             samples.failed.size(), samples.failed.size() + samples.done.size(), samples.failed[0]->reason));
@@ -183,15 +74,20 @@ class Tabulation {
         for (const double n : samples.of("n_triangles"))
           outcome_.leftover_triangles += static_cast<long long>(n);
     }
+    row.values[kRuns] = static_cast<double>(samples.done.size());
     add_published(samples, row);
     outcome_.table.rows.push_back(std::move(row));
   }
 
-  static void add_value(const Samples& samples, const std::string& key, TableRow& row) {
-    const std::vector<double> values = samples.of(key);
+  void add_value(const Samples& samples, const std::string& key, TableRow& row) const {
+    const bool is_time = study_.repeat_times > 0 && (key == time_key(study_) || key == kLeastTime);
+    const std::vector<double> values = is_time ? samples.times(time_key(study_)) : samples.of(key);
     if (values.empty()) return;
-    row.values[key] = mean(values);
-    if (values.size() > 1) row.half_widths[key] = confidence_half_width(values);
+    row.values[key] = !is_time            ? mean(values)
+                      : key == kLeastTime ? *std::ranges::min_element(values)
+                                          : median(values);
+    if (is_time) row.texts[key] = seconds_text(row.values[key]);
+    if (!is_time && values.size() > 1) row.half_widths[key] = confidence_half_width(values);
   }
 
   void add_published(const Samples& samples, TableRow& row) const {
@@ -209,15 +105,38 @@ class Tabulation {
       }
   }
 
-  void mark_groups(std::span<TableRow> rows) const {
-    std::vector<Metric> metrics = own_;
-    for (const auto& [key, digits] : kColumns)
-      if (const Metric* metric = find_metric(key)) metrics.push_back(*metric);
-    for (std::size_t first = 0, last; first < rows.size(); first = last) {
-      last = first;
-      while (last < rows.size() && rows[last].group == rows[first].group) ++last;
-      mark_best(metrics, std::span(samples_).subspan(first, last - first), rows.subspan(first, last - first));
+  /// Those that the experiment asks for, with the number of runs, and the least time beside the median.
+  void choose_columns() {
+    if (study_.columns.empty()) return;
+    std::vector<std::string>& shown = outcome_.table.shown;
+    shown = {kRuns};
+    for (const std::string& key : study_.columns) {
+      if (key != kRuns) shown.push_back(key);
+      if (study_.repeat_times > 0 && key == time_key(study_)) shown.push_back(kLeastTime);
     }
+  }
+
+  void note_claims(std::span<const TableRow> rows) {
+    const ClaimFamily& family = inference_.family();
+    const std::vector<std::string> notes = inference_.marking().notes(family, rows);
+    if (notes.empty()) return;
+    outcome_.table.notes.insert(outcome_.table.notes.end(), notes.begin(), notes.end());
+    if (family.counted() > 0)
+      outcome_.table.notes.push_back(
+          "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
+          "repeated runs. " +
+          family.note());
+  }
+
+  void note_times() {
+    if (study_.repeat_times == 0) return;
+    std::size_t most = 0;
+    for (const Samples& row : inference_.samples()) most = std::max(most, row.times(time_key(study_)).size());
+    outcome_.table.notes.push_back(
+        most == 0 ? "The runs have not been repeated yet for their times."
+                  : fmt::format("Times: median and least of {} runs on the clock, the pipelines in changing "
+                                "order.",
+                                most));
   }
 
   /// What there is to say of single cells, and of those that are not there.
@@ -269,9 +188,9 @@ class Tabulation {
   }
 
   void note_ratio(const ExpectedRatio& ratio) {
-    for (const Samples& a : samples_) {
+    for (const Samples& a : inference_.samples()) {
       if (a.pipeline != ratio.numerator) continue;
-      for (const Samples& b : samples_) {
+      for (const Samples& b : inference_.samples()) {
         if (b.pipeline != ratio.denominator || b.group != a.group) continue;
         const std::vector<double> above = a.of(ratio.metric), below = b.of(ratio.metric);
         if (above.empty() || below.empty() || mean(below) == 0) continue;
@@ -284,60 +203,9 @@ class Tabulation {
     }
   }
 
-  /// Every two pipelines that make quads, over all cases, variants and seeds.
-  void compare_pairs() {
-    Table& table = outcome_.pairs;
-    table = {study_.title + ": pairs of pipelines", "pipelines", "measure", {}, {}, {}};
-    table.columns = {{"pairs", "pairs", 0},
-                     {"better", "better", 0},
-                     {"worse", "worse", 0},
-                     {"median", "median difference", 4},
-                     {"p", "p", 4}};
-    std::map<std::string, std::vector<const CellRecord*>> by_word;
-    for (const CellRecord& record : records_)
-      if (record.reason.empty() && makes_quads(record)) by_word[record.pipeline].push_back(&record);
-    for (std::size_t i = 0; i < study_.pipelines.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) add_pair(study_.pipelines[i], study_.pipelines[j], by_word);
-    if (!table.rows.empty())
-      table.notes.push_back(
-          "Over all cases, variants and seeds that both ran on: how often the first is better and worse than "
-          "the "
-          "second, the median of first minus second, and the p-value of Wilcoxon's signed-rank test.");
-  }
-
-  void add_pair(const std::string& first, const std::string& second,
-                const std::map<std::string, std::vector<const CellRecord*>>& by_word) {
-    const auto a = by_word.find(first), b = by_word.find(second);
-    if (a == by_word.end() || b == by_word.end()) return;
-    std::vector<Metric> metrics;
-    for (const char* key : kCompared) {
-      const Metric* metric = find_metric(key);
-      const double none = std::nan("");
-      metrics.push_back(metric == nullptr ? Metric{key, key, "", Better::kLower, none, ""} : *metric);
-    }
-    for (const Metric& metric : own_)
-      if (metric.better != Better::kNeither) metrics.push_back(metric);
-    for (const Metric& metric : metrics) {
-      const std::string& key = metric.key;
-      const std::vector<double> d = differences(a->second, b->second, key);
-      if (d.size() < kFewestPairs) continue;
-      const double sign = metric.better == Better::kHigher ? 1 : -1;
-      TableRow row{first + " - " + second, metric.title, {}, {}, "", ""};
-      row.values = {
-          {"pairs", static_cast<double>(d.size())},
-          {"better", static_cast<double>(std::ranges::count_if(d, [&](double x) { return sign * x > 0; }))},
-          {"worse", static_cast<double>(std::ranges::count_if(d, [&](double x) { return sign * x < 0; }))},
-          {"median", median(d)},
-          {"p", wilcoxon_p(d)}};
-      if (row.values["p"] > kSignificance) row.marks["p"] = Mark::kAsGoodAsBest;
-      outcome_.pairs.rows.push_back(std::move(row));
-    }
-  }
-
   const StudyFile& study_;
   const std::vector<CellRecord>& records_;
-  std::vector<Samples> samples_;
-  std::vector<Metric> own_;
+  Inference inference_;
   Outcome outcome_;
 };
 
@@ -363,6 +231,7 @@ StudyResults read_results(const fs::path& folder) {
     throw InputError((folder / "study.json").string() +
                      ": is missing: expected the folder of 'delquad run -o'");
   results.study = *std::move(study);
+  results.time_problems = attach_times(results.records);
   results.left_out =
       std::erase_if(results.records, [&](const CellRecord& r) { return !belongs(results.study, r); });
   return results;
@@ -370,6 +239,8 @@ StudyResults read_results(const fs::path& folder) {
 
 Outcome make_tables(const StudyResults& results) {
   Outcome outcome = Tabulation(results.study, results.records).run();
+  outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
+                             results.time_problems.end());
   if (results.left_out > 0)
     outcome.table.notes.push_back(
         fmt::format("{} records of cells that the experiment no longer has are left out", results.left_out));

@@ -13,8 +13,7 @@ namespace delquad {
 /// What came of the cells of an experiment.
 struct Outcome {
   Table table;
-  /// Pairs of pipelines over all cases and seeds that both ran on; no rows where there are too few to tell
-  /// anything.
+  /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
   Table pairs;
   long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
@@ -23,14 +22,16 @@ struct Outcome {
 /// The records of an experiment's cells, and what it consists of.
 struct StudyResults {
   StudyFile study;
-  std::vector<CellRecord> records;  ///< by place
-  std::size_t left_out = 0;         ///< records of cells that the experiment no longer has
+  std::vector<CellRecord> records;              ///< by place
+  std::size_t left_out = 0;                     ///< records of cells that the experiment no longer has
+  std::vector<std::string> time_problems = {};  ///< files of repeated times that cannot be used, and why
 };
 /// Throws InputError as read_records() does, and where the folder has no study.json.
 StudyResults read_results(const std::filesystem::path& folder);
 
 /// The tables of an experiment, from the records of its cells and its study.json alone. Cells that differ in
-/// nothing but the seed make one row: means, and the half-widths of their 95 % confidence intervals.
+/// nothing but the seed make one row: means, and the half-widths of their 95 % confidence intervals. What is
+/// marked or called better is proven, see docs/statistics.md.
 Outcome make_tables(const StudyResults& results);
 /// Throws InputError as read_results() does.
 Outcome make_tables(const std::filesystem::path& folder);

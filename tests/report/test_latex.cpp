@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "sweep/tables.h"
 #include "tests/report/report_results.h"
 
 namespace delquad::testing_support {
@@ -13,15 +14,16 @@ bool has_latex() {
   return std::system("kpsewhich booktabs.sty >/dev/null 2>&1 && command -v pdflatex >/dev/null") == 0;
 }
 
-/// Where LaTeX finds nothing to complain of, "" and a PDF; else what it said.
+/// Where LaTeX finds nothing to complain of, and nothing sticks out of the page, "" and a PDF; else what it
+/// said.
 std::string compile(const fs::path& folder, const std::string& name) {
   const ProgramResult result = run_program(
       "/bin/sh",
       {{"-c", "cd '" + folder.string() + "' && pdflatex -interaction=nonstopmode -halt-on-error " + name},
        0,
        {}});
-  return result.exit_code == 0 && fs::exists(folder / (fs::path(name).stem().string() + ".pdf")) ? ""
-                                                                                                 : result.out;
+  const bool whole = result.exit_code == 0 && fs::exists(folder / (fs::path(name).stem().string() + ".pdf"));
+  return whole && result.out.find("Overfull") == std::string::npos ? "" : "said: " + result.out;
 }
 
 TEST(Latex, TheStudyOfTheReadme) {
@@ -32,6 +34,45 @@ TEST(Latex, TheStudyOfTheReadme) {
   ASSERT_EQ(delquad({"run", folder / "study.toml", "-o", folder / "results"}).exit_code, 0);
   EXPECT_EQ(compile(folder.path(), "paper.tex"), "");
   EXPECT_NE(read_text(folder / "results/table.tex").find("$\\pm$"), std::string::npos);
+}
+
+/// Every tabular is measured by LaTeX itself, at 8 points: the widest that tables of ours become by default,
+/// with half-widths, marks, published numbers and long names.
+TEST(Latex, DefaultColumnsFitAPage) {
+  if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
+  const TemporaryFolder folder;
+  StudyResults results;
+  results.study.title = "Wide";
+  results.study.pipelines = {"DB", "DLBCO", "gmsh-frontal-quads-full"};
+  results.study.published = {{"Theirs", "Table 9 of a paper", {{"eta_mean", 0.8765}, {"n_quads", 123456}}}};
+  for (const std::string name :
+       {"plate_16_holes", "a_case_whose_name_is_as_long_as_names_of_cases_may_be_and_more"}) {
+    results.study.cases.push_back(name);
+    results.study.compare[name] = {{"DB", "Theirs"}};
+    for (int seed = 0; seed < 12; ++seed)
+      for (std::size_t w = 0; w < results.study.pipelines.size(); ++w) {
+        CellRecord record{name + "@" + std::to_string(seed), results.study.pipelines[w], "", {}};
+        record.name = name;
+        record.variant = {{"h_max", "1.4"}, {"seed", std::to_string(seed)}};
+        record.values = {
+            {"n_quads", 123456 + 1000 * seed}, {"n_vertices", 123456 + seed}, {"n_triangles", 0.0}};
+        for (const char* key :
+             {"eta_worst", "eta_mean", "d4", "tau", "d_min", "d_max", "percent_quads", "seconds"})
+          record.values[key] = 10.0 * static_cast<double>(w) + 0.01 * seed;
+        results.records.push_back(record);
+      }
+  }
+  results.records[0].reason = "näive \xF0\x9F\x98\x80 reasons: \"<x>\" | \\ and 100 % of __init__";
+  const Outcome outcome = make_tables(results);
+  write_text(folder / "table.tex", to_tex(outcome.table));
+  write_text(folder / "pairs.tex", to_tex(outcome.pairs));
+  write_text(folder / "t.tex",
+             "\\documentclass[a4paper]{article}\\usepackage{booktabs}\\hfuzz=0.1pt\\begin{document}\n"
+             "\\input{table}\n\\input{pairs}\n\\begin{table}\\input{pairs}\\end{table}\n"
+             "\\footnotesize\\typeout{size \\csname f@size\\endcsname}\\end{document}\n");
+  EXPECT_EQ(compile(folder.path(), "t.tex"), "");
+  EXPECT_NE(read_text(folder / "t.log").find("size 8"), std::string::npos);
+  EXPECT_EQ(to_tex(outcome.table).find("scriptsize"), std::string::npos);
 }
 
 TEST(Latex, TextsThatMeanSomethingToIt) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -22,13 +23,78 @@ TEST(Compare, JudgesByDirectionAndTolerance) {
   const std::vector<CellRecord> after = {cell("FB", 0.7), cell("DB", 0.905, 1)};
   const Comparison c = compare_records(before, after, {"eta_mean", "seconds"}, 0.01);
   ASSERT_EQ(c.changes.size(), 4u);
-  EXPECT_EQ(c.changes[0].verdict, Verdict::kRegressed);
+  EXPECT_EQ(c.changes[0].verdict, Verdict::kWorse) << "a fact of single runs";
   EXPECT_EQ(c.changes[1].verdict, Verdict::kUnchanged);
   EXPECT_EQ(c.changes[2].verdict, Verdict::kUnchanged) << "half a percent";
-  EXPECT_EQ(c.changes[3].verdict, Verdict::kImproved) << "less time";
+  EXPECT_EQ(c.changes[3].verdict, Verdict::kNotProven) << "the time of single runs";
   EXPECT_TRUE(c.regressed());
-  EXPECT_NE(to_text(c).find("regressed  plate FB: eta_mean 0.8 -> 0.7"), std::string::npos) << to_text(c);
+  EXPECT_NE(to_text(c).find("changed    plate FB: eta_mean 0.8 -> 0.7  (worse; one run"), std::string::npos)
+      << to_text(c);
+  EXPECT_EQ(to_text(c).find("regressed  "), std::string::npos) << to_text(c);
+  EXPECT_FALSE(compare_records({cell("D", 1, 1)}, {cell("D", 1, 9)}, {"seconds"}, 0.01).regressed());
   EXPECT_FALSE(compare_records(before, before, {"eta_mean", "seconds"}, 0).regressed());
+}
+
+/// Several domains and seeds: eta as the function says.
+std::vector<CellRecord> sweep(int domains, int seeds, const std::function<double(int, int)>& eta) {
+  std::vector<CellRecord> records;
+  for (int d = 0; d < domains; ++d)
+    for (int s = 0; s < seeds; ++s) {
+      const std::string name = "case" + std::to_string(d), seed = std::to_string(s);
+      CellRecord record{name + "@seed=" + seed, "DB", "", {{"eta_mean", eta(d, s)}}};
+      record.name = name;
+      record.variant = {{"seed", seed}};
+      records.push_back(record);
+    }
+  return records;
+}
+
+TEST(Compare, SeedsProveChanges) {
+  const auto before = sweep(1, 12, [](int, int s) { return 0.5 + 0.01 * s; });
+  const auto better = sweep(1, 12, [](int, int s) { return 0.6 + 0.011 * s; });
+  const Comparison up = compare_records(before, better, {"eta_mean"}, 0.01);
+  ASSERT_EQ(up.changes.size(), 1u) << "a row, not twelve cells";
+  EXPECT_EQ(up.changes[0].verdict, Verdict::kImproved);
+  EXPECT_EQ(up.changes[0].runs, 12u);
+  EXPECT_NE(to_text(up).find("(12 runs)"), std::string::npos) << to_text(up);
+  const Comparison down = compare_records(better, before, {"eta_mean"}, 0.01);
+  EXPECT_EQ(down.changes[0].verdict, Verdict::kRegressed);
+  EXPECT_TRUE(down.regressed());
+}
+
+TEST(Compare, ScatterIsNoRegression) {
+  const auto before = sweep(1, 12, [](int, int) { return 0.5; });
+  const auto after = sweep(1, 12, [](int, int s) { return s % 2 ? 0.7 : 0.2 + 0.01 * s; });
+  const Comparison c = compare_records(before, after, {"eta_mean"}, 0.01);
+  EXPECT_EQ(c.changes[0].verdict, Verdict::kNotProven);
+  EXPECT_FALSE(c.regressed());
+  // With three seeds nothing can be proven: what is worse is a fact of them.
+  const auto few = sweep(1, 3, [](int, int) { return 0.5; }),
+             worse = sweep(1, 3, [](int, int) { return 0.4; });
+  EXPECT_EQ(compare_records(few, worse, {"eta_mean"}, 0.01).changes[0].verdict, Verdict::kWorse);
+}
+
+TEST(Compare, DomainsProveChangesOfSingleRuns) {
+  const auto before = sweep(12, 1, [](int d, int) { return 0.5 + 0.01 * d; });
+  const auto after = sweep(12, 1, [](int d, int) { return 0.4 + 0.012 * d; });
+  const Comparison c = compare_records(before, after, {"eta_mean"}, 0.01);
+  ASSERT_EQ(c.over_domains.size(), 1u);
+  EXPECT_EQ(c.over_domains[0].verdict, Verdict::kRegressed);
+  EXPECT_EQ(c.over_domains[0].domains, 12u);
+  EXPECT_NEAR(c.over_domains[0].change, -0.1 + 0.002 * 5.5, 1e-12);
+  EXPECT_NE(to_text(c).find("regressed  DB over 12 domains: eta_mean -0.0"), std::string::npos) << to_text(c);
+  const auto one = [&](int n) { return sweep(n, 1, [](int d, int) { return 0.5 + 0.01 * d; }); };
+  EXPECT_TRUE(compare_records(one(5), one(5), {"eta_mean"}, 0.01).over_domains.empty());
+}
+
+TEST(Compare, TimesAreTestedWhereRunsWereRepeated) {
+  CellRecord before = cell("DB", 0.5), after = before;
+  for (int i = 0; i < 10; ++i) {
+    before.times["seconds"].push_back(1 + 0.01 * i);
+    after.times["seconds"].push_back(2 + 0.01 * i);
+  }
+  EXPECT_EQ(compare_records({before}, {after}, {"seconds"}, 0.01).changes[0].verdict, Verdict::kRegressed);
+  EXPECT_EQ(compare_records({after}, {before}, {"seconds"}, 0.01).changes[0].verdict, Verdict::kImproved);
 }
 
 TEST(Compare, TellsWhatIsMissingFailedAndNew) {

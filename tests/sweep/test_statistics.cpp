@@ -4,10 +4,120 @@
 #include <random>
 #include <vector>
 
+#include "sweep/bootstrap.h"
+#include "sweep/cell_text.h"
+#include "sweep/claims.h"
 #include "sweep/statistics.h"
 
 namespace delquad {
 namespace {
+
+struct OneSample {
+  std::vector<double> values;
+  double expected;
+};
+struct TwoSamples {
+  std::vector<double> first, second;
+  double expected;
+};
+struct Adjusted {
+  std::vector<double> p, expected;
+};
+struct AllResamples {
+  std::vector<double> values;
+  double low, high;
+};
+#include "rank_tests.inc"
+
+TEST(Statistics, AgreesWithSciPy) {
+  for (const auto& [values, expected] : kWilcoxon)
+    EXPECT_NEAR(wilcoxon(values).p, expected, 1e-9) << values.size();
+  for (const auto& [first, second, expected] : kMannWhitney) {
+    EXPECT_NEAR(mann_whitney(first, second).p, expected, 1e-9) << first.size();
+    EXPECT_NEAR(mann_whitney(second, first).p, expected, 1e-9) << first.size();
+    EXPECT_EQ(mann_whitney(second, first).lean, -mann_whitney(first, second).lean);
+  }
+  for (const auto& [values, expected] : kHalfWidths)
+    EXPECT_NEAR(confidence_half_width(values), expected, 1e-9) << values.size();
+  for (const auto& [p, expected] : kHolm)
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(holm(p)[i], expected[i], 1e-12);
+}
+
+/// 2000 of all resamples: the standard error of a percentile is about .07 of the interval's half-width.
+TEST(Bootstrap, IsNearToThePercentilesOfAllResamples) {
+  for (const auto& [values, low, high] : kBootstrap) {
+    std::vector<DomainSamples> domains;
+    for (const double value : values) domains.push_back({{value}});
+    const auto interval = bootstrap_interval(domains);
+    ASSERT_TRUE(interval);
+    const double tolerance = 0.3 * (high - low) / 2;
+    EXPECT_NEAR(interval->low, low, tolerance);
+    EXPECT_NEAR(interval->high, high, tolerance);
+  }
+}
+
+/// Domains that agree, of seeds that do not: only the second stage sees that. The mean of n seeds that are 0
+/// or 1 by half has the deviation 1 / (2 sqrt n).
+TEST(Bootstrap, DrawsSeedsInsideOfDomains) {
+  DomainSamples domain(1);
+  for (int i = 0; i < 16; ++i) domain[0].push_back(i % 2);
+  const std::vector<DomainSamples> domains(4, domain);
+  const auto interval = bootstrap_interval(domains);
+  ASSERT_TRUE(interval);
+  EXPECT_NEAR(interval->high - interval->low, 2 * 1.96 / (2 * std::sqrt(64)), 0.03);
+  EXPECT_EQ(interval->low, bootstrap_interval(domains)->low) << "the same every time";
+  EXPECT_FALSE(bootstrap_interval({domain})) << "one domain";
+}
+
+TEST(Bootstrap, VariantsWeighAlikeHoweverManySeedsTheyHave) {
+  EXPECT_DOUBLE_EQ(domain_mean({{1, 1, 1, 1}, {3}}), 2);
+}
+
+TEST(Claims, TestsThatCannotProveAnythingDoNotCount) {
+  ClaimFamily family;
+  const std::size_t strong = family.add({0.02, 1e-6, 1});
+  for (int i = 0; i < 100; ++i) family.add({0.0078125, 0.0078125, 1});  // eight seeds that all agree
+  family.decide();
+  EXPECT_EQ(family.counted(), 1u);
+  EXPECT_EQ(family.finding(strong), Finding::kProven);
+  EXPECT_DOUBLE_EQ(family.adjusted_p(strong), 0.02);
+  EXPECT_EQ(family.finding(1), Finding::kTooFew);
+  EXPECT_TRUE(std::isnan(family.adjusted_p(1)));
+  EXPECT_NE(family.note().find("over 1 test,"), std::string::npos) << family.note();
+  EXPECT_NE(family.note().find("100 more could not"), std::string::npos) << family.note();
+}
+
+TEST(Claims, AsManyAsCanProveSomethingCount) {
+  ClaimFamily family;
+  for (int i = 0; i < 6; ++i) family.add({0.0078125, 0.0078125, 1});  // 6 * .0078 < .05
+  family.decide();
+  EXPECT_EQ(family.counted(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(family.finding(i), Finding::kProven);
+  ClaimFamily one_more;
+  for (int i = 0; i < 7; ++i) one_more.add({0.0078125, 0.0078125, 1});  // 7 * .0078 > .05
+  one_more.decide();
+  EXPECT_EQ(one_more.counted(), 0u);
+  EXPECT_EQ(one_more.finding(0), Finding::kTooFew);
+  ClaimFamily none;
+  none.decide();
+  EXPECT_EQ(none.size(), 0u);
+}
+
+TEST(CellText, DigitsFollowTheInterval) {
+  EXPECT_EQ(decimals_of(0.43, 0), 2);
+  EXPECT_EQ(decimals_of(0.0123, 3), 3);
+  EXPECT_EQ(decimals_of(12.3, 3), 0);
+  EXPECT_EQ(decimals_of(4321, 1), 0);
+  EXPECT_EQ(decimals_of(0, 3), 3);
+  EXPECT_EQ(decimals_of(std::nan(""), 1), 1);
+  EXPECT_EQ(half_width_text(1e-12, decimals_of(1e-12, 3)), "< 0.000000001") << "hidden by no rounding";
+  EXPECT_EQ(interval_text(-0.0001, {-0.04, 0.05}, 4), "0.000 [-0.040, 0.050]");
+  EXPECT_EQ(p_text(3e-8), "< 0.0001") << "never 0";
+  EXPECT_EQ(p_text(0.0123), "0.0123");
+  EXPECT_EQ(seconds_text(0.000785432), "0.000785");
+  EXPECT_EQ(seconds_text(12.346), "12.35");
+  EXPECT_EQ(interval_text(0.01234, {0.01, 0.0149}, 4), "0.0123 [0.0100, 0.0149]");
+}
 
 /// By trying every choice of signs.
 double wilcoxon_by_force(std::vector<double> d) {
@@ -42,7 +152,7 @@ TEST(Statistics, WilcoxonAgreesWithAllChoicesOfSigns) {
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<double> d(1 + trial % 10);
     for (double& x : d) x = static_cast<int>(random() % 9) - 3;  // ties, zeros and a lean
-    EXPECT_NEAR(wilcoxon_p(d), wilcoxon_by_force(d), 1e-12) << trial;
+    EXPECT_NEAR(wilcoxon(d).p, wilcoxon_by_force(d), 1e-12) << trial;
   }
 }
 
@@ -50,16 +160,16 @@ TEST(Statistics, WilcoxonOfManyIsNearTheExactOne) {
   std::mt19937 random(8);
   std::vector<double> d;
   for (int i = 0; i < 60; ++i) d.push_back(static_cast<double>(random() % 1000) - 400);
-  const double exact = wilcoxon_p(d);
+  const double exact = wilcoxon(d).p;
   d.push_back(0.5);  // one more: the normal distribution
-  EXPECT_NEAR(wilcoxon_p(d), exact, 0.01);
+  EXPECT_NEAR(wilcoxon(d).p, exact, 0.01);
 }
 
 TEST(Statistics, WilcoxonOfFewProvesNothing) {
-  EXPECT_EQ(wilcoxon_p({}), 1);
-  EXPECT_EQ(wilcoxon_p(std::vector<double>{0, 0}), 1);
-  EXPECT_DOUBLE_EQ(wilcoxon_p(std::vector<double>{1, 2, 3, 4, 5}), 2.0 / 32);
-  EXPECT_DOUBLE_EQ(wilcoxon_p(std::vector<double>{1, 2, 3, 4, 5, 6}), 2.0 / 64);
+  EXPECT_EQ(wilcoxon({}).p, 1);
+  EXPECT_EQ(wilcoxon(std::vector<double>{0, 0}).p, 1);
+  EXPECT_DOUBLE_EQ(wilcoxon(std::vector<double>{1, 2, 3, 4, 5}).p, 2.0 / 32);
+  EXPECT_DOUBLE_EQ(wilcoxon(std::vector<double>{1, 2, 3, 4, 5, 6}).p, 2.0 / 64);
 }
 
 /// Student's t of 9 degrees of freedom, 97.5 %: 2.262157.

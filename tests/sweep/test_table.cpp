@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sweep/table.h"
+#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -44,11 +45,49 @@ TEST(Tables, TexIsEscapedBooktabs) {
   Table table = example();
   table.columns[1].title = "d_4 %";
   const std::string text = to_tex(table);
-  EXPECT_TRUE(holds(
-      text, "\\begin{tabular}{llrr}\n\\toprule\ncase & pipeline & eta mean & d\\_4 \\% \\\\\n\\midrule\n"))
+  EXPECT_TRUE(holds(text,
+                    "\\begin{tabular}{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d\\_4 \\% "
+                    "\\\\\n\\midrule\n"))
       << text;
   EXPECT_TRUE(holds(text, "case\\_1 & DB & 0.875 (0.75, +0.125) & 88.2 \\\\\n")) << text;
-  EXPECT_TRUE(text.find("\\bottomrule\n\\end{tabular}\n") != std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "\\bottomrule\n\\end{tabular}")) << text;
+}
+
+/// What a reader of the paper has to know stands in the paper, not in comments.
+TEST(Tables, TexSaysWhatFailedAndWhatMarksMean) {
+  const std::string text = to_tex(example());
+  EXPECT_TRUE(holds(text, "case$|$2 & DB & failed &  \\\\\n")) << text;
+  const auto notes = text.substr(text.find("\\end{tabular}"));
+  for (const char* part : {"is $<$", "Table", "note", "In brackets"})
+    EXPECT_TRUE(holds(notes, part)) << notes;
+  EXPECT_FALSE(holds(notes, "\n%")) << notes;
+}
+
+TEST(Tables, ColumnsCanBeChosenAndOrdered) {
+  Table table = example();
+  table.shown = {"d4", "eta_mean"};
+  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |     d4 |             eta mean |"))
+      << to_markdown(table);
+  EXPECT_TRUE(holds(to_tex(table), "case & pipeline & d4 & eta mean \\\\")) << to_tex(table);
+  table.shown = {"d4"};
+  EXPECT_FALSE(holds(to_markdown(table), "eta mean")) << to_markdown(table);
+  EXPECT_EQ(to_csv(table), to_csv(example())) << "has all";
+  EXPECT_TRUE(holds(to_json(table), "\"eta_mean\": 0.875"));
+}
+
+TEST(Tables, WideOnesAreBrokenIntoTabularsOverTheSameRows) {
+  Table table = example();
+  for (int k = 0; k < 20; ++k)
+    table.columns.push_back({"c" + std::to_string(k), "column " + std::to_string(k), 3});
+  const std::string text = to_tex(table);
+  std::size_t tabulars = 0, rows = 0, failed = 0;
+  for (std::size_t at = 0; (at = text.find("\\begin{tabular}", at)) != text.npos; ++at) ++tabulars;
+  for (std::size_t at = 0; (at = text.find("\ncase\\_1 & DB", at)) != text.npos; ++at) ++rows;
+  for (std::size_t at = 0; (at = text.find("& failed", at)) != text.npos; ++at) ++failed;
+  EXPECT_GT(tabulars, 2u) << text;
+  EXPECT_EQ(rows, tabulars);
+  EXPECT_EQ(failed, tabulars);
+  for (int k = 0; k < 20; ++k) EXPECT_TRUE(holds(text, "column " + std::to_string(k) + " ")) << k;
 }
 
 TEST(Tables, JsonHoldsValuesAndReasons) {
@@ -63,12 +102,39 @@ TEST(Tables, MarksAndSpreadsAreShown) {
   table.rows[0].half_widths["d4"] = 1.25;
   table.rows[0].marks["d4"] = Mark::kBest;
   table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
-  const std::string markdown = to_markdown(table), tex = to_tex(table);
+  const std::string markdown = to_markdown(table), tex = to_tex(table), json = to_json(table);
   EXPECT_TRUE(holds(markdown, "**88.2** ± 1.2 |")) << markdown;
   EXPECT_TRUE(holds(markdown, "~0.500 |")) << markdown;
   EXPECT_TRUE(holds(tex, "\\textbf{88.2} $\\pm$ 1.2")) << tex;
   EXPECT_TRUE(holds(tex, "$\\sim$0.500")) << tex;
   EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
+  EXPECT_TRUE(holds(json, "\"d4\": \"best\"")) << json;
+  EXPECT_TRUE(holds(json, "\"d4\": \"88.2 ± 1.2\"")) << json;
+}
+
+TEST(Tables, RoundingHidesNoInterval) {
+  Table table = example();
+  table.columns.push_back({"d_max", "dmax", 0});
+  table.rows[0].values["d_max"] = 5.375;
+  table.rows[0].half_widths["d_max"] = 0.43;
+  EXPECT_TRUE(holds(to_markdown(table), "5.38 ± 0.43")) << to_markdown(table);
+  EXPECT_TRUE(holds(to_tex(table), "5.38 $\\pm$ 0.43")) << to_tex(table);
+}
+
+TEST(Tables, JsonCanBeReadAgain) {
+  Table table = example();
+  table.rows[0].half_widths["d4"] = 1.25;
+  table.rows[0].marks["d4"] = Mark::kBest;
+  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  table.rows[1].incomplete = "2 of 8 failed";
+  const testing_support::TemporaryFolder folder;
+  const Table same = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
+  ASSERT_EQ(same.rows.size(), table.rows.size());
+  for (std::size_t i = 0; i < same.rows.size(); ++i) {
+    EXPECT_EQ(same.rows[i].half_widths, table.rows[i].half_widths);
+    EXPECT_EQ(same.rows[i].marks, table.rows[i].marks);
+    EXPECT_EQ(same.rows[i].incomplete, table.rows[i].incomplete);
+  }
 }
 
 }  // namespace

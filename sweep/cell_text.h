@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "sweep/bootstrap.h"
+
+namespace delquad {
+
+/// Decimal places with which a value and half the width of its interval are shown: two significant digits of
+/// the half-width, so that rounding hides neither. `digits`: of values that are exact; used where the
+/// half-width is 0 or not known. From 0 to 9.
+int decimals_of(double half_width, int digits);
+/// "0.43"; "< 0.000000001" where it would be rounded to nothing.
+std::string half_width_text(double half_width, int decimals);
+/// "0.012 [0.010, 0.015]", with two significant digits of half the interval's width.
+std::string interval_text(double value, const Interval& interval, int digits);
+
+/// "0.0123"; "< 0.0001" below that.
+std::string p_text(double p);
+/// Seconds, with three significant digits or two decimals.
+std::string seconds_text(double seconds);
+
+}  // namespace delquad

@@ -1,0 +1,76 @@
+#include "sweep/rendered_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sweep/cell_text.h"
+
+namespace delquad {
+namespace {
+
+double value_or_nan(const std::map<std::string, double>& values, const std::string& key) {
+  const auto at = values.find(key);
+  return at == values.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
+}
+
+std::string cell(const TableRow& row, const TableColumn& column, const TableStyle& style) {
+  const double ours = value_or_nan(row.values, column.key),
+               published = value_or_nan(row.published, column.key),
+               half_width = value_or_nan(row.half_widths, column.key);
+  const int decimals = decimals_of(half_width, column.digits);
+  std::string text = std::isnan(ours) ? "-" : fmt::format("{:.{}f}", ours, decimals);
+  if (const auto own = row.texts.find(column.key); own != row.texts.end()) text = style.escape(own->second);
+  if (const auto mark = row.marks.find(column.key); mark != row.marks.end())
+    text = mark->second == Mark::kBest ? style.best_begin + text + style.best_end : style.as_good + text;
+  if (!std::isnan(half_width)) text += style.plus_minus + style.escape(half_width_text(half_width, decimals));
+  if (std::isnan(published)) return text;
+  if (std::isnan(ours)) return fmt::format("{} ({})", text, published);
+  return fmt::format("{} ({}, {:+.{}f})", text, published, ours - published, decimals);
+}
+
+RenderedTable::Line line_of(const TableRow& row, const std::vector<TableColumn>& columns,
+                            const TableStyle& style) {
+  RenderedTable::Line line{{style.escape(row.group), style.escape(shown_name(row))}, {}, ""};
+  line.missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
+  for (const TableColumn& column : columns)
+    line.values.push_back(line.missing.empty() || column.key == kRuns ? cell(row, column, style) : "");
+  return line;
+}
+
+void add_notes(const Table& table, std::vector<std::string>& notes) {
+  bool compared = false, means = false;
+  for (const TableRow& row : table.rows) {
+    compared = compared || !row.published.empty();
+    means = means || !row.half_widths.empty();
+    if (!row.failure.empty())
+      notes.push_back(fmt::format("{} {} failed: {}", row.group, row.name, row.failure));
+  }
+  if (means) notes.push_back("Means, and half the width of their 95 % confidence intervals.");
+  if (compared) notes.push_back("In brackets: the published number, and ours minus it.");
+  for (const TableRow& row : table.rows)
+    if (!row.source.empty()) notes.push_back(fmt::format("{} {}: {}", row.group, row.name, row.source));
+  notes.insert(notes.end(), table.notes.begin(), table.notes.end());
+}
+
+}  // namespace
+
+RenderedTable render(const Table& table, const TableStyle& style) {
+  const std::vector<TableColumn> columns = shown_columns(table);
+  RenderedTable result;
+  result.head.names = {style.escape(table.group_title), style.escape(table.name_title)};
+  for (const TableColumn& column : columns) result.head.values.push_back(style.escape(column.title));
+  for (const TableRow& row : table.rows) result.lines.push_back(line_of(row, columns, style));
+  add_notes(table, result.notes);
+  return result;
+}
+
+std::string replace_all(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+}  // namespace delquad
