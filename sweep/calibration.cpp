@@ -76,8 +76,12 @@ Calibration calibrate_scale(double wanted,
       best.runs = runs;
       break;
     }
-    if (tries.empty() || off(*quads) < off(best.quads)) best = {scale, *quads, runs};
+    if (tries.empty() || off(*quads) < off(best.quads)) {
+      best.scale = scale;
+      best.quads = *quads;
+    }
     best.runs = runs;
+    best.tried.push_back({scale, *quads});
     if (std::abs(*quads / wanted - 1) <= kEquallyMany) break;
     tries.push_back({*log_scale, std::log(*quads / wanted)});
     log_scale = next_log_scale(tries);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "delquad/mesh.h"
 
@@ -20,9 +21,10 @@ double count_of_quads(const Mesh& mesh);
 
 /// How close a mesher came to a number of quads by changing its size.
 struct Calibration {
-  double scale = 1;  ///< by which the size is multiplied
-  double quads = 0;  ///< its number then
-  int runs = 0;      ///< how often it was run
+  double scale = 1;                             ///< by which the size is multiplied
+  double quads = 0;                             ///< its number then
+  int runs = 0;                                 ///< how often it was run
+  std::vector<std::vector<double>> tried = {};  ///< scale and number of each run that gave one
 };
 
 /// Looks for the scale of the sizes at which `quads_at` gives `wanted` within kEquallyMany, beginning with 1:

@@ -293,7 +293,8 @@ PeerRun run_calibrated(const Peer& peer, const Case& c, const PreparedProblem& p
                                        {"wanted_quads", *wanted},
                                        {"quads", runs.done.quads},
                                        {"size_factor", runs.done.scale},
-                                       {"runs", static_cast<long long>(runs.done.runs)}});
+                                       {"runs", static_cast<long long>(runs.done.runs)},
+                                       {"tried", runs.done.tried}});
   if (!runs.failure.empty()) log.summaries.add(kCalibrationStep, {{"ended_by", runs.failure}});
   return run;
 }

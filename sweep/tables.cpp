@@ -375,6 +375,7 @@ StudyResults read_results(const fs::path& folder) {
 
 Outcome make_tables(const StudyResults& results) {
   Outcome outcome = Tabulation(results.study, results.records).run();
+  outcome.figures = make_figures(results.records);
   if (results.left_out > 0)
     outcome.table.notes.push_back(
         fmt::format("{} records of cells that the experiment no longer has are left out", results.left_out));
@@ -395,11 +396,12 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
         errors.push_back(error.what());
       }
     }
+  for (const std::string& error : write_figures(folder, outcome.figures)) errors.push_back(error);
   return errors;
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> files = {"study.json"};
+  std::vector<std::string> files = {"study.json", kFigures};
   for (const char* name : {"table", "pairs"})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;

@@ -27,12 +27,11 @@ with open("background.mesh", "w") as out:
 open("background.mtr", "w").write(f"{len(delta)} 1\n" + "\n".join(delta) + "\n")
 subprocess.run(["ffbamg", "-b", "background.mesh", "-M", "background.mtr", "-noKeepBackVertices", "-thetaquad", "45", "-oftq", "out.ftq"], check=True)
 numbers = open("out.ftq").read().split()
-n_points, n_faces = int(numbers[0]), int(numbers[1])
-at = 4
+faces, at = [], 4
+for _ in range(int(numbers[1])):
+    n = int(numbers[at])
+    faces.append("f " + " ".join(numbers[at + 1 : at + 1 + n]) + "\n")
+    at += n + 2
 with open(output, "w") as out:
-    for _ in range(n_faces):
-        n = int(numbers[at])
-        out.write("f " + " ".join(numbers[at + 1 : at + 1 + n]) + "\n")
-        at += n + 2
-    for i in range(n_points):
-        out.write(f"v {numbers[at + 3 * i]} {numbers[at + 3 * i + 1]} 0\n")
+    out.writelines(f"v {x} {y} 0\n" for x, y in zip(numbers[at::3], numbers[at + 1 :: 3]))
+    out.writelines(faces)
