@@ -63,7 +63,7 @@ class Scale {
   double inner(double v) const { return logarithmic_ ? std::log10(v) : v; }
   double outer(double v) const { return logarithmic_ ? std::pow(10, v) : v; }
   void add(double v, std::vector<double>& ticks) const {
-    if (shows(v) && at(v) >= 0 && at(v) <= 1) ticks.push_back(v);
+    if (shows(v) && at(v) >= 0 && at(v) <= 1) ticks.push_back(v + 0.0);  // no -0
   }
 
   bool logarithmic_;

@@ -12,6 +12,7 @@
 #include "sweep/result_records.h"
 #include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -157,7 +158,7 @@ TEST_F(CalibratedPeers, KeepWhatTheyHaveWhenARunFails) {
 TEST_F(CalibratedPeers, KeysAreChecked) {
   const std::string entry = peer("grid", kCoarserGrid);
   expect_input_error([&] { experiment("pipelines = [\"grid\"]\ncalibrate = \"quads\"\n" + entry + kSquare); },
-                     {"calibrate_to", "no word of ours"});
+                     {"calibrate_to", "no word that makes quads"});
   expect_input_error(
       [&] { experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"vertices\"\n" + entry + kSquare); },
       {"vertices", "\"quads\""});
@@ -264,6 +265,22 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
   write_text(folder_ / "none.toml", "");
   expect_input_error([&] { added.add_peer_file(folder_ / "none.toml"); }, {"none.toml", "[[peer]]"});
   expect_input_error([&] { added.add_peer_file(folder_ / "meshers" / "grid.toml"); }, {"second peer 'grid'"});
+}
+
+/// --peer runs all of a file, or those of them that --pipelines names.
+TEST_F(CalibratedPeers, FilesMayBeNamedOnTheCommandLine) {
+  write_text(folder_ / "two.toml", peer("one", kCoarserGrid) + peer("two", kCoarserGrid));
+  const fs::path file = write_text(folder_ / "e.toml", "pipelines = [\"DB\"]\n" + kSquare);
+  const auto cells = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"run", file.string(), "-o", out().string(), "--dry-run"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return testing_support::run_program(DELQUAD_PROGRAM, {arguments, 0, {}}).out;
+  };
+  const std::string two = (folder_ / "two.toml").string();
+  const auto line = [](const char* name) { return "to do          square " + std::string(name) + "\n"; };
+  EXPECT_EQ(cells({}), line("DB"));
+  EXPECT_EQ(cells({"--peer", two}), line("DB") + line("one") + line("two"));
+  EXPECT_EQ(cells({"--peer", two, "--pipelines", "FB,two"}), line("FB") + line("two"));
 }
 
 /// A graded size on a surface, as a view on our triangles.
