@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sweep/cell_text.h"
+#include "sweep/peer.h"
 
 namespace delquad {
 namespace {
@@ -31,10 +32,15 @@ std::string cell(const TableRow& row, const TableColumn& column, const TableStyl
   return fmt::format("{} ({}, {:+.{}f})", text, published, ours - published, decimals);
 }
 
+/// What stands in place of values where there are none; empty: there are.
+std::string shown_skip(const TableRow& row) {
+  return row.skipped.empty() ? "" : row.skipped == kNotApplicable ? row.skipped : "skipped";
+}
+
 RenderedTable::Line line_of(const TableRow& row, const std::vector<TableColumn>& columns,
                             const TableStyle& style) {
   RenderedTable::Line line{{style.escape(row.group), style.escape(shown_name(row))}, {}, ""};
-  line.missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
+  line.missing = row.failure.empty() ? shown_skip(row) : "failed";
   for (const TableColumn& column : columns)
     line.values.push_back(line.missing.empty() || column.key == kRuns ? cell(row, column, style) : "");
   return line;

@@ -18,7 +18,8 @@ struct RenderedTable {
   struct Line {
     std::vector<std::string> names;   ///< group and name
     std::vector<std::string> values;  ///< by column
-    std::string missing;              ///< in place of values: "failed" or "skipped"; empty: they are there
+    std::string
+        missing;  ///< in place of values: "failed", "skipped" or kNotApplicable; empty: they are there
   };
   Line head;
   std::vector<Line> lines;

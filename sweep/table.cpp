@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
+#include "sweep/peer.h"
 #include "sweep/rendered_table.h"
 
 namespace delquad {
@@ -51,7 +52,7 @@ std::string csv_quoted(const std::string& text) {
 
 std::string status(const TableRow& row) {
   if (!row.failure.empty()) return "failed: " + row.failure;
-  if (!row.skipped.empty()) return "skipped: " + row.skipped;
+  if (!row.skipped.empty()) return row.skipped == kNotApplicable ? row.skipped : "skipped: " + row.skipped;
   if (row.unsound.empty() && row.incomplete.empty()) return "ok";
   return row.unsound + (row.unsound.empty() || row.incomplete.empty() ? "" : ", ") + row.incomplete;
 }

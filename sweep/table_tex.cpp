@@ -154,9 +154,8 @@ class TexTable {
       names_[k] = std::min(width, kMostOfNames);
       broken_[k] = width > kMostOfNames;
     }
-    const bool is_missing =
-        std::ranges::any_of(rendered_.lines, [](const auto& l) { return !l.missing.empty(); });
-    const double failed = is_missing ? width_of("skipped") : 0;
+    double failed = 0;
+    for (const auto& line : rendered_.lines) failed = std::max(failed, width_of(line.missing));
     for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
       double width = std::max(failed, width_of(rendered_.head.values[k]));
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.values[k]));

@@ -9,6 +9,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "sweep/calibration_notes.h"
 #include "sweep/cell_text.h"
 #include "sweep/inference.h"
 #include "sweep/statistics.h"
@@ -147,13 +148,17 @@ class Tabulation {
       if (said.insert(text).second) notes.push_back(text);
     };
     for (const CellRecord& record : records_) {
-      if (record.skipped) say(fmt::format("{}: {}", record.name, record.reason));
+      if (record.kind == kNotApplicable)
+        say(fmt::format("{} {} is not applicable: {}", record.group, record.pipeline, record.reason));
+      else if (record.skipped)
+        say(fmt::format("{}: {}", record.name, record.reason));
       say_size(record, say);
       for (const std::string& reason : record.unsound)
         say(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
       for (const std::string& warning : record.warnings)
         if (warning.starts_with(record.name + " ")) say("warning: " + warning);
     }
+    for (const std::string& note : calibration_notes(records_)) say(note);
     if (records_.size() < study_.cells)
       notes.push_back(
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
@@ -239,6 +244,7 @@ StudyResults read_results(const fs::path& folder) {
 
 Outcome make_tables(const StudyResults& results) {
   Outcome outcome = Tabulation(results.study, results.records).run();
+  outcome.figures = make_figures(results.records);
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
                              results.time_problems.end());
   if (results.left_out > 0)
@@ -261,11 +267,12 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
         errors.push_back(error.what());
       }
     }
+  for (const std::string& error : write_figures(folder, outcome.figures)) errors.push_back(error);
   return errors;
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> files = {"study.json"};
+  std::vector<std::string> files = {"study.json", kFigures};
   for (const char* name : {"table", "pairs"})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep/figures.h"
 #include "sweep/result_records.h"
 #include "sweep/study_file.h"
 #include "sweep/table.h"
@@ -15,6 +16,7 @@ struct Outcome {
   Table table;
   /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
   Table pairs;
+  std::vector<Figure> figures;                         ///< of several pipelines over several cases
   long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
 };
@@ -35,7 +37,7 @@ StudyResults read_results(const std::filesystem::path& folder);
 Outcome make_tables(const StudyResults& results);
 /// Throws InputError as read_results() does.
 Outcome make_tables(const std::filesystem::path& folder);
-/// Writes the tables that have rows in every format; returns what could not be written.
+/// Writes the tables that have rows in every format, and the figures; returns what could not be written.
 std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);
 /// Every file that it may write.
 std::vector<std::string> result_files();

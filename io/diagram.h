@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+struct DiagramAxis {
+  std::string label;
+  bool logarithmic = false;  ///< then values that are not positive are left out
+};
+
+/// What one of several things that are compared has.
+struct DiagramSeries {
+  std::string name;
+  std::vector<Vec2> points;
+};
+
+enum class DiagramKind {
+  kDots,  ///< each point by itself
+  kSteps  ///< the height of a point holds until the next one
+};
+
+/// Several series over common axes, told apart by colour and shape, with a legend, and lines of text below.
+/// SVG, written whole or not at all. Points that are not finite are left out.
+struct Diagram {
+  std::string title;
+  DiagramAxis x, y;
+  DiagramKind kind = DiagramKind::kDots;
+  std::vector<DiagramSeries> series;
+  std::vector<std::string> notes = {};
+};
+void draw_diagram(const std::filesystem::path& path, const Diagram& diagram);
+
+}  // namespace delquad
