@@ -14,6 +14,7 @@
 #include "mesh/check_invariants.h"
 #include "mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
+#include "sweep/command_files.h"
 #include "sweep/run_program.h"
 
 namespace delquad {
@@ -43,10 +44,12 @@ void check_run(const std::string& program, const ProgramRun& run, const std::vec
   if (!end.empty()) throw PeerError(program + ": " + end + (run.error == 0 ? complaint(log) : ""));
 }
 
-/// A program with a slash in it counts from the peer's folder.
+/// A program with a slash in it counts from the peer's folder, and so do files that lie there.
 std::vector<std::string> located_command(const Peer& peer, std::vector<std::string> words) {
   if (words[0].find('/') != std::string::npos)
     words[0] = fs::absolute(peer.folder / words[0]).lexically_normal().string();
+  for (std::size_t i = 1; i < words.size(); ++i)
+    if (const fs::path file = file_of_word(peer.folder, words, i); !file.empty()) words[i] = file.string();
   return words;
 }
 
