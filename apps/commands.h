@@ -45,8 +45,22 @@ int schema_command(bool options);
 
 struct RerunArguments {
   std::filesystem::path record;
+  std::filesystem::path data = kDataFolder;
 };
 int rerun_command(const RerunArguments& arguments);
+
+struct VerifyArguments {
+  std::filesystem::path folder;
+  std::filesystem::path data = kDataFolder;
+  int threads = thread_count();
+};
+int verify_command(const VerifyArguments& arguments);
+
+struct MergeArguments {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path output;
+};
+int merge_command(const MergeArguments& arguments);
 
 struct MeshArguments {
   std::filesystem::path model, output, json;

@@ -105,13 +105,16 @@ CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const
       "--size", [&size](const std::string& text) { size = text; }, help);
 }
 
+void add_data(CLI::App& command, std::filesystem::path& data) {
+  command.add_option("--data", data, "folder of the models that cases call data")->capture_default_str();
+}
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment: every pipeline on every case, with tables and pictures");
   run->add_option("experiment", arguments.experiment, "experiment file (.toml)")->required();
   run->add_option("-o,--output", arguments.folder, "folder for the results")->required();
-  run->add_option("--data", arguments.data, "folder of the models that cases call data")
-      ->capture_default_str();
+  add_data(*run, arguments.data);
   run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
   run->add_option("--peer", arguments.peers, "file of other meshers, which are run beside; may be repeated")
       ->allow_extra_args(false);
@@ -131,6 +134,9 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   run->add_option("--memory", sweep.limits.bytes,
                   "memory a cell may take, such as 500M or 4G; more, and it has failed")
       ->transform(CLI::AsSizeValue(false));
+  static const std::map<std::string, bool> pictures = {{"none", false}, {"svg", true}};
+  run->add_option("--pictures", sweep.pictures, "of fields and meshes: 'svg' (the default) or 'none'")
+      ->transform(CLI::CheckedTransformer(pictures).description("none or svg"));
   run->add_flag("--force", sweep.force, "run cells again that are done");
   run->add_flag("--dry-run", arguments.dry_run, "list the cells, and which of them are done");
   run->add_option_function<std::string>(
@@ -143,12 +149,36 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->check(kShard);
 }
 
-void add_records(CLI::App& app, TablesArguments& tables, RerunArguments& rerun) {
+/// Of commands that work on results that are there.
+struct RecordsArguments {
+  TablesArguments tables;
+  RerunArguments rerun;
+  VerifyArguments verify;
+  MergeArguments merge;
+};
+
+void add_records(CLI::App& app, RecordsArguments& arguments) {
   CLI::App* table = app.add_subcommand("tables", "Make the tables of an experiment from its results");
-  table->add_option("folder", tables.folder, "folder of 'delquad run'")->required();
+  table->add_option("folder", arguments.tables.folder, "folder of 'delquad run'")->required();
   CLI::App* again = app.add_subcommand(
       "rerun", "Make a result again from its record: the same bytes, or what stands in their way");
-  again->add_option("record", rerun.record, "record.json of a cell")->required();
+  again->add_option("record", arguments.rerun.record, "record.json of a cell")->required();
+  add_data(*again, arguments.rerun.data);
+}
+
+void add_care_of_records(CLI::App& app, RecordsArguments& arguments) {
+  CLI::App* check = app.add_subcommand(
+      "verify", "Check that results are as they were written; exit code 1 when something is not");
+  check->add_option("folder", arguments.verify.folder, "folder of 'delquad run'")->required();
+  add_data(*check, arguments.verify.data);
+  check->add_option("-j,--jobs", arguments.verify.threads, "cells at a time; default: all cores")
+      ->check(CLI::Range(1, kMostThreads));
+  CLI::App* together = app.add_subcommand(
+      "merge", "Put results of one experiment, made in several folders, together in a new one");
+  together->add_option("folders", arguments.merge.folders, "folders of 'delquad run', which stay as they are")
+      ->required()
+      ->expected(2, -1);
+  together->add_option("-o,--output", arguments.merge.output, "folder to make")->required();
 }
 
 void add_report(CLI::App& app, ReportArguments& arguments) {
@@ -287,6 +317,15 @@ void be_quiet(const CLI::App& app, bool only_prints) {
     throw InputError("-q: /dev/null cannot be opened: " + std::generic_category().message(errno));
 }
 
+/// The exit code, where it is one of these commands.
+std::optional<int> run_on_records(const CLI::App& app, const RecordsArguments& arguments) {
+  if (app.got_subcommand("tables")) return tables_command(arguments.tables);
+  if (app.got_subcommand("rerun")) return rerun_command(arguments.rerun);
+  if (app.got_subcommand("verify")) return verify_command(arguments.verify);
+  if (app.got_subcommand("merge")) return merge_command(arguments.merge);
+  return std::nullopt;
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app("Delquad: frontal Delaunay quad meshing in the L-infinity norm");
   app.require_subcommand(0, 1);
@@ -297,12 +336,12 @@ int run_command_line(int argc, char** argv) {
   CompareArguments compare;
   InfoArguments info;
   ExampleArguments example;
-  TablesArguments tables;
-  RerunArguments rerun;
+  RecordsArguments records;
   ReportArguments report;
   add_common(app, common);
   add_run(app, run);
-  add_records(app, tables, rerun);
+  add_records(app, records);
+  add_care_of_records(app, records);
   add_report(app, report);
   bool only_options = false;
   add_schema(app, only_options);
@@ -333,10 +372,9 @@ int run_command_line(int argc, char** argv) {
   std::optional<TimeLimit> limit;
   if (common.time_limit > 0) limit.emplace(common.time_limit);
   if (app.got_subcommand("run")) return run_command(run);
-  if (app.got_subcommand("tables")) return tables_command(tables);
   if (app.got_subcommand("report")) return report_command(report);
   if (app.got_subcommand("schema")) return schema_command(only_options);
-  if (app.got_subcommand("rerun")) return rerun_command(rerun);
+  if (const auto code = run_on_records(app, records)) return *code;
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);

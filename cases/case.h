@@ -42,6 +42,7 @@ struct Case {
   std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else
   std::filesystem::path surface_file;  ///< CAD or triangles, or else
   std::string example;                 ///< a model that the program makes itself
+  std::filesystem::path model_file;    ///< the .toml file that one of these comes from; empty: none
   bool may_be_absent = false;          ///< the model's file is data that the case is skipped without
   SurfaceSpec surface;                 ///< of a mesh of triangles, surface_file or example
   SizeText size;

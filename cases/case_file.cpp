@@ -88,6 +88,7 @@ void drop_model(Case& target) {
   target.mesh_file.clear();
   target.surface_file.clear();
   target.example.clear();
+  target.model_file.clear();
   target.may_be_absent = false;
 }
 
@@ -188,6 +189,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
+  result.model_file = file;
   table.finish();
   if (!has_model(result))
     throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh', 'model' or 'example'");

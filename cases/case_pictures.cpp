@@ -1,5 +1,7 @@
 #include "cases/case_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,7 +106,11 @@ void draw_case(const PreparedProblem& prepared, const std::string& name,
     samples.points.push_back({u.x, u.y, 0});
     sizes.push_back(prepared.size->at(samples.points.back(), hint));
   }
-  draw_scalar(folder / "size.svg", samples, sizes, name + ": size field");
+  if (std::ranges::all_of(sizes, [&](double size) { return size == sizes[0]; }))
+    draw_crosses(folder / "size.svg", prepared.boundary, {}, {},
+                 fmt::format("{}: size {:.4g} everywhere", name, sizes[0]));
+  else
+    draw_scalar(folder / "size.svg", samples, sizes, name + ": size field");
 }
 
 void draw_convergence(const std::filesystem::path& path, const Summaries& summaries,

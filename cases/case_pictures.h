@@ -8,7 +8,8 @@
 
 namespace delquad {
 
-/// Draws the fields of a case: folder/cross.svg and folder/size.svg.
+/// Draws the fields of a case: folder/cross.svg and folder/size.svg; of a size that is the same everywhere,
+/// the outline and the number.
 void draw_case(const PreparedProblem& prepared, const std::string& name, const std::filesystem::path& folder);
 
 /// The energy at every evaluation of a smoothing, as its summary has them: a curve for each patch and each

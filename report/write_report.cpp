@@ -183,6 +183,12 @@ class Page {
 
   void add_cell(const CellRecord& cell, Json& sheet) {
     const fs::path file = cell.folder / "record.json";
+    if (cell.kind == "damaged") {
+      problems_.push_back(cell.reason);
+      const Json record = {{"pipeline", cell.pipeline}, {"status", "failed"}, {"reason", cell.reason}};
+      sheet["cells"].push_back(cell_json(record, std::nullopt));
+      return;
+    }
     try {
       std::ifstream in(file);
       const Json record = Json::parse(in);

@@ -27,9 +27,10 @@ struct TemporaryFolder {
 /// What an earlier run left would pass for what this one made. The record first: it says that the rest is
 /// whole.
 void remove_results(const fs::path& folder) {
-  for (const char* name : {kRecord, "mesh.msh", "mesh.vtu", "picture.svg", "convergence.svg", "peer.log",
-                           "input.geo", "input.msh", "input.obj", "input.inp", "input.mesh", "size.pos",
-                           "size.sol", "size.mesh", "size.points", "model.step"}) {
+  for (const char* name :
+       {kRecord,       "mesh.msh",   "mesh.vtu",   "picture.svg", "convergence.svg", "peer.log",  "input.geo",
+        "input.msh",   "input.obj",  "input.inp",  "input.mesh",  "size.pos",        "size.sol",  "size.mesh",
+        "size.points", "model.step", "output.msh", "output.obj",  "output.off",      "output.stl"}) {
     std::error_code nothing_there;
     fs::remove(folder / name, nothing_there);
   }

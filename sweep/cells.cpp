@@ -6,6 +6,8 @@
 #include <map>
 #include <string_view>
 
+#include "geometry/cad/cad_reader.h"
+#include "sweep/command_files.h"
 #include "sweep/digest.h"
 
 namespace delquad {
@@ -13,10 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The program: its bytes, which no change of an algorithm, an option of the compiler or a library inside
-/// leaves alone.
+/// The program and the one that reads CAD for it: their bytes, which no change of an algorithm, an option of
+/// the compiler or a library inside leaves alone.
 const std::string& program_digest() {
-  static const std::string program = digest(file_digest("/proc/self/exe") + versions_record());
+  static const std::string program = [] {
+    const fs::path reader = cad_program();
+    return digest(file_digest("/proc/self/exe") + (reader.empty() ? "" : file_digest(reader)) +
+                  versions_record());
+  }();
   return program;
 }
 
@@ -40,12 +46,17 @@ std::string describe(const PlanarModel& model) {
   return text;
 }
 
-/// The text of a key of a record's first lines.
+constexpr std::size_t kHeadLength = 1024;  // of a record: what is looked for stands in it
+
+/// The text or number of a key of a record's first lines.
 std::string value_of(std::string_view head, const std::string& key) {
-  const std::string opening = "\n  \"" + key + "\": \"";
+  const std::string opening = "\n  \"" + key + "\": ";
   const auto at = head.find(opening);
   if (at == std::string_view::npos) return "";
-  const auto begin = at + opening.size(), end = head.find('"', begin);
+  auto begin = at + opening.size();
+  const bool is_text = head.substr(begin).starts_with('"');
+  if (is_text) ++begin;
+  const auto end = head.find(is_text ? '"' : ',', begin);
   return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
 }
 
@@ -76,17 +87,19 @@ std::string model_digest(const Case& c) {
 }
 
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model,
-                      const std::array<std::size_t, 3>& place) {
+                      const Word& word) {
   CellIdentity cell;
   cell.model_digest = model;
   cell.program_digest = program_digest();
-  cell.experiment = fs::absolute(experiment.file).lexically_normal().string();
-  cell.data = fs::absolute(c.data_folder).lexically_normal().string();
-  cell.place = place;
-  std::string pipeline = experiment.words[place[2]].text;
-  if ((cell.peer = experiment.peer_of(experiment.words[place[2]])) != nullptr) {
+  std::string pipeline = word.text;
+  if ((cell.peer = experiment.peer_of(word)) != nullptr) {
     cell.peer_version = version_of(*cell.peer);
-    pipeline += peer_record(*cell.peer, cell.peer_version);
+    cell.peer_file = fs::absolute(cell.peer->file)
+                         .lexically_normal()
+                         .lexically_relative(fs::absolute(experiment.file).lexically_normal().parent_path())
+                         .generic_string();
+    cell.peer_files = command_files(cell.peer->folder, cell.peer->command);
+    pipeline += peer_record(cell);
   }
   for (const MetricCommand& metric : experiment.metrics)
     cell.metrics.push_back({&metric, metric_files(metric)});
@@ -100,13 +113,21 @@ fs::path cell_folder(const fs::path& folder, const Case& c, const Word& word) {
   return folder / c.folder / word.text;
 }
 
-std::optional<RecordHead> read_head(const fs::path& cell) {
-  std::ifstream in(cell / "record.json", std::ios::binary);
-  char bytes[1024];
-  in.read(bytes, sizeof bytes);
-  const std::string_view head(bytes, static_cast<std::size_t>(in.gcount()));
-  RecordHead result{value_of(head, "key"), value_of(head, "status"), value_of(head, "metrics_status")};
-  return result.key.empty() ? std::nullopt : std::optional(std::move(result));
+bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }
+
+std::string state_of_cell(const fs::path& folder, const std::string& key) {
+  std::ifstream in(folder / "record.json", std::ios::binary);
+  if (!in) return "to do";
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!is_sealed(text)) return "damaged";
+  const std::string_view head = std::string_view(text).substr(0, kHeadLength);
+  if (value_of(head, "key") != key) return "outdated";
+  if (!value_of(head, "metrics_status").empty()) return "metric failed";
+  const std::string status = value_of(head, "status");
+  if (status != "ok") return status;
+  std::error_code missing;
+  const auto bytes = fs::file_size(folder / "mesh.msh", missing);
+  return !missing && std::to_string(bytes) == value_of(head, "mesh_bytes") ? "done" : "damaged";
 }
 
 }  // namespace delquad

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -11,5 +13,24 @@ std::string digest(std::string_view bytes);
 /// Of a file's contents; each file is read once while it stays as it is. Throws InputError when it cannot be
 /// read.
 std::string file_digest(const std::filesystem::path& file);
+
+/// What tells whether a file is still the same.
+struct FileMark {
+  std::uintmax_t bytes = 0;
+  std::string digest;
+  bool operator==(const FileMark&) const = default;
+};
+/// Reads the file. Throws InputError when it cannot be read.
+FileMark mark_of(const std::filesystem::path& file);
+/// Of the regular files in a folder and in those inside it, by their paths in it.
+std::map<std::string, FileMark> marks_of(const std::filesystem::path& folder);
+/// How a file differs from its mark, in words ("holds 12 bytes, expected 300"); empty: it does not.
+std::string difference(const std::filesystem::path& file, const FileMark& mark);
+
+/// The text of a JSON object, printed over several lines, with one more entry before the others: "digest", by
+/// which every later change of the text shows.
+std::string sealed(const std::string& object);
+/// Whether the text is as sealed() made it.
+bool is_sealed(std::string_view text);
 
 }  // namespace delquad

@@ -13,6 +13,8 @@
 #include "cases/case_file.h"
 #include "cases/toml_reader.h"
 #include "metrics/metrics.h"
+#include "sweep/command_files.h"
+#include "sweep/digest.h"
 #include "sweep/schema.h"
 #include "sweep/tables.h"
 
@@ -136,22 +138,6 @@ void check_case_name(const TomlTable& table, const std::string& name,
 /// Up to this many characters of a value make the name of a folder.
 constexpr std::size_t kLongestValue = 40;
 
-/// As it stands in the name of a folder: what might not stand there is replaced by `_`, and long or doubtful
-/// texts by their place in the list.
-std::string folder_text(const Axis& axis, std::size_t i) {
-  const auto plain = [](const std::string& text) {
-    std::string result = text;
-    for (char& c : result)
-      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
-        c = '_';
-    return result;
-  };
-  const std::string text = plain(axis.values[i]);
-  const auto same =
-      std::ranges::count_if(axis.values, [&](const std::string& v) { return plain(v) == text; });
-  return text.size() > kLongestValue || same > 1 ? "value-" + std::to_string(i + 1) : text;
-}
-
 std::vector<std::string> read_command(const TomlTable& table, const char* key) {
   std::vector<std::string> command = table.texts(key);
   if (!command.empty() && !command[0].empty()) return command;
@@ -231,6 +217,63 @@ std::string last_part(const std::string& key) { return key.substr(key.rfind('.')
 
 }  // namespace
 
+std::string folder_text(const std::vector<std::string>& values, std::size_t i) {
+  constexpr std::size_t kDigits = 8;  // of a digest
+  const auto plain = [](const std::string& text) {
+    std::string result = text;
+    for (char& c : result)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
+        c = '_';
+    return result;
+  };
+  const std::string text = plain(values[i]);
+  const auto same = std::ranges::count_if(values, [&](const std::string& v) { return plain(v) == text; });
+  return text.size() > kLongestValue || same > 1 ? "value-" + digest(values[i]).substr(0, kDigits) : text;
+}
+
+std::optional<std::array<std::size_t, 2>> Experiment::find_variant(
+    const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const {
+  const auto is_it = [&](const TomlTable& table) { return table.text("name") == name; };
+  const auto at = std::ranges::find_if(cases_, is_it);
+  if (at == cases_.end() || values.size() != axes.size()) return std::nullopt;
+  std::size_t variant = 0;
+  for (const Axis& axis : axes) {
+    const auto given = std::ranges::find(values, axis.title, &std::pair<std::string, std::string>::first);
+    if (given == values.end()) return std::nullopt;
+    const auto value = std::ranges::find(axis.values, given->second);
+    if (value == axis.values.end()) return std::nullopt;
+    variant = variant * axis.values.size() + static_cast<std::size_t>(value - axis.values.begin());
+  }
+  return std::array{static_cast<std::size_t>(at - cases_.begin()), variant};
+}
+
+std::vector<std::filesystem::path> Experiment::files() const {
+  namespace fs = std::filesystem;
+  std::set<fs::path> found;
+  const auto add = [&](const fs::path& name) {
+    std::error_code unknown;
+    if (fs::is_regular_file(name, unknown)) found.insert(fs::absolute(name).lexically_normal());
+  };
+  add(file);
+  add(reference);
+  for (const fs::path& peer_file : peer_files) add(peer_file);
+  for (std::size_t i = 0; i < n_cases(); ++i) {
+    const Case c = read_variant(i);
+    add(c.model_file);
+    if (!c.may_be_absent) add(model_path(c));
+  }
+  // Programs of the system stay where they are.
+  const auto add_beside = [&](const fs::path& folder, const std::string& word) {
+    if (!fs::path(word).is_absolute()) add(folder / word);
+  };
+  for (const Peer& peer : peers)
+    for (const std::vector<std::string>* command : {&peer.command, &peer.version})
+      for (const auto& [word, digest] : command_files(peer.folder, *command)) add_beside(peer.folder, word);
+  for (const MetricCommand& metric : metrics)
+    for (const auto& [word, digest] : metric_files(metric)) add_beside(metric.folder, word);
+  return {found.begin(), found.end()};
+}
+
 std::size_t Experiment::n_variants() const {
   std::size_t n = 1;
   for (const Axis& axis : axes) n *= axis.values.size();
@@ -276,7 +319,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.max_elements = max_elements;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     c.variant.emplace_back(axes[k].title, axes[k].values[choice[k]]);
-    c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k], choice[k]);
+    c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k].values, choice[k]);
   }
   return c;
 }
@@ -456,8 +499,10 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
   for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
   const std::vector<std::string> metrics = keys_of_metrics(experiment.metrics);
-  if (table.has("reference"))
-    experiment.published = read_published(file.parent_path() / table.text("reference"), metrics);
+  if (table.has("reference")) {
+    experiment.reference = file.parent_path() / table.text("reference");
+    experiment.published = read_published(experiment.reference, metrics);
+  }
   experiment.step_times = table.flag("step_times", false);
   experiment.repeat_times = static_cast<int>(read_count(table, "repeat_times", 2, kMostRepetitions, 0));
   experiment.columns = read_columns(table, metrics);

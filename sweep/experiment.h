@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -47,6 +48,10 @@ struct Axis {
   std::vector<std::string> values;  ///< as texts
 };
 
+/// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
+/// replaced by `_`, and long or doubtful texts by a digest.
+std::string folder_text(const std::vector<std::string>& values, std::size_t i);
+
 /// A file of experiments/: cases, the pipelines to run on each, and what was published.
 ///
 /// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
@@ -69,6 +74,7 @@ class Experiment {
   std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
   std::optional<LinfStudy> linf;     ///< then there are no cases
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
+  std::filesystem::path reference;                      ///< file of the published rows; empty: none
 
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
@@ -82,6 +88,13 @@ class Experiment {
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
   std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
+  /// Case and variant by the case's name and the values that vary, by title, in any order; nothing where the
+  /// experiment has none such.
+  std::optional<std::array<std::size_t, 2>> find_variant(
+      const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const;
+  /// The experiment's file and all that it names beside it: models, published rows, files of peers and
+  /// measures. Without those that cases call data and those that are not there.
+  std::vector<std::filesystem::path> files() const;
   /// Throws InputError with file and line.
   Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
 

@@ -13,6 +13,7 @@
 
 #include "base/located.h"
 #include "delquad/error.h"
+#include "sweep/command_files.h"
 #include "sweep/digest.h"
 #include "sweep/peer.h"
 #include "sweep/run_program.h"
@@ -27,19 +28,6 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 constexpr const char* kBlank = " \t\r\n";
 
-/// The file that a word names beside the experiment; empty: none.
-fs::path file_beside(const MetricCommand& metric, const std::string& word) {
-  if (word.empty() || word.find('{') != std::string::npos) return {};
-  std::error_code nothing_there;
-  const fs::path file = fs::absolute(metric.folder / word).lexically_normal();
-  return fs::is_regular_file(file, nothing_there) ? file : fs::path();
-}
-
-/// A program without a slash is one of the PATH, whatever lies beside the experiment.
-bool may_be_file(const MetricCommand& metric, std::size_t i) {
-  return i > 0 || metric.command[0].find('/') != std::string::npos;
-}
-
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
@@ -49,8 +37,7 @@ std::vector<std::string> fill_in(const MetricCommand& metric, const Case& c, con
                                  const fs::path& folder) {
   std::vector<std::string> words = metric.command;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (const fs::path file = may_be_file(metric, i) ? file_beside(metric, words[i]) : fs::path();
-        !file.empty()) {
+    if (const fs::path file = file_of_word(metric.folder, words, i); !file.empty()) {
       words[i] = file.string();
       continue;
     }
@@ -167,11 +154,7 @@ MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::
 }
 
 std::map<std::string, std::string> metric_files(const MetricCommand& metric) {
-  std::map<std::string, std::string> digests;
-  for (std::size_t i = 0; i < metric.command.size(); ++i)
-    if (may_be_file(metric, i))
-      if (const fs::path file = file_beside(metric, metric.command[i]); !file.empty())
-        digests[metric.command[i]] = file_digest(file);
+  std::map<std::string, std::string> digests = command_files(metric.folder, metric.command);
   for (const std::string& name : metric.files)
     digests[name] =
         located("metric '" + metric.metric.key + "'", [&] { return file_digest(metric.folder / name); });

@@ -15,6 +15,7 @@
 #include "mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
 #include "sweep/calibration.h"
+#include "sweep/command_files.h"
 #include "sweep/peer_reference.h"
 #include "sweep/peer_sizes.h"
 #include "sweep/run_program.h"
@@ -57,13 +58,12 @@ void check_run(const std::string& program, const ProgramRun& run, const std::vec
   if (!end.empty()) throw PeerError(program + ": " + end + (run.error == 0 ? complaint(log) : ""));
 }
 
-/// A program with a slash in it counts from the peer's folder, and so do words that name files there.
+/// A program with a slash in it counts from the peer's folder, and so do files that lie there.
 std::vector<std::string> located_command(const Peer& peer, std::vector<std::string> words) {
-  for (std::string& word : words) {
-    const bool is_program = &word == words.data();
-    if (is_program ? word.find('/') != word.npos : fs::is_regular_file(peer.folder / word))
-      word = fs::absolute(peer.folder / word).lexically_normal().string();
-  }
+  if (words[0].find('/') != std::string::npos)
+    words[0] = fs::absolute(peer.folder / words[0]).lexically_normal().string();
+  for (std::size_t i = 1; i < words.size(); ++i)
+    if (const fs::path file = file_of_word(peer.folder, words, i); !file.empty()) words[i] = file.string();
   return words;
 }
 

@@ -27,7 +27,7 @@ const std::vector<std::string>& size_field_formats();
 struct Peer {
   std::string name;  ///< in place of a pipeline's word
   /// Program and arguments; {input}, {output}, {size}, {size_field}, {quads} and {seed} stand for these. A
-  /// program with a slash in it counts from `folder`.
+  /// program with a slash in it counts from `folder`; words that name files there stand for them.
   std::vector<std::string> command;
   std::vector<std::string> version;  ///< program and arguments that print its version
   /// Extension of what it reads: ".geo" is Gmsh's language, for every case; with others it gets the lines of

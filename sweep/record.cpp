@@ -1,11 +1,8 @@
 #include "sweep/record.h"
 
-#include <sys/utsname.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <thread>
 
 #include "base/parallel.h"
 #include "delquad/error.h"
@@ -263,13 +260,17 @@ Json versions_json() {
   return json;
 }
 
-void add_origin(Json& json) {
-  utsname machine = {};
-  uname(&machine);
+/// `start`: null outside of experiments.
+void add_origin(Json& json, const MachineState* start = nullptr) {
+  const Machine machine = this_machine();
   json["versions"] = versions_json();
-  json["machine"] = {{"system", std::string(machine.sysname) + " " + machine.release},
-                     {"architecture", machine.machine},
-                     {"processors", std::thread::hardware_concurrency()}};
+  json["machine"] = {{"system", machine.system},
+                     {"architecture", machine.architecture},
+                     {"cpu", machine.cpu},
+                     {"processors", machine.processors}};
+  if (start == nullptr) return;
+  json["machine"]["load_average"] = start->load ? Json(*start->load) : Json();
+  json["started"] = start->time;
 }
 
 /// The file of the model, or the name of the example.
@@ -279,12 +280,14 @@ std::string source_of(const Case& c) {
   return model_path(c).string();
 }
 
-Json peer_json(const Peer& peer, const std::string& version) {
+Json peer_json(const CellIdentity& cell) {
+  const Peer& peer = *cell.peer;
   const auto name_of = [](HandOver given, const char* plain) {
     return given == HandOver::kModel ? plain : given == HandOver::kTriangles ? "triangles" : "none";
   };
-  return {{"version", version},
+  return {{"version", cell.peer_version},
           {"command", peer.command},
+          {"files", cell.peer_files},
           {"input", peer.input},
           {"output", peer.output},
           {"exit_codes", peer.exit_codes},
@@ -295,13 +298,22 @@ Json peer_json(const Peer& peer, const std::string& version) {
           {"calibrate_to", peer.calibrate_to}};
 }
 
+Json files_json(const CellIdentity& cell) {
+  Json json = Json::object();
+  for (const auto& [name, mark] : cell.files) json[name] = {{"bytes", mark.bytes}, {"digest", mark.digest}};
+  return json;
+}
+
 /// `metrics`: "failed" where one of them has no value.
 Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell,
                   const std::string& metrics = "ok") {
   Json json = Json::object();
   // First: they are looked for without reading the rest.
+  const auto mesh = cell != nullptr ? cell->files.find("mesh.msh") : decltype(cell->files.end()){};
+  const bool has_mesh = cell != nullptr && mesh != cell->files.end();
   if (cell != nullptr) json["key"] = cell->key;
   if (cell != nullptr && metrics != "ok") json["metrics_status"] = metrics;
+  if (has_mesh) json["mesh_bytes"] = mesh->second.bytes;
   json["case"] = c.name;
   json["pipeline"] = word.text;
   json["status"] = status;
@@ -311,13 +323,12 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   json["variant"] = Json::object();
   for (const auto& [title, value] : c.variant) json["variant"][title] = value;
   if (cell == nullptr) return json;
-  if (cell->peer != nullptr) json["peer"] = peer_json(*cell->peer, cell->peer_version);
-  if (cell->peer != nullptr) json["peer_file"] = std::filesystem::absolute(cell->peer->file).string();
+  if (cell->peer != nullptr) json["peer"] = peer_json(*cell);
+  if (cell->peer != nullptr) json["peer_file"] = cell->peer_file;
   json["experiment"] = cell->experiment;
-  json["data"] = cell->data;
-  json["place"] = cell->place;
   json["digests"] = {{"model", cell->model_digest}, {"program", cell->program_digest}};
-  if (!cell->mesh_digest.empty()) json["digests"]["mesh"] = cell->mesh_digest;
+  if (has_mesh) json["digests"]["mesh"] = mesh->second.digest;
+  json["files"] = files_json(*cell);
   return json;
 }
 
@@ -353,9 +364,9 @@ std::string run_record(const Case& c, const PreparedProblem& prepared, const Wor
   if (is_peer) json["peer_seconds"] = result.seconds;
   json["peak_memory_bytes"] = result.peak_memory;
   add_metrics(json, result.metrics);
-  add_origin(json);
+  add_origin(json, cell != nullptr ? &cell->start : nullptr);
   add_summaries(json, log.summaries);
-  return print(json);
+  return cell != nullptr ? sealed(print(json)) : print(json);
 }
 
 std::string failure_record(const Case& c, const Word& word, const std::string& status,
@@ -364,13 +375,11 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
   json["kind"] = kind;
   json["reason"] = reason;
   json["options"] = options_json(c);
-  add_origin(json);
-  return print(json);
+  add_origin(json, cell != nullptr ? &cell->start : nullptr);
+  return cell != nullptr ? sealed(print(json)) : print(json);
 }
 
-std::string peer_record(const Peer& peer, const std::string& version) {
-  return peer_json(peer, version).dump(-1, ' ', false, kReplace);
-}
+std::string peer_record(const CellIdentity& cell) { return peer_json(cell).dump(-1, ' ', false, kReplace); }
 std::string metrics_by_command_record(const CellIdentity& cell) {
   Json json = Json::array();
   for (const auto& metric : cell.metrics) json.push_back(metric_json(metric));

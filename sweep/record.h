@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "sweep/digest.h"
+#include "sweep/machine.h"
 #include "sweep/metric_command.h"
 #include "sweep/peer.h"
 
@@ -14,11 +15,13 @@ namespace delquad {
 struct CellIdentity {
   std::string key;  ///< digest of everything that determines the result
   std::string model_digest, program_digest;
-  std::string experiment, data;           ///< file and folder, absolute
-  std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline, as the experiment counts them
-  std::string mesh_digest;                ///< of mesh.msh; empty: there is none
-  const Peer* peer = nullptr;             ///< in place of a pipeline
-  std::string peer_version = {};          ///< empty: it does not tell
+  std::string experiment = {};                         ///< its copy, as seen from the folder of the results
+  MachineState start = {};                             ///< when work on it began
+  std::map<std::string, FileMark> files = {};          ///< of the cell, but for the record
+  const Peer* peer = nullptr;                          ///< in place of a pipeline
+  std::string peer_version = {};                       ///< empty: it does not tell
+  std::map<std::string, std::string> peer_files = {};  ///< that its command names, with their digests
+  std::string peer_file = {};  ///< that it was read from, as seen from the folder of the experiment's file
   /// Measures by command, and the digests of the files that determine each.
   struct IdentifiedMetric {
     const MetricCommand* metric;
@@ -28,7 +31,7 @@ struct CellIdentity {
 };
 
 /// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
-/// Ends with a newline. `cell`: null outside of experiments.
+/// Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
 std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
                        const RunResult& result, const CellIdentity* cell = nullptr);
 /// The record of one that was not run, "failed" or "skipped" by its status, and of what kind the reason is:
@@ -38,8 +41,8 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
                            const CellIdentity* cell = nullptr);
 /// The metrics of a mesh from a file.
 std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
-/// What determines a peer's mesh besides the case, in one line of JSON.
-std::string peer_record(const Peer& peer, const std::string& version);
+/// What determines the mesh of a peer's cell besides the case, in one line of JSON.
+std::string peer_record(const CellIdentity& cell);
 /// What determines the values of a cell's measures by command, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
 /// Every option of a case in one line of JSON.

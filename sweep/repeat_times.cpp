@@ -92,14 +92,11 @@ class RepeatedVariant {
     } catch (const InputError&) {  // its cells have failed
       return;
     }
-    const std::size_t n = experiment_.n_variants();
-    for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
-      const Word& word = experiment_.words[w];
-      const CellIdentity cell = identify(experiment_, case_, model, {variant_ / n, variant_ % n, w});
-      const auto head = read_head(cell_folder(folder, case_, word));
-      if (!head || head->key != cell.key || head->status != "ok") continue;
+    for (const Word& word : experiment_.words) {
+      const std::string key = identify(experiment_, case_, model, word).key;
+      if (!has_mesh(state_of_cell(cell_folder(folder, case_, word), key))) continue;
       words_.push_back(&word);
-      cells_.push_back({word.text, cell.key, {}});
+      cells_.push_back({word.text, key, {}});
     }
   }
 

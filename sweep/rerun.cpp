@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,11 +13,29 @@
 #include "mesher/runner.h"
 #include "sweep/cells.h"
 #include "sweep/digest.h"
+#include "sweep/measure_by_commands.h"
+#include "sweep/recorded_case.h"
+#include "sweep/scratch_folder.h"
 
 namespace delquad {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Parts of a record that are no values: what determines them (compared apart), and what no two runs have in
+/// common.
+const std::vector<std::string> kNoValues = {"digest",      "key",
+                                            "mesh_bytes",  "metrics_status",
+                                            "case",        "pipeline",
+                                            "status",      "model",
+                                            "seed",        "variant",
+                                            "peer",        "peer_file",
+                                            "own_metrics", "experiment",
+                                            "digests",     "files",
+                                            "options",     "versions",
+                                            "machine",     "started",
+                                            "threads",     "peak_memory_bytes",
+                                            "warnings"};
 
 Json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -37,73 +53,83 @@ Json read_json(const std::filesystem::path& file) {
   }
 }
 
-/// Entries of an object that are not the same in both.
-void compare_objects(const std::string& what, const Json& before, const Json& now,
-                     std::vector<std::string>& differences) {
-  for (const auto& [key, value] : before.items()) {
-    const Json other = now.value(key, Json());
-    if (value.is_object() && other.is_object())
-      compare_objects(what + " " + key, value, other, differences);
-    else if (other != value)
-      differences.push_back(
-          fmt::format("{} {}: {} in the record, {} now", what, key, value.dump(), other.dump()));
-  }
+bool is_time(const std::string& key) { return key.starts_with("seconds") || key.ends_with("seconds"); }
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 80;
+  const std::string text =
+      value.is_null() ? "none" : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= kLongest ? text
+         : value.is_array()      ? fmt::format("{} values", value.size())
+                                 : text.substr(0, kLongest) + "...";
 }
 
-/// Removed at the end.
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "delquad-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw InputError(pattern + ": cannot be made");
-    path = pattern;
+/// Entries of two objects that are not the same, times excepted.
+void compare_objects(const std::string& what, const Json& before, const Json& now,
+                     std::vector<std::string>& differences) {
+  const auto compare = [&](const std::string& key, const Json& value, const Json& other) {
+    if (is_time(key) || value == other) return;
+    if (value.is_object() && other.is_object())
+      return compare_objects(what + " " + key, value, other, differences);
+    differences.push_back(
+        fmt::format("{} {}: {} in the record, {} now", what, key, shown(value), shown(other)));
+  };
+  for (const auto& [key, value] : before.items()) compare(key, value, now.value(key, Json()));
+  for (const auto& [key, value] : now.items())
+    if (!before.contains(key)) compare(key, Json(), value);
+}
+
+std::vector<std::string> compare_causes(const Json& before, const Json& now) {
+  std::vector<std::string> differences;
+  compare_objects("option", before.at("options"), now.at("options"), differences);
+  compare_objects("version", before.at("versions"), now.at("versions"), differences);
+  compare_objects("peer", before.value("peer", Json::object()), now.value("peer", Json::object()),
+                  differences);
+  if (before.value("own_metrics", Json()) != now.value("own_metrics", Json()))
+    differences.push_back("the measures by command, or files of theirs");
+  const Json &old_digests = before.at("digests"), &digests = now.at("digests");
+  if (old_digests.at("model") != digests.at("model")) differences.push_back("the model");
+  if (old_digests.at("program") != digests.at("program")) differences.push_back("the program's bytes");
+  if (before.at("seed") != now.at("seed")) differences.push_back("the seed");
+  return differences;
+}
+
+std::vector<std::string> compare_values(Json before, Json now) {
+  for (const std::string& key : kNoValues) {
+    before.erase(key);
+    now.erase(key);
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
+  // Their reasons may hold times and folders.
+  for (Json* json : {&before, &now})
+    if (json->contains("failed_metrics"))
+      for (auto& [key, reason] : (*json)["failed_metrics"].items()) reason = true;
+  std::vector<std::string> differences;
+  compare_objects("value", before, now, differences);
+  return differences;
+}
 
 }  // namespace
 
-Rerun rerun_record(const std::filesystem::path& file) {
+Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
   const Json record = read_json(file);
-  Experiment experiment =
-      Experiment::read(record.at("experiment").get<std::string>(), record.at("data").get<std::string>());
-  const auto pipeline = record.at("pipeline").get<std::string>();
-  if (record.contains("peer") &&
-      std::ranges::find(experiment.peers, pipeline, &Peer::name) == experiment.peers.end())
-    experiment.add_peer_file(record.at("peer_file").get<std::string>());  // of --peer
-  experiment.words = experiment.find_pipelines({pipeline});
-  experiment.max_elements = record.at("options").at("max_elements");
-  const auto place = record.at("place").get<std::array<std::size_t, 3>>();
-  const auto name = record.at("case").get<std::string>();
-  if (place[0] >= experiment.n_cases() || place[1] >= experiment.n_variants() ||
-      experiment.read_variant(place[0], place[1]).name != name)
-    throw InputError(fmt::format("{}: {} has no case '{}' in this place any more", file.string(),
-                                 experiment.file.string(), name));
-  const Case c = experiment.read_variant(place[0], place[1]);
+  Experiment experiment = recorded_experiment(record, results_of(file), data);
+  experiment.words = experiment.find_pipelines({record.at("pipeline").get<std::string>()});
+  const Word& word = experiment.words[0];
+  const Case c = recorded_case(record, experiment, data);
+  CellIdentity cell = identify(experiment, c, model_digest(c), word);
 
-  Rerun rerun;
-  const CellIdentity now = identify(experiment, c, model_digest(c), {place[0], place[1], 0});
-  compare_objects("option", record.at("options"), Json::parse(options_record(c)), rerun.differences);
-  compare_objects("version", record.at("versions"), Json::parse(versions_record()), rerun.differences);
-  if (now.peer != nullptr)
-    compare_objects("peer", record.at("peer"), Json::parse(peer_record(*now.peer, now.peer_version)),
-                    rerun.differences);
-  const Json& digests = record.at("digests");
-  if (digests.at("model") != now.model_digest) rerun.differences.push_back("the model");
-  if (digests.at("program") != now.program_digest) rerun.differences.push_back("the program's bytes");
-  if (record.at("seed") != c.seed) rerun.differences.push_back("the seed");
-
-  const TemporaryFolder scratch;
+  const ScratchFolder scratch;
+  const std::filesystem::path work = scratch.path() / "cell";
+  const std::string label = c.name + " " + word.text;
   const PreparedProblem prepared = prepare_case(c);
-  const RunResult result = now.peer != nullptr ? run_peer(*now.peer, c, prepared, pipeline, scratch.path)
-                                               : run_word(prepared, experiment.words[0]);
+  RunResult result =
+      cell.peer != nullptr ? run_peer(*cell.peer, c, prepared, label, work) : run_word(prepared, word);
+  measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);
-  rerun.same_mesh = digests.at("mesh") == digest(mesh.view());
-  return rerun;
+  const Json now = Json::parse(run_record(c, prepared, word, result, &cell));
+  return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
+          compare_values(record, now)};
 }
 
 }  // namespace delquad

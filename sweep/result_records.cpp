@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +14,7 @@
 #include "delquad/error.h"
 #include "sweep/calibration.h"
 #include "sweep/experiment.h"
+#include "sweep/study_file.h"
 
 namespace delquad {
 namespace {
@@ -49,18 +52,21 @@ CalibrationRecord parse_calibration(const Json& json) {
       json.at("runs"), json.value("ended_by", "")};
 }
 
+std::string text_of_variant(const std::vector<std::pair<std::string, std::string>>& variant) {
+  std::string text;
+  for (const auto& [title, value] : variant) text += (text.empty() ? "@" : ",") + title + "=" + value;
+  return text;
+}
+
 CellRecord parse(const Json& json) {
   CellRecord record;
   json.at("case").get_to(record.name);
   json.at("pipeline").get_to(record.pipeline);
-  record.group = record.name;
   const Json variant = json.value("variant", Json::object());
-  for (const auto& [title, value] : variant.items()) {
-    record.group += (record.variant.empty() ? "@" : ",") + title + "=" + value.get<std::string>();
+  for (const auto& [title, value] : variant.items())
     record.variant.emplace_back(title, value.get<std::string>());
-  }
+  record.group = record.name + text_of_variant(record.variant);
   record.quads_only = json.value("quads_only", true);
-  if (json.contains("place")) json.at("place").get_to(record.place);
   if (const auto status = json.at("status").get<std::string>(); status != "ok") {
     json.at("reason").get_to(record.reason);
     record.skipped = status == "skipped" || status == kNotApplicable;
@@ -70,7 +76,8 @@ CellRecord parse(const Json& json) {
   const auto number = [](const Json& value) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
   };
-  for (const auto& [key, value] : json.at("metrics").items()) record.values[key] = number(value);
+  for (const auto& [key, value] : json.at("metrics").get<std::map<std::string, Json>>())
+    record.values[key] = number(value);
   for (const Json& metric : json.value("own_metrics", Json::array()))
     record.own_metrics.push_back(parse_metric(metric));
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
@@ -83,6 +90,50 @@ CellRecord parse(const Json& json) {
   const Json size = json.value("/options/size"_json_pointer, Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
   if (as_number(base) && size.value("sources", Json::array()).empty()) record.uniform_size = base;
+  return record;
+}
+
+/// Behind all others.
+constexpr std::array<std::size_t, 3> kNoPlace = {std::numeric_limits<std::size_t>::max(), 0, 0};
+
+/// Nothing where there is none that can be read: records tell all but the order.
+std::optional<StudyFile> readable_study(const fs::path& folder) {
+  try {
+    return read_study(folder);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Which cell it is tells its folder.
+CellRecord damaged_record(const fs::path& file, const std::string& what,
+                          const std::optional<StudyFile>& study) {
+  CellRecord record;
+  record.pipeline = file.parent_path().filename().string();
+  record.group = record.name = file.parent_path().parent_path().filename().string();
+  const auto cell = study ? find_cell(*study, record.group, record.pipeline) : std::nullopt;
+  if (cell) {
+    record.name = record.group = cell->name;
+    record.variant = cell->variant;
+    record.group += text_of_variant(record.variant);
+  }
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
+  std::string plain = what;  // which may quote any bytes
+  std::ranges::replace_if(plain, std::not_fn(is_plain), '?');
+  record.kind = "damaged";
+  record.reason = fmt::format("damaged record: {}: {}", file.string(), plain);
+  return record;
+}
+
+CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& study) {
+  CellRecord record;
+  try {
+    std::ifstream in(file);
+    record = parse(Json::parse(in));
+  } catch (const Json::exception& error) {
+    record = damaged_record(file, error.what(), study);
+  }
+  record.folder = file.parent_path();
   return record;
 }
 
@@ -110,7 +161,7 @@ std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records) {
   return all;
 }
 
-std::vector<CellRecord> read_records(const fs::path& folder) {
+std::vector<fs::path> record_files(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -118,26 +169,28 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
     if (at->path().filename() == "record.json") files.push_back(at->path());
   }
   if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
-  if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
   std::sort(files.begin(), files.end());
+  return files;
+}
 
+std::vector<CellRecord> read_records(const fs::path& folder) {
+  const std::vector<fs::path> files = record_files(folder);
+  if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
+  const std::optional<StudyFile> study = readable_study(folder);
   std::vector<CellRecord> records;
   std::set<std::pair<std::string, std::string>> seen;
   for (const fs::path& file : files) {
-    try {
-      std::ifstream in(file);
-      records.push_back(parse(Json::parse(in)));
-    } catch (const Json::exception& e) {
-      throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), e.what()));
-    }
-    records.back().folder = file.parent_path();
+    records.push_back(read_record(file, study));
     const CellRecord& r = records.back();
     if (!seen.insert({r.group, r.pipeline}).second)
       throw InputError(
           fmt::format("{}: there is another record of {} {} in {}: give the folder of one experiment",
                       file.string(), r.group, r.pipeline, folder.string()));
   }
-  std::ranges::stable_sort(records, {}, &CellRecord::place);
+  if (study)
+    std::ranges::stable_sort(records, {}, [&](const CellRecord& r) {
+      return place_of(*study, {r.name, r.variant, r.pipeline}).value_or(kNoPlace);
+    });
   return records;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -28,10 +27,9 @@ struct CellRecord {
   std::map<std::string, double> values;  ///< by metric key, "seconds" and those of steps; NaN: not defined
   std::string name = {};                 ///< of the case alone
   std::vector<std::pair<std::string, std::string>> variant = {};
-  std::array<std::size_t, 3> place = {};  ///< case, variant and pipeline; zeros where it does not say
-  std::string kind = {};                  ///< of the reason: as in failure_record()
-  bool skipped = false;                   ///< for that reason, and not failed
-  bool quads_only = false;                ///< triangles that are left are an error
+  std::string kind = {};  ///< of the reason: as in failure_record(), or "damaged": the record cannot be read
+  bool skipped = false;   ///< for that reason, and not failed
+  bool quads_only = false;  ///< triangles that are left are an error
   /// Of runs repeated for their times, by key: "seconds" and "seconds_total". Not in the record: see times.h.
   std::map<std::string, std::vector<double>> times = {};
   std::vector<std::string> warnings = {};
@@ -44,12 +42,17 @@ struct CellRecord {
   std::filesystem::path folder = {};                       ///< of the cell
 };
 
+/// The files record.json below a folder, by path; those of unfinished cells are left out. Throws InputError
+/// when it cannot be read.
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder);
+
 /// The measures of records that the project itself does not have, each once, in the order of records: with a
 /// measure for each of the values that a command gave, "name.part".
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
 
-/// The records of an experiment below a folder, by place and path. Throws InputError naming the file that is
-/// no record, the cell that is there twice, or the folder that has none.
+/// The records of an experiment below a folder, in the order of its study.json, if there is one, and by path.
+/// What is no record is a cell that failed, "damaged record: " with file and reason. Throws InputError naming
+/// the cell that is there twice, or the folder that has none.
 std::vector<CellRecord> read_records(const std::filesystem::path& folder);
 
 }  // namespace delquad

@@ -24,8 +24,10 @@
 #include "sweep/cell_folder.h"
 #include "sweep/cells.h"
 #include "sweep/digest.h"
+#include "sweep/experiment_copy.h"
 #include "sweep/folder_lock.h"
 #include "sweep/linf_study.h"
+#include "sweep/measure_by_commands.h"
 #include "sweep/repeat_times.h"
 #include "sweep/study_file.h"
 #include "sweep/sweep_progress.h"
@@ -52,10 +54,15 @@ fs::path scratch_of(const fs::path& cell) {
   return cell.parent_path() / ("." + cell.filename().string() + ".work");
 }
 
+/// Those of a folder that need not be there.
+void move_files(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from)) return;
+  for (const auto& entry : fs::directory_iterator(from)) fs::rename(entry, to / entry.path().filename());
+}
+
 bool is_done(const Cell& cell) {
-  const auto head = read_head(cell.folder);
-  return head && head->key == cell.identity.key && head->metrics_status.empty() &&
-         (head->status == "ok" || head->status == kNotApplicable);
+  const std::string state = state_of_cell(cell.folder, cell.identity.key);
+  return state == "done" || state == kNotApplicable;
 }
 
 /// A variant of a case with the cells that are to be made from it, in the process that works on it: each
@@ -66,6 +73,7 @@ struct Work {
   std::vector<Cell> cells;
   SweepProgress* progress;
   bool allow_unsound;
+  bool pictures;
   std::optional<PreparedProblem> prepared;
   MeshingState state;
 
@@ -74,6 +82,7 @@ struct Work {
     prepared = prepare_case(c);
     for (const std::string& line : lines_of(prepared->warnings)) say("warning: " + line);
     state = begin_meshing(*prepared);
+    if (!pictures) return;
     try {
       prepare_folder(folder / c.folder);
       draw_case(*prepared, c.folder, folder / c.folder);
@@ -95,20 +104,19 @@ struct Work {
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
     if (!result.soundness.sound())
       say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
-    measure_by_commands(cell, scratch, result);
+    // Before anything of the cell is in place: it may take long.
+    if (cell.identity.peer == nullptr) fs::remove_all(scratch);
+    for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
+      say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
     write_cell(cell.folder, [&](const fs::path& at) {
-      if (fs::exists(scratch))
-        for (const auto& entry : fs::directory_iterator(scratch))
-          fs::rename(entry, at / entry.path().filename());
+      move_files(scratch, at);
       const Stopwatch writing;
       write_msh(at / "mesh.msh", result.mesh);
       write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
-      (prepared->background ? draw_mesh : draw_surface)(at / "picture.svg", result.mesh, label);
-      if (result.log.summaries.has("smoothing"))
-        draw_convergence(at / "convergence.svg", result.log.summaries, label + ": smoothing");
+      if (pictures) draw(at, label, result);
       result.log.add_seconds("write", writing.work_seconds());
       CellIdentity identity = cell.identity;
-      identity.mesh_digest = file_digest(at / "mesh.msh");
+      identity.files = marks_of(at);
       write_file_atomically(at / "record.json", [&](std::ostream& out) {
         out << run_record(c, *prepared, *cell.word, result, &identity);
       });
@@ -117,23 +125,10 @@ struct Work {
     progress->done();
   }
 
-  /// Lets other programs measure the mesh, before anything of the cell is in place: it may take long.
-  void measure_by_commands(const Cell& cell, const fs::path& scratch, RunResult& result) const {
-    if (cell.identity.metrics.empty()) return;
-    const DoingStage measuring("metrics by command");
-    const Stopwatch watch;
-    if (cell.identity.peer == nullptr) fs::remove_all(scratch);
-    fs::create_directories(scratch);
-    write_msh(scratch / "mesh.msh", result.mesh);
-    for (const auto& [metric, files] : cell.identity.metrics) {
-      MetricOutcome outcome = run_metric(*metric, c, cell.word->text, scratch);
-      result.metrics.values.merge(outcome.values);
-      if (outcome.failure.empty()) continue;
-      say(fmt::format("warning: {} {}: no '{}': {}", c.folder, cell.word->text, metric->metric.key,
-                      outcome.failure));
-      result.metrics.failures[metric->metric.key] = outcome.failure;
-    }
-    result.log.add_seconds("metrics by command", watch.seconds());
+  void draw(const fs::path& folder_of_cell, const std::string& label, const RunResult& result) const {
+    (prepared->background ? draw_mesh : draw_surface)(folder_of_cell / "picture.svg", result.mesh, label);
+    if (result.log.summaries.has("smoothing"))
+      draw_convergence(folder_of_cell / "convergence.svg", result.log.summaries, label + ": smoothing");
   }
 
   void remove_scratch(const Cell& cell) const {
@@ -146,18 +141,22 @@ struct Work {
     give_up(cell, why.kind == kNotApplicable ? kNotApplicable : "failed", why);
   }
 
-  /// Leaves a record of why there is no mesh; none where the cell was interrupted: it is to be made yet.
+  /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
+  /// interrupted: it is to be made yet.
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
-    remove_scratch(cell);
     if (why.kind != "interrupted") try {
         write_cell(cell.folder, [&](const fs::path& at) {
+          if (cell.identity.peer != nullptr) move_files(scratch_of(cell.folder), at);
+          CellIdentity identity = cell.identity;
+          identity.files = marks_of(at);
           write_file_atomically(at / "record.json", [&](std::ostream& out) {
-            out << failure_record(c, *cell.word, status, why.kind, why.reason, &cell.identity);
+            out << failure_record(c, *cell.word, status, why.kind, why.reason, &identity);
           });
         });
       } catch (const InputError& error) {
         say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
       }
+    remove_scratch(cell);
     if (status == "failed")
       progress->failed();
     else
@@ -254,8 +253,10 @@ Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
 
 class Sweep {
  public:
-  Sweep(const Experiment& experiment, const fs::path& folder, const SweepOptions& options)
-      : experiment_(experiment), folder_(folder), options_(options), progress_(shard_size()) {}
+  /// `copy`: of the experiment's file, as seen from `folder`.
+  Sweep(const Experiment& experiment, const fs::path& folder, const fs::path& copy,
+        const SweepOptions& options)
+      : experiment_(experiment), folder_(folder), copy_(copy), options_(options), progress_(shard_size()) {}
 
   void run() {
     run_jobs([&] { return next_job(); }, options_.limits, [&] { progress_.draw(); });
@@ -287,6 +288,7 @@ class Sweep {
       work->folder = folder_;
       work->progress = &progress_;
       work->allow_unsound = options_.allow_unsound;
+      work->pictures = options_.pictures;
       const bool absent = work->c.may_be_absent && !fs::exists(model_path(work->c));
       add_cells(i, absent, *work);
       if (work->cells.empty()) continue;
@@ -306,18 +308,19 @@ class Sweep {
   }
 
   void add_cells(std::size_t i, bool absent, Work& work) {
-    const std::size_t n_variants = experiment_.n_variants();
     std::string model;
     try {
       model = absent ? "" : model_digest(work.c);
     } catch (const InputError&) {  // the file cannot be read, as the cells will say
     }
+    const MachineState start = machine_state();
     for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
       if (!is_mine(i, w)) continue;
       const Word& word = experiment_.words[w];
-      Cell cell{&word, identify(experiment_, work.c, model, {i / n_variants, i % n_variants, w}),
-                cell_folder(folder_, work.c, word)};
-      cell.reference = reference_of(cell, work.c, model, {i / n_variants, i % n_variants, w});
+      Cell cell{&word, identify(experiment_, work.c, model, word), cell_folder(folder_, work.c, word)};
+      cell.identity.experiment = copy_.generic_string();
+      cell.identity.start = start;
+      cell.reference = reference_of(cell, work.c, model);
       if (!options_.force && is_done(cell))
         progress_.found(1);
       else
@@ -326,14 +329,12 @@ class Sweep {
   }
 
   /// The cell of the word that a peer is calibrated to, if it is run, too.
-  ReferenceCell reference_of(const Cell& cell, const Case& c, const std::string& model,
-                             std::array<std::size_t, 3> place) const {
+  ReferenceCell reference_of(const Cell& cell, const Case& c, const std::string& model) const {
     const Peer* peer = cell.identity.peer;
     if (peer == nullptr || peer->calibrate_to.empty()) return {};
     const auto at = std::ranges::find(experiment_.words, peer->calibrate_to, &Word::text);
     if (at == experiment_.words.end()) return {};
-    place[2] = static_cast<std::size_t>(at - experiment_.words.begin());
-    return {cell_folder(folder_, c, *at), identify(experiment_, c, model, place).key};
+    return {cell_folder(folder_, c, *at), identify(experiment_, c, model, *at).key};
   }
 
   void skip(const Work& work) {
@@ -344,6 +345,7 @@ class Sweep {
 
   const Experiment& experiment_;
   const fs::path& folder_;
+  const fs::path& copy_;
   const SweepOptions& options_;
   SweepProgress progress_;
   std::size_t next_ = 0;
@@ -375,8 +377,9 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     outcome = run_study(experiment, folder);
   } else {
     check_study(experiment, folder);
+    const fs::path copy = keep_experiment(experiment, folder);
     write_study(folder, describe(experiment));
-    Sweep(experiment, folder, options).run();
+    Sweep(experiment, folder, copy, options).run();
     if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
   }
@@ -394,16 +397,11 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
       const Case c = experiment.read_variant(i, v);
       const bool absent = c.may_be_absent && !fs::exists(model_path(c));
       const std::string model = absent ? "" : model_digest(c);
-      for (std::size_t w = 0; w < experiment.words.size(); ++w) {
-        const CellIdentity cell = identify(experiment, c, model, {i, v, w});
-        const auto head = read_head(cell_folder(folder, c, experiment.words[w]));
-        const std::string state = absent                          ? "data not found"
-                                  : !head                         ? "to do"
-                                  : head->key != cell.key         ? "outdated"
-                                  : !head->metrics_status.empty() ? "metric failed"
-                                  : head->status == "ok"          ? "done"
-                                                                  : head->status;
-        text += fmt::format("{:<14} {} {}\n", state, c.folder, experiment.words[w].text);
+      for (const Word& word : experiment.words) {
+        const std::string key = identify(experiment, c, model, word).key;
+        text += fmt::format("{:<14} {} {}\n",
+                            absent ? "data not found" : state_of_cell(cell_folder(folder, c, word), key),
+                            c.folder, word.text);
       }
     }
   return text;

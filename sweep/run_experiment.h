@@ -15,10 +15,11 @@ struct Shard {
 };
 
 struct SweepOptions {
-  ProcessLimits limits;
-  Shard shard;
+  ProcessLimits limits = {};
+  Shard shard = {};
   bool force = false;          ///< run cells again that are done
   bool allow_unsound = false;  ///< meshes that are not sound are results, marked as such
+  bool pictures = true;        ///< of fields and meshes, as SVG
 };
 
 /// Runs every pipeline on every variant of every case, each in a process of its own: what crashes, hangs or
@@ -28,8 +29,9 @@ struct SweepOptions {
 ///
 /// Writes DIR/study.json, DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, record.json},
 /// DIR/<case>/{cross.svg, size.svg} and the tables (see tables.h); with a matrix, <case> has the values that
-/// vary in its name. A cell's files appear together, its record last; a run that is killed at any moment
-/// leaves the cells that are done, and none half done. What cannot be written goes to the table. Last, runs
+/// vary in its name. What the experiment was read from is copied, see keep_experiment(). A cell's files
+/// appear together, its record last; a run that is killed at any moment leaves the cells that are done, and
+/// none half done. What cannot be written goes to the table. Last, runs
 /// are repeated for their times, where the experiment asks for it (see repeat_times.h).
 ///
 /// Throws InputError when the folder cannot be written to, holds the results of another experiment, or
@@ -37,8 +39,8 @@ struct SweepOptions {
 Outcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
                        const SweepOptions& options = {});
 
-/// The cells in their order, a line each, and what there is of them: "done", "failed", "skipped", "outdated"
-/// (made by another program or from other input) or "to do".
+/// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
+/// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
 
 /// Makes the folder, or throws InputError when it cannot be made or written to.

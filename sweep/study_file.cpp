@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "sweep/digest.h"
 
 namespace delquad {
 namespace {
@@ -77,7 +79,8 @@ StudyFile describe(const Experiment& experiment) {
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {
-  write_file_atomically(folder / kFile, [&](std::ostream& out) { out << to_json(study).dump(2) << '\n'; });
+  write_file_atomically(folder / kFile,
+                        [&](std::ostream& out) { out << sealed(to_json(study).dump(2) + "\n"); });
 }
 
 std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
@@ -89,6 +92,41 @@ std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
     throw InputError(fmt::format("{}: does not describe an experiment's results: {}",
                                  (folder / kFile).string(), error.what()));
   }
+}
+
+std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell) {
+  const auto index = [](const std::vector<std::string>& list, const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::find(list, text) - list.begin());
+  };
+  std::array<std::size_t, 3> place = {index(study.cases, cell.name), 0,
+                                      index(study.pipelines, cell.pipeline)};
+  if (place[0] == study.cases.size() || place[2] == study.pipelines.size() ||
+      cell.variant.size() != study.axes.size())
+    return std::nullopt;
+  for (std::size_t k = 0; k < study.axes.size(); ++k) {
+    const auto& [title, values] = study.axes[k];
+    const std::size_t value = index(values, cell.variant[k].second);
+    if (cell.variant[k].first != title || value == values.size()) return std::nullopt;
+    place[1] = place[1] * values.size() + value;
+  }
+  return place;
+}
+
+std::optional<CellAddress> find_cell(const StudyFile& study, const std::string& folder,
+                                     const std::string& pipeline) {
+  CellAddress cell{folder.substr(0, folder.find('@')), {}, pipeline};
+  std::string rest = folder.substr(cell.name.size());
+  for (const auto& [title, values] : study.axes) {
+    const std::string opening = (cell.variant.empty() ? "@" : ",") + title + "=";
+    if (!rest.starts_with(opening)) return std::nullopt;
+    rest = rest.substr(opening.size());
+    const std::string text = rest.substr(0, rest.find(','));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (folder_text(values, i) == text) cell.variant.emplace_back(title, values[i]);
+    rest = rest.substr(text.size());
+  }
+  if (!rest.empty() || !place_of(study, cell)) return std::nullopt;
+  return cell;
 }
 
 }  // namespace delquad

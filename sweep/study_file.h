@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -32,5 +33,19 @@ StudyFile describe(const Experiment& experiment);
 void write_study(const std::filesystem::path& folder, const StudyFile& study);
 /// Nothing when there is none; throws InputError when it is no such file.
 std::optional<StudyFile> read_study(const std::filesystem::path& folder);
+
+/// Which cell of an experiment.
+struct CellAddress {
+  std::string name;                                          ///< of the case
+  std::vector<std::pair<std::string, std::string>> variant;  ///< what varies, by title, with its value
+  std::string pipeline;
+};
+/// Where the cell stands among those of the experiment: case, variant and pipeline. Nothing: it has none
+/// such.
+std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell);
+/// The cell whose results lie in the folder of this name ("disc@seed=2"), with this pipeline; nothing where
+/// the experiment has none such.
+std::optional<CellAddress> find_cell(const StudyFile& study, const std::string& folder,
+                                     const std::string& pipeline);
 
 }  // namespace delquad

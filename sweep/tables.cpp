@@ -214,18 +214,6 @@ class Tabulation {
   Outcome outcome_;
 };
 
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::ranges::find(list, name) != list.end();
-}
-
-/// Whether the experiment still has the cell.
-bool belongs(const StudyFile& study, const CellRecord& record) {
-  return contains(study.cases, record.name) && contains(study.pipelines, record.pipeline) &&
-         std::ranges::equal(record.variant, study.axes, [](const auto& value, const auto& axis) {
-           return value.first == axis.first && contains(axis.second, value.second);
-         });
-}
-
 }  // namespace
 
 StudyResults read_results(const fs::path& folder) {
@@ -237,8 +225,9 @@ StudyResults read_results(const fs::path& folder) {
                      ": is missing: expected the folder of 'delquad run -o'");
   results.study = *std::move(study);
   results.time_problems = attach_times(results.records);
-  results.left_out =
-      std::erase_if(results.records, [&](const CellRecord& r) { return !belongs(results.study, r); });
+  results.left_out = std::erase_if(results.records, [&](const CellRecord& r) {
+    return !place_of(results.study, {r.name, r.variant, r.pipeline});
+  });
   return results;
 }
 
@@ -272,7 +261,7 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> files = {"study.json", kFigures};
+  std::vector<std::string> files = {"study.json", "experiment", kFigures};
   for (const char* name : {"table", "pairs"})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;

@@ -39,7 +39,7 @@ Outcome make_tables(const StudyResults& results);
 Outcome make_tables(const std::filesystem::path& folder);
 /// Writes the tables that have rows in every format, and the figures; returns what could not be written.
 std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);
-/// Every file that it may write.
+/// Every name that an experiment itself takes in the folder of its results.
 std::vector<std::string> result_files();
 
 }  // namespace delquad

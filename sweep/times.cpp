@@ -50,8 +50,7 @@ VariantTimes from_json(const Json& json) {
 std::string attach(const VariantTimes& times, const fs::path& file, CellRecord& record) {
   const auto at = std::ranges::find(times.cells, record.pipeline, &CellTimes::pipeline);
   if (at == times.cells.end() || !record.reason.empty()) return "";
-  const auto head = read_head(record.folder);
-  if (!head || head->key != at->key)
+  if (!has_mesh(state_of_cell(record.folder, at->key)))
     return fmt::format("{}: the times of {} were taken of another program, model or option: run it again",
                        file.string(), record.pipeline);
   if (!at->failure.empty())

@@ -41,4 +41,7 @@ struct CadOptions {
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 
+/// The program that does it (see find_worker()); empty: there is none, and nothing can be read.
+std::filesystem::path cad_program();
+
 }  // namespace delquad

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <string>
+
 namespace delquad::cad {
+
+/// Version of the OpenCASCADE that is at work here, such as "7.6.3".
+std::string kernel_version();
 
 /// The life of a worker process: it answers the one request that comes through the socket. On damaged files
 /// the kernel crashes, follows broken references or runs in circles: nobody but this process suffers. It ends

@@ -9,6 +9,7 @@
 
 #include "delquad/error.h"
 #include "delquad/model.h"
+#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/worker_process.h"
 
 namespace delquad {
@@ -83,6 +84,14 @@ fs::path cad::find_worker() {
       fmt::format("the program {}, which reads CAD files, is not there: expected it in one of {}, "
                   "or named by {}",
                   kName, places, kVariable));
+}
+
+fs::path cad_program() {
+  try {
+    return cad::find_worker();
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace delquad

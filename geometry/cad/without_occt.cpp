@@ -14,6 +14,8 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions&) {
   throw InputError(path.string() + ": built without OpenCASCADE: cannot read STEP or BREP");
 }
 
+std::filesystem::path cad_program() { return {}; }
+
 void write_example(const std::string& name, CadFormat, std::ostream&) {
   check_example(name);
   throw InputError("built without OpenCASCADE: cannot make the example '" + name + "'");

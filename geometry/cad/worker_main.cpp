@@ -1,10 +1,15 @@
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "geometry/cad/cad_worker.h"
 
-/// Started by the library, with its own process number and a socket as standard input; of no use to people.
+/// Started by the library, with its own process number and a socket as standard input; people can ask it for
+/// the version of OpenCASCADE.
 int main(int argc, char** argv) {
   constexpr int kInput = 0;
   if (argc != 2) return EXIT_FAILURE;
+  if (std::strcmp(argv[1], "--version") == 0)
+    return std::puts(delquad::cad::kernel_version().c_str()) < 0 ? EXIT_FAILURE : EXIT_SUCCESS;
   delquad::cad::work_for(kInput, std::atoi(argv[1]));
 }

@@ -38,7 +38,10 @@ TEST(RunCommand, WritesCellsTablesAndPictures) {
   const auto file = write_text(folder / "e.toml", kExperiment);
   const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(all_files(folder / "results"),
+  // The experiment, the published rows and the list of both lie below a name that is a digest.
+  std::vector<std::string> files = all_files(folder / "results");
+  EXPECT_EQ(std::erase_if(files, [](const std::string& file) { return file.starts_with("experiment/"); }), 3);
+  EXPECT_EQ(files,
             (std::vector<std::string>{".lock", "square/D/mesh.msh", "square/D/mesh.vtu",
                                       "square/D/picture.svg", "square/D/record.json", "square/DB/mesh.msh",
                                       "square/DB/mesh.vtu", "square/DB/picture.svg", "square/DB/record.json",

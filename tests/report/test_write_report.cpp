@@ -91,9 +91,11 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   EXPECT_NE(result.err.find("results/three/square@seed=1/DB/mesh.msh"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("results/three/square@seed=2/DB/mesh.msh"), std::string::npos) << result.err;
   const Json data = data_of(folder / "r.html");
-  ASSERT_EQ(data["studies"].size(), 2u);
-  ASSERT_EQ(data["left_out"].size(), 1u);
-  EXPECT_EQ(data["left_out"][0][0], "two");
+  ASSERT_EQ(data["studies"].size(), 3u);
+  EXPECT_TRUE(data["left_out"].empty());
+  const Json& damaged = data["studies"][2]["sheets"][0]["cells"][1];
+  EXPECT_EQ(damaged["status"], "failed");
+  EXPECT_EQ(damaged["reason"].get<std::string>().find("damaged record: "), 0u);
   const Json& cell = data["studies"][1]["sheets"][0]["cells"][1];
   EXPECT_EQ(cell["status"], "ok");
   EXPECT_FALSE(cell.contains("mesh"));

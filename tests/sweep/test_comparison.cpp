@@ -122,7 +122,7 @@ TEST(Compare, RefusesMetricsWithoutADirection) {
     expect_input_error([&] { compare_records({}, {}, {metric}, 0.1); }, {metric, "eta_mean", "seconds"});
 }
 
-TEST(ReadRecords, RefusesWhatIsNoRecord) {
+TEST(ReadRecords, NameWhatIsNoRecord) {
   const TemporaryFolder folder;
   expect_input_error([&] { read_records(folder / "nowhere"); }, {"nowhere"});
   expect_input_error([&] { read_records(folder / ""); }, {"no record.json"});
@@ -138,7 +138,11 @@ TEST(ReadRecords, RefusesWhatIsNoRecord) {
   expect_input_error([&] { read_records(folder / ""); }, {"another record of a D"});
   for (const char* text : {"", "{}", "[1]", "{\"case\": 3}", "\x01"}) {
     write_text(folder / "a" / "b" / "record.json", text);
-    expect_input_error([&] { read_records(folder / ""); }, {"b/record.json", "no record"});
+    const auto both = read_records(folder / "");
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_EQ(both[0].kind, "damaged");
+    EXPECT_EQ(both[0].reason.find("damaged record: " + (folder / "a" / "b" / "record.json").string()), 0u);
+    EXPECT_EQ(both[1].reason, "");
   }
 }
 

@@ -77,6 +77,7 @@ TEST_F(Peers, AreMeasuredAsOurs) {
   const Rerun again = rerun_record(cell / "record.json");
   EXPECT_TRUE(again.same_mesh);
   EXPECT_TRUE(again.differences.empty());
+  EXPECT_TRUE(again.values.empty()) << again.values[0];
 }
 
 TEST_F(Peers, AnotherVersionIsAnotherCell) {
@@ -86,6 +87,43 @@ TEST_F(Peers, AnotherVersionIsAnotherCell) {
   std::string newer = text;
   newer.replace(newer.find("1.0"), 3, "2.0");
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", newer), out()), "outdated       square copy\n");
+}
+
+TEST_F(Peers, AnotherScriptIsAnotherCell) {
+  const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kSquare;
+  run_experiment(experiment("[\"copy\"]", text), out());
+  const auto record = nlohmann::json::parse(read_text(fs::path(out()) / "square" / "copy" / "record.json"));
+  EXPECT_TRUE(record.at("peer").at("files").contains("./copy.sh"));
+  peer("copy", "cp '" + good + "' $2 # again");
+  EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
+}
+
+/// Arguments that name files beside the experiment stand for them, and are part of the cell, too.
+TEST_F(Peers, ScriptsAreFoundBesideTheExperiment) {
+  write_text(folder_ / "copy.sh", "cp '" + good_mesh() + "' $2\n");
+  const std::string text =
+      "[[peer]]\nname = \"copy\"\ncommand = [\"sh\", \"copy.sh\", \"{input}\", \"{output}\"]\n"
+      "version = [\"echo\", \"1.0\"]\ninput = \"msh\"\n" +
+      kSquare;
+  EXPECT_EQ(run_experiment(experiment("[\"copy\"]", text), out()).others_failed, 0);
+  write_text(folder_ / "copy.sh", "exit 3\n");
+  EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
+}
+
+TEST_F(Peers, ThatFailLeaveWhatTheyReadAndPrinted) {
+  const std::string text =
+      peer("fails", "echo no luck; exit 3") + peer("hangs", "echo wait; sleep 100") + kSquare;
+  SweepOptions options;
+  options.limits.seconds = 2;
+  run_experiment(experiment("[\"fails\", \"hangs\"]", text), out(), options);
+  for (const auto& [name, printed] : {std::pair("fails", "no luck\n"), std::pair("hangs", "wait\n")}) {
+    const fs::path cell = fs::path(out()) / "square" / name;
+    EXPECT_EQ(read_text(cell / "peer.log"), printed);
+    EXPECT_EQ(read_msh(cell / "input.msh").lines.size(), 16u);
+    const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
+    EXPECT_EQ(record.at("status"), "failed");
+    EXPECT_TRUE(record.at("files").contains("peer.log"));
+  }
 }
 
 /// Whatever a peer does, it costs its own cell and no other.

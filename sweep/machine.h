@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace delquad {
+
+/// What the program runs on.
+struct Machine {
+  std::string system, architecture;
+  std::string cpu;  ///< model of the processor; empty: the system does not tell
+  unsigned processors = 0;
+};
+const Machine& this_machine();
+
+/// When, and how busy the machine was then.
+struct MachineState {
+  std::string time;            ///< UTC, as in ISO 8601: 2026-01-31T23:59:59Z
+  std::optional<double> load;  ///< average number of processes that ran or waited to, over the last minute
+};
+MachineState machine_state();
+
+}  // namespace delquad

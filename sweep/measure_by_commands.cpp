@@ -1,0 +1,31 @@
+#include "sweep/measure_by_commands.h"
+
+#include <fmt/format.h>
+
+#include "base/activity.h"
+#include "base/stopwatch.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+
+std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Case& c,
+                                             const std::string& pipeline,
+                                             const std::filesystem::path& scratch, RunResult& result) {
+  if (cell.metrics.empty()) return {};
+  const DoingStage measuring("metrics by command");
+  const Stopwatch watch;
+  std::vector<std::string> failures;
+  std::filesystem::create_directories(scratch);
+  write_msh(scratch / "mesh.msh", result.mesh);
+  for (const auto& [metric, files] : cell.metrics) {
+    MetricOutcome outcome = run_metric(*metric, c, pipeline, scratch);
+    result.metrics.values.merge(outcome.values);
+    if (outcome.failure.empty()) continue;
+    failures.push_back(fmt::format("no '{}': {}", metric->metric.key, outcome.failure));
+    result.metrics.failures[metric->metric.key] = outcome.failure;
+  }
+  result.log.add_seconds("metrics by command", watch.seconds());
+  return failures;
+}
+
+}  // namespace delquad
