@@ -157,7 +157,9 @@ struct Work {
         say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
       }
     remove_scratch(cell);
-    if (status == "failed")
+    if (why.kind == "interrupted")
+      progress->interrupted();
+    else if (status == "failed")
       progress->failed();
     else
       progress->done();
@@ -258,8 +260,10 @@ class Sweep {
         const SweepOptions& options)
       : experiment_(experiment), folder_(folder), copy_(copy), options_(options), progress_(shard_size()) {}
 
-  void run() {
+  /// Returns how many cells were interrupted.
+  std::size_t run() {
     run_jobs([&] { return next_job(); }, options_.limits, [&] { progress_.draw(); });
+    return progress_.n_interrupted();
   }
 
  private:
@@ -379,9 +383,10 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     check_study(experiment, folder);
     const fs::path copy = keep_experiment(experiment, folder);
     write_study(folder, describe(experiment));
-    Sweep(experiment, folder, copy, options).run();
+    const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
     if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
+    outcome.others_failed += static_cast<int>(interrupted);
   }
   for (const std::string& error : write_tables(folder, outcome)) {
     ++outcome.bad_inputs;

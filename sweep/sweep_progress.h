@@ -21,11 +21,17 @@ class SweepProgress {
     ++counts_->done;
     ++counts_->failed;
   }
+  void interrupted() {
+    failed();
+    ++counts_->interrupted;
+  }
+  /// Cells that somebody else ended, and that have no record.
+  std::size_t n_interrupted() const { return counts_->interrupted; }
   void draw();
 
  private:
   struct Counts {
-    std::atomic<std::size_t> done = 0, failed = 0;
+    std::atomic<std::size_t> done = 0, failed = 0, interrupted = 0;
   };
   Counts* counts_;  ///< memory that all processes share
   std::size_t cells_, found_ = 0;

@@ -138,14 +138,14 @@ TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
   for (const CellRecord& record : read_records(out())) EXPECT_EQ(record.kind, "timeout") << record.group;
 }
 
-/// A scheduler takes the machine away: that says nothing of the mesh. The process of the cell is the parent
-/// of the one that starts the command.
+/// A scheduler takes the machine away: that says nothing of the mesh. The parent of a command is the watcher
+/// of its group, whose parent is the cell.
 TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
   const std::string flag = out("flag");
   const std::string file =
       write(kSweep + "[[metric]]\nname = \"one\"\ncommand = [\"sh\", \"-c\", '''[ -e " + flag +
             " ] || { touch " + flag +
-            "; kill -TERM $(cut -d' ' -f4 /proc/$PPID/stat); sleep 9; }; echo 1''', \"{mesh}\"]\n")
+            "; kill -TERM $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 5; }; echo 1''', \"{mesh}\"]\n")
           .string();
   const auto first = program({"run", file, "-o", out()});
   EXPECT_EQ(first.exit_code, 1) << first.err;

@@ -27,7 +27,8 @@ Digests expected_digests(const fs::path& file, bool with_cad) {
 }
 
 /// The meshes do not depend on compiler, optimisation or sanitizers: this test is the same in every build.
-/// They do on the mathematical functions of the C library and, where CAD is read, on OpenCASCADE.
+/// They do on the mathematical functions of the C library (glibc has others for processors without FMA) and,
+/// where CAD is read, on OpenCASCADE.
 TEST(SameBytes, InEveryBuild) {
   const testing_support::TemporaryFolder folder;
   const fs::path files = fs::path(DELQUAD_SAME_BYTES);
