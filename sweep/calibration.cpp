@@ -9,8 +9,9 @@ namespace {
 
 /// Scales beyond this factor, either way, make another case of it.
 constexpr double kLargestScale = 4;
-/// Brackets narrower than this (of log scale) hold a jump of the number of quads.
-constexpr double kNarrow = 1e-4;
+/// Brackets narrower than this (of log scale) hold a jump of the number of quads, which else changes by less
+/// than kEquallyMany over them.
+constexpr double kNarrow = 2e-3;
 /// A number that changes by less (of its logarithm) over this change of log scale does not follow the size.
 constexpr double kNoAnswer = 1e-3, kChange = 0.02;
 /// The power of the size by which numbers of quads go, at least and at most; -2 in the plane, where nothing

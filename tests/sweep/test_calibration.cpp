@@ -2,7 +2,11 @@
 
 #include <cmath>
 
+#include "mesher/prepare.h"
 #include "sweep/calibration.h"
+#include "sweep/calibration_notes.h"
+#include "sweep/peer_reference.h"
+#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -73,6 +77,49 @@ TEST(Calibration, CountsATriangleAsHalfAQuad) {
   mesh.quads.resize(3);
   mesh.triangles.resize(5);
   EXPECT_EQ(count_of_quads(mesh), 5.5);
+}
+
+PreparedProblem square() {
+  MeshProblem problem;
+  problem.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+  problem.size.field = make_constant_size(0.25);
+  return prepare(problem);
+}
+
+/// A record counts when it is of the same cell; else the word is run.
+TEST(ReferenceQuads, AreThoseOfAValidRecord) {
+  const testing_support::TemporaryFolder folder;
+  const PreparedProblem prepared = square();
+  const auto quads = [&](const std::string& record) {
+    testing_support::write_text(folder / "record.json", record);
+    return reference_quads(prepared, "DB", {folder.path(), "abc"});
+  };
+  EXPECT_EQ(reference_quads(prepared, "DB", {}), 16);
+  EXPECT_EQ(reference_quads(prepared, "DB", {folder.path(), "abc"}), 16) << "there is none yet";
+  EXPECT_EQ(quads(R"({"key": "abc", "status": "ok", "metrics": {"n_quads": 10, "n_triangles": 4}})"), 12);
+  EXPECT_EQ(quads(R"({"key": "x", "status": "ok", "metrics": {"n_quads": 10, "n_triangles": 4}})"), 16);
+  EXPECT_EQ(quads(R"({"key": "abc", "status": "ok", "met)"), 16) << "cut off";
+  EXPECT_EQ(quads(R"({"key": "abc", "status": "failed", "reason": "no"})"), std::nullopt);
+}
+
+CellRecord calibrated(const CalibrationRecord& calibration) {
+  CellRecord record;
+  record.name = "plate";
+  record.pipeline = "other";
+  record.calibration = calibration;
+  return record;
+}
+
+TEST(CalibrationNotes, SayTheWorstOfTheCells) {
+  EXPECT_EQ(
+      calibration_notes({calibrated({"DB", 1.08, 100, 100.5, 2}), calibrated({"DB", 1.1, 100, 99.5, 2})}),
+      (std::vector<std::string>{
+          "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
+  EXPECT_EQ(
+      calibration_notes({calibrated({"DB", 1, 100, 100, 1}), calibrated({"DB", 1, 100, 104, 8})}),
+      (std::vector<std::string>{"plate other: size times 1, and yet 4 % more quads than DB after 8 runs"}));
+  EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 0, 0, 1})}),
+            (std::vector<std::string>{"plate other: size as given, for DB has no mesh to compare with"}));
 }
 
 }  // namespace
