@@ -2,8 +2,8 @@
 
 /// With as many digits as the interval leaves certain: two of its half-width; else those of the column.
 function shownDigits(half, digits) {
-  if (!(half > 0)) return digits;
-  return Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(half))));
+  if (!(half > 0) || half === Infinity) return digits;
+  return Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(half))));
 }
 
 /// Text of a number and of its half-width, if any.
@@ -86,7 +86,8 @@ class TableView {
   }
   cell(row, { key, digits }) {
     const ours = row.values[key], published = row.published[key];
-    const [text, around] = ours === undefined ? ["\u2013", null] : shownNumber(ours, row.half_widths[key], digits);
+    const stands = row.texts && row.texts[key];  // for a value, as the table's own files have it
+    const [text, around] = stands ? [stands, null] : ours === undefined ? ["\u2013", null] : shownNumber(ours, row.half_widths[key], digits);
     const content = (row.marks[key] === "as good" ? "~" : "") + text;
     const beside = published === undefined ? null : el("span", { class: "beside" },
       ours === undefined ? `published ${published}` : `${published}, ${ours >= published ? "+" : ""}${fixed(ours - published, digits)}`);
