@@ -70,19 +70,24 @@ class PlaneView {
     return this.source(picture);
   }
   listen(canvas) {
+    const down = new Set();  // two fingers zoom
     let last = null;
     canvas.addEventListener("pointerdown", (e) => {
-      last = e.isPrimary === false ? null : [e.clientX, e.clientY];
+      down.add(e.pointerId);
+      last = down.size === 1 ? [e.clientX, e.clientY] : null;
       canvas.setPointerCapture(e.pointerId);
     });
     canvas.addEventListener("pointermove", (e) => {
-      if (!last || e.isPrimary === false) return;
+      if (!last) return;
       const { scale, centre } = this.frame(canvas);
       this.centre = [centre[0] - (e.clientX - last[0]) / scale, centre[1] + (e.clientY - last[1]) / scale];
       last = [e.clientX, e.clientY];
       this.redraw();
     });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (last = null));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => {
+      down.delete(e.pointerId);
+      last = null;
+    });
     listenToZoom(canvas, this);
   }
   redraw() {
