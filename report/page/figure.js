@@ -23,15 +23,16 @@ function sizeOf(drawing) {
 /// A copy that needs no style sheet, in its own size.
 function standalone(drawing) {
   const copy = drawing.cloneNode(true), [width, height] = sizeOf(drawing);
-  copy.removeAttribute("class");
   Object.entries({ xmlns: kSvg, width, height }).forEach(([name, value]) => copy.setAttribute(name, value));
   onPaper(copy, () => {
     for (const node of copy.querySelectorAll("path, rect, circle, line, polygon, text")) {
       const style = getComputedStyle(node), wanted = kFigureStyles.map((name) => [name, style.getPropertyValue(name)]);
       node.removeAttribute("class");
+      node.removeAttribute("style");
       for (const [name, value] of wanted) if (name.startsWith("font") || name === "text-anchor" ? node.tagName === "text" : true) node.setAttribute(name, value);
     }
   });
+  copy.removeAttribute("class");
   return copy;
 }
 
