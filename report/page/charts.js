@@ -4,6 +4,9 @@ function text(x, y, content, attributes = {}) {
   return svg("text", { x, y, "font-size": 11, ...attributes }, content);
 }
 
+/// Of large charts: so wide that their letters can be read on a telephone, too.
+const chartWidth = () => Math.min(560, Math.max(300, document.documentElement.clientWidth - 56));
+
 /// Bars of eta from 0 to 1, as parts of all quads; `most`: the top of the axis.
 function etaHistogram(counts, most, label) {
   const width = 320, height = 96, left = 34, base = 78, top = 8;
@@ -62,7 +65,7 @@ const kStepColours = ["#c9b79c", "#a3c4bc", "#e2a06a", "#7fa9d6", "#d5586b", "#8
 function timeBars(cells, steps) {
   const used = steps.filter((step) => cells.some((cell) => cell.steps[step] > 0));
   const sums = cells.map((cell) => used.reduce((sum, step) => sum + (cell.steps[step] || 0), 0));
-  const most = Math.max(...sums), row = 24, width = 560, left = 62, right = 62;
+  const most = Math.max(...sums), row = 24, width = chartWidth(), left = 62, right = 62;
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * cells.length + 4}`, role: "img",
     "aria-label": "Seconds by step: " + cells.map((c, i) => `${c.word} ${seconds(sums[i])}`).join(", ") });
   cells.forEach((cell, i) => {
@@ -87,7 +90,7 @@ const powersBetween = (low, high) => {
 
 /// Axes in powers of ten around points [x, y]; returns the chart and the maps to it.
 function logAxes(points, titles, label) {
-  const width = 560, height = 330, left = 64, right = 30, top = 12, bottom = 44;
+  const width = chartWidth(), height = 330, left = 64, right = 30, top = 12, bottom = 44;
   const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
   const range = (values) => {
     const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values)), room = 0.08 * Math.max(high - low, 0.5);
@@ -143,7 +146,7 @@ function growthLaws(growth) {
 
 /// Energy by evaluation: a line for each patch of each word.
 function convergenceChart(cells, words) {
-  const width = 560, height = 250, left = 64, right = 16, top = 12, bottom = 40;
+  const width = chartWidth(), height = 250, left = 64, right = 16, top = 12, bottom = 40;
   const lines = cells.flatMap((cell) => cell.energy.map((energies) => ({ word: cell.word, energies })));
   const known = lines.flatMap((line) => line.energies.filter((e) => e !== null));
   const longest = Math.max(2, ...lines.map((line) => line.energies.length));

@@ -26,7 +26,7 @@ function roundTicks(low, high) {
 
 /// `rows`: a name, a colour and values each.
 function boxChart(rows, title) {
-  const row = 26, width = 560, left = 78, right = 62, top = 6, base = top + row * rows.length, all = rows.flatMap((r) => r.values);
+  const row = 26, width = chartWidth(), left = 78, right = 62, top = 6, base = top + row * rows.length, all = rows.flatMap((r) => r.values);
   const least = all.reduce((a, b) => Math.min(a, b), Infinity), most = all.reduce((a, b) => Math.max(a, b), -Infinity);
   const room = 0.04 * (most - least || Math.abs(most) || 1), low = least - room, high = most + room;
   const x = (v) => left + ((width - left - right) * (v - low)) / (high - low);
