@@ -123,7 +123,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     ++n_edges;
     if (edge.size() != 2) on_boundary[edge[0].lo] = on_boundary[edge[0].hi] = 1;
   });
-  double n_vertices = 0, n_interior = 0, n_regular = 0;
+  double n_vertices = 0, n_interior = 0;
   for (size_t i = 0; i < mesh.points.size(); ++i) {
     const int valence = quads_at[i] + triangles_at[i];
     if (valence == 0) continue;
@@ -131,7 +131,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     if (on_boundary[i]) continue;
     ++n_interior;
     ++metrics.valences[valence];
-    n_regular += quads_at[i] == 4 && triangles_at[i] == 0 ? 1 : 0;
+    if (triangles_at[i] == 0) ++metrics.quad_valences[valence];
   }
   Values& values = metrics.values;
   values["n_vertices"] = n_vertices;
@@ -140,6 +140,8 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
   values["d_min"] = metrics.valences.begin()->first;
   values["d_max"] = metrics.valences.rbegin()->first;
   if (mesh.quads.empty()) return;
+  const auto regular = metrics.quad_valences.find(4);
+  const double n_regular = regular == metrics.quad_valences.end() ? 0 : static_cast<double>(regular->second);
   values["d4"] = 100 * n_regular / n_interior;
   values["n_irregular"] = n_interior - n_regular;
 }

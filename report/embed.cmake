@@ -14,7 +14,8 @@ function(embed name)
 endfunction()
 embed(kPageStyle page/report.css)
 embed(kPageBody page/body.html)
-embed(kPageScript page/dom.js page/packed_mesh.js page/charts.js page/plane_view.js page/space_view.js page/sheet.js
-      page/report.js)
+# In the order in which they use each other.
+embed(kPageScript page/dom.js page/colours.js page/packed_mesh.js page/svg_pen.js page/pdf.js page/figure.js page/table.js
+      page/charts.js page/spread.js page/gestures.js page/plane_view.js page/space_view.js page/sheet.js page/report.js)
 embed(kThreeScript three/three.min.js)
 file(WRITE ${OUTPUT} "${text}\n}  // namespace delquad\n")

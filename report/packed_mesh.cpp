@@ -1,25 +1,21 @@
 #include "report/packed_mesh.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <numeric>
 
 #include "base/box.h"
 #include "io/irregular_vertices.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
+#include "report/packed_text.h"
 
 namespace delquad {
 namespace {
 
-constexpr double kEtaClasses = 64;
+constexpr double kEtaClasses = 128;  // a byte each
 
 std::array<double, 3> coordinates(const Vec3& p) { return {p.x, p.y, p.z}; }
 
@@ -62,30 +58,17 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, const std::vector<std::
 class Numbers {
  public:
   void put(std::uint64_t n) {
-    for (; n >= 128; n >>= 7) bytes_.push_back(static_cast<unsigned char>(n | 128));
-    bytes_.push_back(static_cast<unsigned char>(n));
+    for (; n >= 128; n >>= 7) bytes_.push_back(static_cast<char>(n | 128));
+    bytes_.push_back(static_cast<char>(n));
   }
   void put_signed(std::int64_t n) {
     put(n < 0 ? 2 * static_cast<std::uint64_t>(-n) - 1 : 2 * static_cast<std::uint64_t>(n));
   }
 
-  std::string compressed() const {
-    uLongf size = compressBound(bytes_.size());
-    std::vector<unsigned char> packed(size);
-    if (compress2(packed.data(), &size, bytes_.data(), bytes_.size(), Z_BEST_COMPRESSION) != Z_OK)
-      throw std::bad_alloc();  // its only reason, given room enough
-    packed.resize(size);
-    const std::size_t missing = (3 - size % 3) % 3;
-    packed.insert(packed.end(), missing, 0);
-    using namespace boost::archive::iterators;
-    using Digits = base64_from_binary<transform_width<const unsigned char*, 6, 8>>;
-    std::string text(Digits(packed.data()), Digits(packed.data() + packed.size()));
-    text.replace(text.size() - missing, missing, missing, '=');
-    return text;
-  }
+  std::string packed() const { return packed_text({bytes_.data(), bytes_.size()}); }
 
  private:
-  std::vector<unsigned char> bytes_;
+  std::string bytes_;
 };
 
 /// Numbers vertices in the order in which they are first used.
@@ -168,7 +151,7 @@ PackedMesh pack_mesh(const Mesh& mesh) {
   put_irregular(mesh, numbering, packed, out);
   put_places(mesh, numbering.order(), packed, out);
   packed.points = numbering.order().size();
-  packed.text = out.compressed();
+  packed.text = out.packed();
   return packed;
 }
 

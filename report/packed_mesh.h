@@ -10,9 +10,9 @@ namespace delquad {
 
 /// A mesh in a few bytes, as page/packed_mesh.js takes it apart.
 ///
-/// The text is base64 of zlib-compressed numbers of 7 bits a byte, lowest first, in this order: vertices of
+/// The text is that of packed_text(), of numbers of 7 bits a byte, lowest first, in this order: vertices of
 /// triangles, of quads (each as its distance below the next new one; 0: that one, which is then used up), eta
-/// of quads in 64ths, ends of lines (the same way), irregular vertices (number and valence), steps from
+/// of quads in 128ths, ends of lines (the same way), irregular vertices (number and valence), steps from
 /// vertex to vertex in each direction, in units of `unit`, signs in the lowest bit.
 struct PackedMesh {
   std::size_t points = 0, triangles = 0, quads = 0, lines = 0, irregular = 0;

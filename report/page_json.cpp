@@ -8,6 +8,7 @@
 #include "io/svg.h"
 #include "mesher/stages.h"
 #include "metrics/metrics.h"
+#include "report/packed_text.h"
 #include "sweep/experiment.h"
 #include "sweep/statistics.h"
 
@@ -44,9 +45,17 @@ const char* name_of(Better better) {
 
 }  // namespace
 
+Json table_files_json(const Table& table) {
+  Json json = Json::object();
+  for (const auto& [extension, print] : table_formats())
+    if (const std::string name = extension; name != ".json") json[name.substr(1)] = packed_text(print(table));
+  return json;
+}
+
 Json table_json(const Table& table) {
   if (table.rows.empty()) return Json();
   Json json = json_without_rows(table);
+  json["files"] = table_files_json(table);
   for (const TableRow& row : table.rows) {
     Json marks = Json::object();
     for (const auto& [key, mark] : row.marks) marks[key] = mark == Mark::kBest ? "best" : "as good";

@@ -10,7 +10,9 @@ namespace delquad {
 
 using Json = nlohmann::ordered_json;
 
-/// As the page shows it; empty ones are null.
+/// The texts of a table's files by extension, packed: what one saves from the page is what a run writes.
+Json table_files_json(const Table& table);
+/// As the page shows it, with its files; empty ones are null.
 Json table_json(const Table& table);
 
 /// For each pipeline and case: elements and seconds of the case's variants, and the power law that they

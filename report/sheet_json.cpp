@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "report/closeup.h"
+#include "report/samples_json.h"
 
 namespace delquad {
 namespace {
@@ -19,13 +19,24 @@ constexpr std::size_t kMostCurves = 12;
 /// Whole numbers take little room.
 long long hundredths(double value) { return std::llround(value * 100); }
 
-/// Five digits are more than a curve shows.
 Json energies_json(const Json& energies) {
   Json json = Json::array();
-  for (const Json& e : energies)
-    json.push_back(e.is_null() ? Json()
-                               : Json(std::strtod(fmt::format("{:.5g}", e.get<double>()).c_str(), nullptr)));
+  for (const Json& e : energies) json.push_back(e.is_null() ? Json() : brief_number(e.get<double>()));
   return json;
+}
+
+/// How many quads are around the vertices inside: shares as d4 counts them, of all vertices inside. Those
+/// with a triangle have an entry of their own.
+Json valences_json(const Json& record) {
+  const Json& all = record.at("valences");
+  const Json& metrics = record.at("metrics");
+  const bool has_quads = metrics.value("n_quads", 0.0) > 0;
+  if (!has_quads || !record.contains("quad_valences"))
+    return {{"of", has_quads ? "elements" : "triangles"}, {"counts", all}, {"mixed", 0}};
+  long long mixed = 0;
+  for (const Json& count : all) mixed += count.get<long long>();
+  for (const Json& count : record["quad_valences"]) mixed -= count.get<long long>();
+  return {{"of", "quads"}, {"counts", record["quad_valences"]}, {"mixed", mixed}};
 }
 
 Json closeups_json(const Mesh& mesh) {
@@ -88,7 +99,7 @@ Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
   if (const Json& clock = record.at("meshing_seconds"); !clock.is_null()) json["values"]["seconds"] = clock;
   json["steps"] = record.value("seconds", Json::object());
   json["eta"] = record.at("eta_histogram").at("counts");
-  json["valences"] = record.at("valences");
+  json["valences"] = valences_json(record);
   json["warnings"] = record.value("warnings", Json::array());
   if (record.contains("surface")) json["surface"] = surface_facts(record["surface"]);
   if (record.contains("smoothing")) {

@@ -7,13 +7,17 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 #include <ostream>
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "report/drawings.h"
 #include "report/packed_mesh.h"
+#include "report/packed_text.h"
 #include "report/page_json.h"
 #include "report/page_text.h"
+#include "report/samples_json.h"
 #include "report/sheet_json.h"
 #include "sweep/record.h"
 #include "sweep/tables.h"
@@ -23,7 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPictureBytes = 20e6;
+constexpr double kPictureBytes = 17e6;
+/// Of the values that charts of the spread are made of, packed, all studies together.
+constexpr std::size_t kSampleBytes = 2'000'000;
 /// A picture with less shows nothing; rather some cells have none.
 constexpr double kLeastPicture = 20e3;
 /// That are shown one by one; more would make a page that no browser likes. Tables have all.
@@ -32,6 +38,7 @@ constexpr std::size_t kMostCells = 2000;
 struct Study {
   std::string name;  ///< of its folder
   StudyResults results;
+  std::vector<fs::path> drawings;
 };
 
 /// Results without cells: a table, and drawings.
@@ -64,14 +71,10 @@ std::vector<fs::path> list(const fs::path& folder, const std::function<bool(cons
 void add_results(const fs::path& folder, Contents& contents) {
   const std::string name = fs::absolute(folder).lexically_normal().filename().string();
   if (has_study(folder) || !has_results(folder)) {
-    contents.studies.push_back({name, read_results(folder)});
+    contents.studies.push_back({name, read_results(folder), list_drawings(folder, true)});
     return;
   }
-  constexpr std::uintmax_t kMostBytes = 200'000;  // of a drawing
-  const auto is_drawing = [](const fs::path& file) {
-    return file.extension() == ".svg" && fs::is_regular_file(file) && fs::file_size(file) <= kMostBytes;
-  };
-  contents.tables.push_back({name, read_table(folder / "table.json"), list(folder, is_drawing)});
+  contents.tables.push_back({name, read_table(folder / "table.json"), list_drawings(folder, false)});
 }
 
 Contents read_contents(const fs::path& folder) {
@@ -146,39 +149,73 @@ class Page {
                  {"title", study.results.study.title},
                  {"tables", {table_json(outcome.table), table_json(outcome.pairs)}},
                  {"growth", growth_json(study.results.records)},
+                 {"samples", add_samples(study.results.records, outcome.table.columns)},
+                 {"drawings", drawings_json(study.drawings)},
                  {"sheets", Json::array()}};
-    const std::vector<CellRecord>& records = study.results.records;
-    std::size_t shown = 0;
-    for (; shown < records.size() && cells_ < kMostCells; ++shown, ++cells_) {
-      if (shown == 0 || records[shown].group != records[shown - 1].group)
-        json["sheets"].push_back(sheet_json(study, records[shown]));
-      add_cell(records[shown], json["sheets"].back());
-    }
-    json["cells_left_out"] = records.size() - shown;
+    json["cells_left_out"] = add_sheets(study, outcome.table.columns, json["sheets"]);
     return json;
   }
 
-  static Json study_json(const TableStudy& study) {
-    Json json = {{"name", study.name},
-                 {"title", study.table.title},
-                 {"tables", {table_json(study.table), Json()}},
-                 {"growth", Json::array()},
-                 {"sheets", Json::array()},
-                 {"drawings", Json::array()}};
-    for (const fs::path& file : study.drawings) {
-      std::ifstream in(file, std::ios::binary);
-      const std::string text{std::istreambuf_iterator<char>(in), {}};
-      json["drawings"].push_back({{"name", file.stem().string()}, {"svg", text}});
-    }
+  Json study_json(const TableStudy& study) {
+    return {{"name", study.name},
+            {"title", study.table.title},
+            {"tables", {table_json(study.table), Json()}},
+            {"growth", Json::array()},
+            {"samples", Json()},
+            {"drawings", drawings_json(study.drawings)},
+            {"sheets", Json::array()}};
+  }
+
+  Json drawings_json(const std::vector<fs::path>& files) {
+    Json json = Json::array();
+    for (const fs::path& file : files) json.push_back(shelf_.put(file));
     return json;
   }
 
-  static Json sheet_json(const Study& study, const CellRecord& record) {
-    Json json = {{"id", study.name + "/" + record.group}, {"name", record.name}, {"variant", Json::array()}};
-    for (const auto& [title, value] : record.variant) json["variant"].push_back(title + " " + value);
+  /// Where the values of the cells stand in the page; "left out" when there is no room for them.
+  Json add_samples(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns) {
+    const std::string text = packed_text(samples_json(records, columns).dump());
+    if (sample_bytes_ + text.size() > kSampleBytes) return "left out";
+    sample_bytes_ += text.size();
+    const std::string id = fmt::format("samples-{}", samples_++);
+    out_ << "<script type=\"text/plain\" id=\"" << id << "\">" << text << "</script>\n";
+    return id;
+  }
+
+  /// A sheet for each variant, with its seeds; returns how many cells there was no room for.
+  std::size_t add_sheets(const Study& study, const std::vector<TableColumn>& columns, Json& sheets) {
+    std::map<std::string, std::vector<const CellRecord*>> of_sheet;
+    for (const CellRecord& record : study.results.records) of_sheet[sheet_name(record)].push_back(&record);
+    std::map<std::string, std::size_t> places;
+    std::size_t left_out = 0;
+    for (const CellRecord& record : study.results.records) {
+      if (cells_ >= kMostCells && ++left_out) continue;
+      ++cells_;
+      const std::string name = sheet_name(record);
+      const auto [at, is_new] = places.try_emplace(name, sheets.size());
+      if (is_new) sheets.push_back(sheet_json(study, record, means_json(of_sheet[name], columns)));
+      add_cell(record, sheets[at->second]);
+    }
+    return left_out;
+  }
+
+  static Json sheet_json(const Study& study, const CellRecord& record, Json means) {
+    Json json = {{"id", study.name + "/" + sheet_name(record)}, {"name", record.name}};
+    json["variant"] = Json::array();
+    for (const auto& [title, value] : record.variant)
+      if (title != "seed") json["variant"].push_back(title + " " + value);
     json["facts"] = Json::array();
-    json["cells"] = Json::array();
+    json["means"] = std::move(means);
+    json["seeds"] = Json::array();
     return json;
+  }
+
+  /// The cells of a seed's last record, or of a new one.
+  static Json& cells_of(const std::string& seed, Json& sheet) {
+    Json& seeds = sheet["seeds"];
+    if (seeds.empty() || seeds.back()["seed"] != seed)
+      seeds.push_back({{"seed", seed}, {"cells", Json::array()}});
+    return seeds.back()["cells"];
   }
 
   void add_cell(const CellRecord& cell, Json& sheet) {
@@ -208,7 +245,7 @@ class Page {
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
         sheet["facts"] = std::move(facts);
-      sheet["cells"].push_back(std::move(json));
+      cells_of(seed_of(cell), sheet).push_back(std::move(json));
     } catch (const Json::exception& error) {
       throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), error.what()));
     }
@@ -241,7 +278,9 @@ class Page {
   std::ostream& out_;
   double share_ = 0, written_ = 0;
   std::size_t cells_ = 0;
-  int pictures_ = 0;
+  int pictures_ = 0, samples_ = 0;
+  std::size_t sample_bytes_ = 0;
+  DrawingShelf shelf_;
   bool in_space_ = false;
   std::vector<std::string> problems_;
 };

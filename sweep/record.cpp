@@ -127,9 +127,13 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   if (!metrics.failures.empty()) json["failed_metrics"] = metrics.failures;
   json["eta_histogram"] = histogram_json(metrics.eta);
   json["angle_histogram"] = histogram_json(metrics.angle);
-  Json valences = Json::object();
-  for (const auto& [valence, count] : metrics.valences) valences[std::to_string(valence)] = count;
-  json["valences"] = valences;
+  const auto counts_json = [](const std::map<int, long long>& counts) {
+    Json result = Json::object();
+    for (const auto& [valence, count] : counts) result[std::to_string(valence)] = count;
+    return result;
+  };
+  json["valences"] = counts_json(metrics.valences);
+  json["quad_valences"] = counts_json(metrics.quad_valences);
 }
 
 const char* name_of(Better better) {

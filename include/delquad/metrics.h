@@ -57,6 +57,8 @@ struct MeshMetrics {
   Histogram eta;                                ///< [0, 1], 20 bins
   Histogram angle;                              ///< degrees, [0, 360], 36 bins
   std::map<int, long long> valences;            ///< interior vertices by number of incident elements
+  /// Interior vertices that no triangle is at, by number of incident quads: d4 is the share at 4.
+  std::map<int, long long> quad_valences;
 };
 
 /// Measures of a mesh in space [paper, section 6]. `size` may be null: then tau and what else is measured

@@ -4,18 +4,20 @@ function text(x, y, content, attributes = {}) {
   return svg("text", { x, y, "font-size": 11, ...attributes }, content);
 }
 
+/// Of large charts: so wide that their letters can be read on a telephone, too.
+const chartWidth = () => Math.min(560, Math.max(300, document.documentElement.clientWidth - 56));
+
 /// Bars of eta from 0 to 1, as parts of all quads; `most`: the top of the axis.
-function etaHistogram(counts, most, colours, label) {
+function etaHistogram(counts, most, label) {
   const width = 320, height = 96, left = 34, base = 78, top = 8;
   const total = counts.reduce((a, b) => a + b, 0) || 1;
   const step = (width - left - 8) / counts.length;
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
   const y = (part) => base - (base - top) * Math.min(1, part / most);
-  chart.append(svg("path", { d: `M${left} ${base}H${width - 8}`, stroke: "#888" }));
+  chart.append(svg("path", { d: `M${left} ${base}H${width - 8}`, class: "axis" }));
   counts.forEach((count, i) => {
-    const colour = colours[Math.floor(((i + 0.5) / counts.length) * colours.length)];
     chart.append(svg("rect", { x: left + i * step + 0.5, y: y(count / total), width: step - 1, height: base - y(count / total),
-      fill: colour }, svg("title", {}, `${(i / counts.length).toFixed(2)} to ${((i + 1) / counts.length).toFixed(2)}: ${grouped(count)} quads`)));
+      ...byEta((i + 0.5) / counts.length) }, svg("title", {}, `${(i / counts.length).toFixed(2)} to ${((i + 1) / counts.length).toFixed(2)}: ${grouped(count)} quads`)));
   });
   for (const tick of [0, 0.5, 1]) chart.append(text(left + tick * (width - left - 8), 92, tick, { "text-anchor": "middle", class: "soft" }));
   chart.append(text(left - 4, top + 8, `${Math.round(100 * most)}%`, { "text-anchor": "end", class: "soft" }));
@@ -23,19 +25,37 @@ function etaHistogram(counts, most, colours, label) {
   return chart;
 }
 
-function valenceBars(valences, regular) {
-  const entries = Object.entries(valences).map(([k, n]) => [Number(k), n]).sort((a, b) => a[0] - b[0]);
+/// Shares of all vertices inside by how many elements are around them; those with a triangle among quads have one bar.
+function valenceBars({ of, counts, mixed }) {
+  const regular = of === "triangles" ? 6 : 4;
+  const entries = Object.entries(counts).map(([k, n]) => [Number(k), n]).sort((a, b) => a[0] - b[0]);
+  if (mixed > 0) entries.push(["\u25b3", mixed]);
   const total = entries.reduce((sum, e) => sum + e[1], 0) || 1;
   const row = 15, width = 320, left = 34, right = 66;
-  const label = entries.map(([k, n]) => `${k}: ${fixed((100 * n) / total, 1)} %`).join(", ");
-  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * entries.length + 2}`, role: "img", "aria-label": `Valences: ${label}` });
+  const share = (n) => `${fixed((100 * n) / total, n / total < 0.01 ? 2 : 1)} %`;
+  const label = entries.map(([k, n]) => `${k === "\u25b3" ? "with triangles" : k}: ${share(n)}`).join(", ");
+  const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * entries.length + 2}`, role: "img", "aria-label": `Around vertices: ${label}` });
   entries.forEach(([valence, count], i) => {
     const y = i * row, long = ((width - left - right) * count) / total;
-    const colour = valence === regular ? "#9fb4bd" : markColour(valence, regular);
+    const colour = valence === regular ? "#9fb4bd" : valence === "\u25b3" ? "#c9ced4" : markColour(valence, regular);
     chart.append(text(left - 8, y + 11, valence, { "text-anchor": "end" }),
       svg("rect", { x: left, y: y + 2, width: Math.max(long, 0.8), height: row - 5, fill: colour }),
-      text(left + long + 5, y + 11, `${fixed((100 * count) / total, count / total < 0.01 ? 2 : 1)} %`, { class: "soft" }));
+      text(left + long + 5, y + 11, share(count), { class: "soft" }));
   });
+  return chart;
+}
+
+/// Squares of colour with names below a chart, which grows by their rows.
+function addLegend(chart, entries) {
+  const [, , width, height] = chart.getAttribute("viewBox").split(" ").map(Number);
+  let x = 8, y = height + 4;
+  for (const [name, colour] of entries) {
+    const long = 26 + 6.8 * name.length;
+    if (x > 8 && x + long > width) [x, y] = [8, y + 17];
+    chart.append(svg("rect", { x, y, width: 10, height: 10, rx: 2, fill: colour }), text(x + 15, y + 9, name));
+    x += long;
+  }
+  chart.setAttribute("viewBox", `0 0 ${width} ${y + 16}`);
   return chart;
 }
 
@@ -45,7 +65,7 @@ const kStepColours = ["#c9b79c", "#a3c4bc", "#e2a06a", "#7fa9d6", "#d5586b", "#8
 function timeBars(cells, steps) {
   const used = steps.filter((step) => cells.some((cell) => cell.steps[step] > 0));
   const sums = cells.map((cell) => used.reduce((sum, step) => sum + (cell.steps[step] || 0), 0));
-  const most = Math.max(...sums), row = 24, width = 560, left = 62, right = 62;
+  const most = Math.max(...sums), row = 24, width = chartWidth(), left = 62, right = 62;
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${row * cells.length + 4}`, role: "img",
     "aria-label": "Seconds by step: " + cells.map((c, i) => `${c.word} ${seconds(sums[i])}`).join(", ") });
   cells.forEach((cell, i) => {
@@ -59,9 +79,7 @@ function timeBars(cells, steps) {
     }
     chart.append(text(x + 6, i * row + 17, seconds(sums[i]), { class: "soft" }));
   });
-  const legend = el("div", { class: "legend" }, used.map((step) => el("span", {},
-    el("i", { style: `background:${kStepColours[steps.indexOf(step) % kStepColours.length]}` }), step)));
-  return el("div", {}, chart, legend);
+  return addLegend(chart, used.map((step) => [step, kStepColours[steps.indexOf(step) % kStepColours.length]]));
 }
 
 const powersBetween = (low, high) => {
@@ -72,7 +90,7 @@ const powersBetween = (low, high) => {
 
 /// Axes in powers of ten around points [x, y]; returns the chart and the maps to it.
 function logAxes(points, titles, label) {
-  const width = 560, height = 330, left = 64, right = 30, top = 12, bottom = 44;
+  const width = chartWidth(), height = 330, left = 64, right = 30, top = 12, bottom = 44;
   const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
   const range = (values) => {
     const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values)), room = 0.08 * Math.max(high - low, 0.5);
@@ -91,11 +109,11 @@ function logAxes(points, titles, label) {
       }
   };
   const short = (v) => (v >= 1000 ? grouped(v) : String(Number(v.toPrecision(2))));
-  ticks(x0, x1, (v) => chart.append(svg("path", { d: `M${x(v)} ${top}V${height - bottom}`, stroke: "#e3e7ec" }),
+  ticks(x0, x1, (v) => chart.append(svg("path", { d: `M${x(v)} ${top}V${height - bottom}`, class: "grid" }),
     text(x(v), height - bottom + 15, short(v), { "text-anchor": "middle", class: "soft" })));
-  ticks(y0, y1, (v) => chart.append(svg("path", { d: `M${left} ${y(v)}H${width - right}`, stroke: "#e3e7ec" }),
+  ticks(y0, y1, (v) => chart.append(svg("path", { d: `M${left} ${y(v)}H${width - right}`, class: "grid" }),
     text(left - 6, y(v) + 4, short(v), { "text-anchor": "end", class: "soft" })));
-  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", stroke: "#666" }),
+  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", class: "axis" }),
     text((left + width - right) / 2, height - 6, titles[0], { "text-anchor": "middle" }),
     text(14, (top + height - bottom) / 2, titles[1], { "text-anchor": "middle", transform: `rotate(-90 14 ${(top + height - bottom) / 2})` }));
   return { chart, x, y };
@@ -115,17 +133,20 @@ function growthChart(growth, words) {
       chart.append(svg("circle", { cx: x(n), cy: y(s), r: 3.6, fill: colour, "fill-opacity": 0.75 },
         svg("title", {}, `${word}, ${group}: ${grouped(n)} elements, ${seconds(s)}`)));
   }
-  const legend = el("div", { class: "legend" }, [...new Set(growth.map((g) => g.word))].map((word) => el("span", {},
-    el("i", { style: `background:${wordColour(words, word)}` }), el("span", { class: "word" }, word))));
+  return addLegend(chart, [...new Set(growth.map((g) => g.word))].map((word) => [word, wordColour(words, word)]));
+}
+
+/// By which power of the number of elements time grows, as far as it is known.
+function growthLaws(growth) {
   const laws = growth.filter((g) => g.law).map((g) => el("tr", {}, el("td", {}, g.case), el("td", { class: "word" }, g.word),
     el("td", {}, `N^${fixed(g.law.exponent, 2)}`)));
-  return el("div", { class: "growth" }, el("div", {}, chart, legend), laws.length === 0 ? null : el("table", {},
-    el("thead", {}, el("tr", {}, ["case", "pipeline", "time grows as"].map((t) => el("th", { scope: "col" }, t)))), el("tbody", {}, laws)));
+  return laws.length === 0 ? null : el("table", {}, el("thead", {}, el("tr", {}, ["case", "pipeline", "time grows as"].map((t) => el("th", { scope: "col" }, t)))),
+    el("tbody", {}, laws));
 }
 
 /// Energy by evaluation: a line for each patch of each word.
 function convergenceChart(cells, words) {
-  const width = 560, height = 250, left = 64, right = 16, top = 12, bottom = 40;
+  const width = chartWidth(), height = 250, left = 64, right = 16, top = 12, bottom = 40;
   const lines = cells.flatMap((cell) => cell.energy.map((energies) => ({ word: cell.word, energies })));
   const known = lines.flatMap((line) => line.energies.filter((e) => e !== null));
   const longest = Math.max(2, ...lines.map((line) => line.energies.length));
@@ -135,7 +156,7 @@ function convergenceChart(cells, words) {
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Energy by evaluation" });
   for (const part of [0, 0.25, 0.5, 0.75, 1]) {
     const e = low + part * (high - low);
-    chart.append(svg("path", { d: `M${left} ${y(e)}H${width - right}`, stroke: "#e3e7ec" }),
+    chart.append(svg("path", { d: `M${left} ${y(e)}H${width - right}`, class: "grid" }),
       text(left - 6, y(e) + 4, Number(e.toPrecision(3)), { "text-anchor": "end", class: "soft" }));
   }
   for (const { word, energies } of lines) {
@@ -147,10 +168,8 @@ function convergenceChart(cells, words) {
   }
   for (const i of [0, Math.round((longest - 1) / 2), longest - 1])
     chart.append(text(x(i), height - bottom + 15, i + 1, { "text-anchor": "middle", class: "soft" }));
-  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", stroke: "#666" }),
+  chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", class: "axis" }),
     text((left + width - right) / 2, height - 6, "evaluation", { "text-anchor": "middle" }),
     text(14, (top + height - bottom) / 2, "energy of a cell", { "text-anchor": "middle", transform: `rotate(-90 14 ${(top + height - bottom) / 2})` }));
-  const legend = el("div", { class: "legend" }, cells.map((cell) => el("span", {},
-    el("i", { style: `background:${wordColour(words, cell.word)}` }), el("span", { class: "word" }, cell.word))));
-  return el("div", {}, chart, legend);
+  return addLegend(chart, cells.map((cell) => [cell.word, wordColour(words, cell.word)]));
 }

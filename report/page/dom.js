@@ -17,6 +17,3 @@ const fixed = (value, digits) => value.toFixed(digits).replace("-", "\u2212");
 /// A count with thin spaces between thousands.
 const grouped = (value) => Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, "\u2009");
 const seconds = (value) => (value >= 10 ? fixed(value, 1) : value >= 0.1 ? fixed(value, 2) : fixed(value, 3)) + "\u00a0s";
-
-const kWordColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#b58900", "#7b4fa3", "#4d4d4d"];
-const wordColour = (words, word) => kWordColours[words.indexOf(word) % kWordColours.length];

@@ -1,5 +1,7 @@
 // Meshes as report/packed_mesh.h packs them.
 
+const kEtaClasses = 128;
+
 async function inflate(text) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));

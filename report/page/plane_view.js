@@ -1,9 +1,5 @@
 // Planar meshes on canvases that show the same part of the plane.
 
-const kMarks = {};  // colours of irregular vertices, from the data
-const markColour = (valence, regular) =>
-  valence === regular - 1 ? kMarks["one less"] : valence === regular + 1 ? kMarks["one more"] : kMarks.other;
-
 /// What drawing needs again and again: elements by colour and by size, sizes around vertices.
 function prepareForPlane(mesh) {
   const byColour = new Map(), bySize = new Map(), around = new Float64Array(mesh.x.length);
@@ -28,11 +24,16 @@ function prepareForPlane(mesh) {
 const kAtOnce = 128;
 
 class PlaneView {
-  constructor(colours) {
-    this.colours = colours;
+  constructor() {
     this.pictures = [];  // {canvas, prepared, marks}
     this.box = null;
     this.reset();
+    palette.followers.add(this);
+  }
+  end() {
+    palette.followers.delete(this);
+    cancelAnimationFrame(this.waiting);
+    this.pictures = [];
   }
   reset() {
     this.zoom = 1;
@@ -55,6 +56,7 @@ class PlaneView {
     this.centre = [centre[0] + (0.1 * right * width) / scale, centre[1] + (0.1 * up * height) / scale];
     this.redraw();
   }
+  /// Returns the source of a figure.
   async add(canvas, info, marks) {
     const prepared = prepareForPlane(await unpackMesh(info));
     this.box = this.box || prepared.box;
@@ -62,13 +64,17 @@ class PlaneView {
     canvas.style.aspectRatio = 1 / Math.min(1.15, Math.max(0.45, (y1 - y0) / (x1 - x0 || 1)));
     this.pictures.push({ canvas, prepared, marks });
     this.listen(canvas);
-    this.draw(this.pictures[this.pictures.length - 1]);
+    const picture = this.pictures[this.pictures.length - 1];
+    this.draw(picture);
     redrawWhenResized(canvas, this);
+    return this.source(picture);
   }
   listen(canvas) {
+    const down = new Set();  // two fingers zoom
     let last = null;
     canvas.addEventListener("pointerdown", (e) => {
-      last = [e.clientX, e.clientY];
+      down.add(e.pointerId);
+      last = down.size === 1 ? [e.clientX, e.clientY] : null;
       canvas.setPointerCapture(e.pointerId);
     });
     canvas.addEventListener("pointermove", (e) => {
@@ -78,7 +84,10 @@ class PlaneView {
       last = [e.clientX, e.clientY];
       this.redraw();
     });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (last = null));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => {
+      down.delete(e.pointerId);
+      last = null;
+    });
     listenToZoom(canvas, this);
   }
   redraw() {
@@ -93,14 +102,35 @@ class PlaneView {
     const fit = 0.95 * Math.min(width / (x1 - x0 || 1), height / (y1 - y0 || 1));
     return { width, height, scale: fit * this.zoom, centre: this.centre || [(x0 + x1) / 2, (y0 + y1) / 2] };
   }
-  draw({ canvas, prepared, marks }) {
+  /// At once, for paper and after a change of colours.
+  repaint() {
+    for (const picture of this.pictures) this.draw(picture);
+  }
+  draw(picture) {
+    const { canvas } = picture, frame = this.frame(canvas);
+    if (frame.width) this.drawOn(canvas, picture, frame, window.devicePixelRatio || 1, canvas);
+  }
+  /// `of`: the node whose colours, light or dark, count.
+  drawOn(canvas, picture, frame, dots, of) {
+    canvas.width = Math.round(frame.width * dots);
+    canvas.height = Math.round(frame.height * dots);
     // willReadFrequently keeps the canvas on the CPU: with so many paths some GPUs take a minute.
-    const { width, height, scale, centre } = this.frame(canvas), dots = window.devicePixelRatio || 1;
-    if (!width) return;
-    canvas.width = Math.round(width * dots);
-    canvas.height = Math.round(height * dots);
-    const pen = canvas.getContext("2d", { willReadFrequently: true }), { mesh } = prepared;
+    const pen = canvas.getContext("2d", { willReadFrequently: true });
     pen.scale(dots, dots);
+    this.drawWith(pen, picture, frame, of);
+  }
+  /// The part of the plane that is seen now, as figures to save.
+  source(picture) {
+    const drawing = () => {
+      const frame = this.frame(picture.canvas), pen = new SvgPen(frame.width, frame.height);
+      onPaper(pen.node, () => this.drawWith(pen, picture, frame, pen.node.parentNode));
+      return pen.node;
+    };
+    return { drawing: () => standalone(drawing()) };
+  }
+  drawWith(pen, { prepared, marks }, { width, height, scale, centre }, of) {
+    const { mesh } = prepared, colours = palette.classes();
+    const [edge, line, triangle] = ["--mesh-edge", "--mesh-line", "--mesh-triangle"].map((name) => themed(of.tagName === "CANVAS" ? of.parentNode : of, name));
     const x = (v) => width / 2 + (mesh.x[v] - centre[0]) * scale, y = (v) => height / 2 - (mesh.y[v] - centre[1]) * scale;
     const paint = (elements, fills) => {
       pen.beginPath();
@@ -123,18 +153,18 @@ class PlaneView {
       pen.stroke();
     };
     for (const [colour, elements] of prepared.byColour) {
-      pen.fillStyle = pen.strokeStyle = colour < 0 ? "#e4e7ea" : this.colours[colour];
+      pen.fillStyle = pen.strokeStyle = colour < 0 ? triangle : colours[colour];
       pen.lineWidth = 0.4;
       paint(elements, true);
     }
-    pen.strokeStyle = "#222";
+    pen.strokeStyle = edge;
     for (const [step, elements] of prepared.bySize) {
       const size = 2 ** (step / 2) * scale;
       if (size < 2) continue;  // edges would only blacken the picture
       pen.lineWidth = Math.min(1.2, 0.06 * size);
       paint(elements, false);
     }
-    this.drawLines(pen, mesh, x, y);
+    this.drawLines(pen, mesh, x, y, line);
     for (const { vertex, valence } of mesh.irregular) {
       const radius = Math.min(5, 0.2 * prepared.around[vertex] * scale);
       if (radius < 0.4) continue;
@@ -145,8 +175,8 @@ class PlaneView {
     }
     marks.forEach((at, i) => drawPin(pen, width / 2 + (at[0] - centre[0]) * scale, height / 2 - (at[1] - centre[1]) * scale, i + 1, width));
   }
-  drawLines(pen, mesh, x, y) {
-    pen.strokeStyle = "#111";
+  drawLines(pen, mesh, x, y, colour) {
+    pen.strokeStyle = colour;
     pen.lineWidth = 1;
     pen.beginPath();
     for (let i = 0; i < mesh.lines.length; i += 2) {
@@ -174,32 +204,4 @@ function drawPin(pen, x, y, number, width) {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   pen.fillText(number, x + 14 * side, y - 14 * below + 0.5);
-}
-
-function redrawWhenResized(canvas, view) {
-  let width = canvas.clientWidth;
-  new ResizeObserver(() => {
-    if (canvas.clientWidth === width) return;
-    width = canvas.clientWidth;
-    view.redraw();
-  }).observe(canvas);
-}
-
-const kArrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-
-function listenToZoom(canvas, view) {
-  canvas.addEventListener("wheel", (e) => {
-    if (!e.ctrlKey && !e.metaKey) return;
-    e.preventDefault();
-    view.zoomBy(Math.exp(-e.deltaY / 300));
-  }, { passive: false });
-  canvas.addEventListener("dblclick", () => view.zoomBy(2));
-  canvas.addEventListener("keydown", (e) => {
-    if (e.key === "+" || e.key === "=") view.zoomBy(1.4);
-    else if (e.key === "-") view.zoomBy(1 / 1.4);
-    else if (e.key === "0") view.reset();
-    else if (e.key in kArrows) view.move(...kArrows[e.key]);
-    else return;
-    e.preventDefault();
-  });
 }

@@ -1,23 +1,23 @@
-// The sheet of one case: its words side by side.
+// The sheet of one case: its words side by side, a seed at a time.
 
 /// Places are in hundredths of the quad's mean edge, eta in hundredths.
-function closeupPicture(closeup, colours) {
+function closeupPicture(closeup) {
   const [box, all] = [320, closeup.points];
   const picture = svg("svg", { viewBox: `${-box} ${-box} ${2 * box} ${2 * box}`, "aria-hidden": "true" });
   closeup.elements.forEach((corners, i) => {
-    const colour = corners.length === 3 ? "#e4e7ea" : colours[Math.min(colours.length - 1, Math.floor((closeup.etas[i] / 100) * colours.length))];
-    picture.prepend(svg("polygon", { points: corners.map((v) => `${all[v][0]},${-all[v][1]}`).join(" "), fill: colour,
+    picture.prepend(svg("polygon", { points: corners.map((v) => `${all[v][0]},${-all[v][1]}`).join(" "),
+      ...(corners.length === 3 ? { fill: "#e4e7ea" } : byEta(closeup.etas[i] / 100)),
       stroke: i === 0 ? "#b3001b" : "#222", "stroke-width": i === 0 ? 12 : 3, "stroke-linejoin": "round" }));
   });
   return picture;
 }
 
 /// Which way a close-up looks and how large its quad is, for the big pictures to look there, too.
-function closeupButtons(cell, view, colours) {
+function closeupButtons(cell, view) {
   return cell.closeups.map((closeup, i) => el("button", {
     title: `${i + 1}: eta ${fixed(closeup.eta, 3)} at ${closeup.at.map((v) => Number(v.toPrecision(5))).join(", ")}`,
     click: () => view.lookAt(closeup.at, closeup.size, closeup.normal),
-  }, closeupPicture(closeup, colours), `${i + 1}: \u03b7 = ${fixed(closeup.eta, 3)}`));
+  }, closeupPicture(closeup), `${i + 1}: \u03b7 = ${fixed(closeup.eta, 3)}`));
 }
 
 function keyNumbers(values, metrics) {
@@ -32,37 +32,87 @@ function keyNumbers(values, metrics) {
   return el("dl", { class: "numbers" }, items);
 }
 
+/// What tables of means show of the columns that there are, besides measures of one's own.
+const kMeansOf = ["n_quads", "eta_worst", "eta_mean", "d4", "tau", "seconds"];
+
+/// Means over the seeds, a row for each word.
+function meansNode(means, columns) {
+  const shown = columns.filter(({ key }) => kMeansOf.includes(key) && means.some((m) => key in m.values));
+  const cell = (line, { key, digits }) => {
+    if (!(key in line.values)) return el("td", {}, "\u2013");
+    const [value, around] = shownNumber(line.values[key], line.half_widths[key], digits);
+    return el("td", {}, value, around ? el("span", { class: "beside" }, around) : null);
+  };
+  return el("div", { class: "scroll means", tabindex: 0, role: "region", "aria-label": "Means over the seeds" }, el("table", {}, el("thead", {}, el("tr", {}, ["mean of", "seeds", ...shown.map((c) => c.title)].map((t) => el("th", { scope: "col" }, t)))),
+    el("tbody", {}, means.map((line) => el("tr", {}, el("th", { scope: "row", class: "word" }, line.word), el("td", {}, line.n), shown.map((c) => cell(line, c)))))));
+}
+
 class Sheet {
-  constructor(sheet, words, glossary) {
-    Object.assign(this, { sheet, words, glossary, drawn: null });
-    const dimension = Math.max(2, ...sheet.cells.map((cell) => (cell.mesh ? cell.mesh.dimension : 2)));
-    this.view = dimension === 3 ? new SpaceView(glossary.colours) : new PlaneView(glossary.colours);
-    this.canvases = [];
+  constructor(sheet, words, glossary, columns) {
+    Object.assign(this, { sheet, words, glossary, columns, drawn: null, place: 0 });
     this.node = this.build();
   }
+  get cells() {
+    return this.sheet.seeds[this.place].cells;
+  }
   build() {
-    const { sheet } = this, done = sheet.cells.filter((cell) => cell.status === "ok");
-    const tool = (name, title, click) => el("button", { title, "aria-label": title, click }, name);
-    const tools = this.sheet.cells.some((cell) => cell.mesh) ? el("div", { class: "tools" },
+    const { sheet } = this, tool = (name, title, click) => el("button", { title, "aria-label": title, click }, name);
+    const hasPictures = sheet.seeds.some(({ cells }) => cells.some((cell) => cell.mesh));
+    const tools = hasPictures ? el("div", { class: "tools" },
       tool("+", "Zoom in", () => this.view.zoomBy(1.6)), tool("\u2212", "Zoom out", () => this.view.zoomBy(1 / 1.6)),
       tool("Whole", "Show the whole mesh", () => this.view.reset())) : null;
-    const most = Math.max(0.01, ...done.map((cell) => Math.max(...cell.eta) / Math.max(1, cell.eta.reduce((a, b) => a + b, 0))));
+    this.content = el("div");
     const section = el("section", { class: "sheet", id: sheet.id },
-      el("header", {}, el("h3", {}, sheet.name), sheet.variant.map((v) => el("span", { class: "chip" }, v)), tools),
+      el("header", {}, el("h3", {}, sheet.name), sheet.variant.map((v) => el("span", { class: "chip" }, v)), this.seedChooser(), tools),
       el("div", { class: "facts" }, sheet.facts.map(([key, value]) => el("span", {}, key + ": ", el("b", {}, value)))),
-      el("div", { class: "cards" }, sheet.cells.map((cell) => this.card(cell, Math.ceil(most * 20) / 20))));
+      sheet.means.length > 0 ? meansNode(sheet.means, this.columns) : null, this.content);
+    this.fill();
+    return section;
+  }
+  /// Of a sheet with several seeds: one is shown at a time.
+  seedChooser() {
+    const { seeds } = this.sheet;
+    if (seeds.length < 2) return seeds[0].seed === "" ? null : el("span", { class: "chip" }, `seed ${seeds[0].seed}`);
+    const choice = el("select", { "data-choice": "seed", change: () => this.show(Number(choice.value)) }, seeds.map(({ seed }, i) => el("option", { value: i }, seed)));
+    const step = (by, name, title) => el("button", { title, "aria-label": title, click: () => {
+      choice.value = (this.place + by + seeds.length) % seeds.length;
+      this.show(Number(choice.value));
+    } }, name);
+    return el("span", { class: "seeds" }, el("label", {}, "seed ", choice), ` of ${seeds.length} `, step(-1, "\u2039", "The seed before"), step(1, "\u203a", "The next seed"));
+  }
+  show(place) {
+    const wasDrawn = this.drawn !== null;
+    this.place = place;
+    this.drawn = null;
+    this.fill();
+    return wasDrawn ? this.draw() : null;
+  }
+  /// What belongs to the seed that is shown.
+  fill() {
+    if (this.view) this.view.end();
+    const { cells } = this, dimension = Math.max(2, ...cells.map((cell) => (cell.mesh ? cell.mesh.dimension : 2)));
+    this.view = dimension === 3 ? new SpaceView() : new PlaneView();
+    this.pictures = [];
+    const done = cells.filter((cell) => cell.status === "ok");
+    const most = Math.max(0.01, ...done.map((cell) => Math.max(...cell.eta) / Math.max(1, cell.eta.reduce((a, b) => a + b, 0))));
+    this.content.replaceChildren(el("div", { class: "cards" }, cells.map((cell) => this.card(cell, Math.ceil(most * 20) / 20))), this.below(done));
+  }
+  below(done) {
     const below = el("div", { class: "below" });
     if (done.length > 0)
-      below.append(el("div", {}, el("h4", {}, "Time by step"), timeBars(done, this.glossary.steps), el("p", { class: "caption" },
-        "Times of all threads added up. Words that begin alike share their first steps; each shows them.")));
+      below.append(el("div", {}, chartFigure("Time by step", this.fileName("time"), timeBars(done, this.glossary.steps), el("p", { class: "caption" },
+        "Times of all threads added up. Words that begin alike share their first steps; each shows them."))));
     const smoothed = done.filter((cell) => cell.energy);
     if (smoothed.length > 0)
-      below.append(el("div", {}, el("h4", {}, "Convergence of smoothing (L)"), convergenceChart(smoothed, this.words),
+      below.append(el("div", {}, chartFigure("Convergence of smoothing (L)", this.fileName("convergence"), convergenceChart(smoothed, this.words),
         el("p", { class: "caption" }, "Energy of the points' cells, which smoothing makes smaller; a line for each patch",
           smoothed.some((c) => c.patches > c.energy.length) ? ", of the first twelve" : "",
-          ". It jumps where size and directions are taken anew.")));
-    section.append(below);
-    return section;
+          ". It jumps where size and directions are taken anew."))));
+    return below;
+  }
+  fileName(...parts) {
+    const { seed } = this.sheet.seeds[this.place];
+    return fileName(this.sheet.id, seed === "" ? "" : `seed=${seed}`, ...parts);
   }
   wordSteps({ word, peer }) {
     if (peer) return `another mesher, version ${peer.version}`;
@@ -77,12 +127,12 @@ class Sheet {
       return card;
     }
     card.append(el("div", {}, this.picture(cell)), keyNumbers(cell.values, this.glossary.byKey));
-    const hasQuads = cell.values.n_quads > 0;
-    card.append(el("div", {}, hasQuads ? [el("h4", {}, "Quads by \u03b7"), etaHistogram(cell.eta, most, this.glossary.colours, `Histogram of eta, ${cell.word}`)] : []));
-    card.append(el("div", {}, el("h4", {}, `Vertices inside by number of ${hasQuads ? "quads" : "triangles"} around`),
-      valenceBars(cell.valences, hasQuads ? 4 : 6)));
+    card.append(el("div", {}, cell.values.n_quads > 0 ? chartFigure("Quads by \u03b7", this.fileName(cell.word, "eta"),
+      etaHistogram(cell.eta, most, `Histogram of eta, ${cell.word}`)) : []));
+    card.append(el("div", {}, chartFigure(`Vertices inside by number of ${cell.valences.of} around`, this.fileName(cell.word, "valences"), valenceBars(cell.valences),
+      cell.valences.mixed > 0 ? el("p", { class: "caption" }, "\u25b3: with a triangle among them") : [])));
     card.append(el("div", {}, cell.closeups ? [el("h4", {}, "Worst quads"),
-      el("div", { class: "closeups" }, closeupButtons(cell, this.view, this.glossary.colours))] : [], this.more(cell)));
+      el("div", { class: "closeups" }, closeupButtons(cell, this.view))] : [], this.more(cell)));
     return card;
   }
   more(cell) {
@@ -93,23 +143,27 @@ class Sheet {
   }
   picture(cell) {
     if (!cell.mesh) return el("div", { class: "missing" }, `No picture: ${cell.no_picture}`);
-    const canvas = el("canvas", { tabindex: 0, role: "img",
-      "aria-label": `Mesh of ${this.sheet.name} by ${cell.word}: ${cell.values.n_elements} elements` });
+    const does = cell.mesh.dimension === 3 ? "turn" : "move";
+    const canvas = el("canvas", { tabindex: 0, role: "application", "aria-roledescription": "picture", "aria-label":
+      `Mesh of ${this.sheet.name} by ${cell.word}: ${cell.values.n_elements} elements. Arrows ${does} it, plus and minus zoom, R shows all of it.` });
     canvas.style.aspectRatio = 1.25;
-    this.canvases.push([canvas, cell]);
+    const buttons = el("div", { class: "head" });
+    this.pictures.push({ canvas, cell, buttons });
     const thin = cell.mesh.step > 1 ? el("p", { class: "hint" },
       `Too large to be shown whole here: one element of ${cell.mesh.step} is drawn, larger than it is.`) : null;
-    return [canvas, thin];
+    return el("figure", {}, canvas, buttons, thin);
   }
-  /// Once.
+  /// Once for each seed.
   draw() {
-    this.drawn = this.drawn || this.drawAll();
+    this.drawn = this.drawn || this.drawAll(this.view);
     return this.drawn;
   }
-  async drawAll() {
-    for (const [canvas, cell] of this.canvases) {
+  async drawAll(view) {
+    for (const { canvas, cell, buttons } of this.pictures) {
+      if (view !== this.view) return;  // another seed is shown by now
       try {
-        await this.view.add(canvas, cell.mesh, (cell.closeups || []).map((c) => c.at));
+        const source = await view.add(canvas, cell.mesh, (cell.closeups || []).map((c) => c.at));
+        buttons.replaceChildren(saveButtons(this.fileName(cell.word, "mesh"), source));
         canvas.dataset.drawn = "yes";
       } catch (error) {
         canvas.replaceWith(el("div", { class: "missing failed" }, `The picture cannot be drawn here: ${error.message}`));

@@ -7,22 +7,33 @@ function renderer() {
   return sharedRenderer;
 }
 
-function makeFaces(mesh, colours) {
-  const places = [], paint = [], palette = colours.map((c) => new THREE.Color(c)), grey = new THREE.Color("#d3dae0");
+function makeFaces(mesh) {
+  const places = [], classes = [];
   eachElement(mesh, (corners, n, at, colour) => {
-    const { r, g, b } = colour < 0 ? grey : palette[colour];
     for (let k = 1; k + 1 < n; ++k)
       for (const c of [corners[at], corners[at + k], corners[at + k + 1]]) {
         places.push(mesh.x[c], mesh.y[c], mesh.z[c]);
-        paint.push(r, g, b);
+        classes.push(colour);
       }
   });
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(places), 3));
-  geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(paint), 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(places.length), 3));
   geometry.computeVertexNormals();
-  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: 2, polygonOffset: true,
+  const faces = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: 2, polygonOffset: true,
     polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+  faces.userData.classes = classes;
+  return faces;
+}
+
+/// Gives faces the colours that the palette has now.
+function paintFaces(faces) {
+  const colours = palette.classes().map((c) => new THREE.Color(c)), grey = new THREE.Color("#d3dae0"), paint = faces.geometry.getAttribute("color");
+  faces.userData.classes.forEach((c, i) => {
+    const { r, g, b } = c < 0 ? grey : colours[c];
+    paint.setXYZ(i, r, g, b);
+  });
+  paint.needsUpdate = true;
 }
 
 function makeSegments(mesh, ends, colour, opacity) {
@@ -62,9 +73,10 @@ function makeDots(mesh, vertices, colour) {
   return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, sizeAttenuation: false }));
 }
 
-function makeScene(mesh, colours) {
-  const scene = new THREE.Scene(), ends = edgesOf(mesh), edges = makeSegments(mesh, ends, "#1c2430", 0.5), dots = [];
-  scene.add(makeFaces(mesh, colours), edges, makeSegments(mesh, Array.from(mesh.lines), "#000000", 1), new THREE.AmbientLight("#ffffff", 1.5));
+function makeScene(mesh) {
+  const scene = new THREE.Scene(), ends = edgesOf(mesh), edges = makeSegments(mesh, ends, "#1c2430", 0.5), dots = [], faces = makeFaces(mesh);
+  paintFaces(faces);
+  scene.add(faces, edges, makeSegments(mesh, Array.from(mesh.lines), "#000000", 1), new THREE.AmbientLight("#ffffff", 1.5));
   const byColour = new Map();
   for (const { vertex, valence } of mesh.irregular) {
     const colour = markColour(valence, mesh.regular);
@@ -72,14 +84,26 @@ function makeScene(mesh, colours) {
   }
   for (const [colour, vertices] of byColour) dots.push(makeDots(mesh, vertices, colour));
   if (dots.length > 0) scene.add(...dots);
-  return { scene, edges, dots, edge: meanLength(mesh, ends) };
+  return { scene, faces, edges, dots, edge: meanLength(mesh, ends) };
 }
 
 class SpaceView {
-  constructor(colours) {
-    this.colours = colours;
+  constructor() {
     this.pictures = [];  // {canvas, marks, scene, ...}
+    palette.followers.add(this);
     this.light = new THREE.DirectionalLight("#ffffff", 2);
+  }
+  end() {
+    palette.followers.delete(this);
+    cancelAnimationFrame(this.waiting);
+    for (const { scene } of this.pictures) scene.traverse((part) => part.geometry && part.geometry.dispose());
+    this.pictures = [];
+  }
+  repaint() {
+    for (const picture of this.pictures) {
+      paintFaces(picture.faces);
+      this.draw(picture);
+    }
   }
   place(mesh) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -133,19 +157,35 @@ class SpaceView {
     this.camera.zoom = Math.max(1, this.radius / (14 * size));
     this.redraw();
   }
+  /// Returns the source of a figure.
   async add(canvas, info, marks) {
     const mesh = await unpackMesh(info);
     if (!this.camera) this.place(mesh);
     canvas.style.aspectRatio = kAspect;
-    const picture = { canvas, marks, ...makeScene(mesh, this.colours) };
+    const picture = { canvas, marks, ...makeScene(mesh) };
     this.pictures.push(picture);
     const controls = new THREE.OrbitControls(this.camera, canvas);
     controls.enableZoom = controls.enablePan = false;
     controls.target = this.target;
+    canvas.style.touchAction = "";  // as the style sheet says
     controls.addEventListener("change", () => this.redraw());
     listenToZoom(canvas, this);
     this.draw(picture);
     redrawWhenResized(canvas, this);
+    return this.source(picture);
+  }
+  /// As it is turned now; as an image in every format.
+  source(picture) {
+    const canvas = () => {
+      const { clientWidth: width, clientHeight: height } = picture.canvas, image = el("canvas");
+      this.drawOn(image, picture, width, height, kDotsAcross / width);
+      return image;
+    };
+    const drawing = () => {
+      const [width, height] = [picture.canvas.clientWidth, picture.canvas.clientHeight];
+      return standalone(svg("svg", { viewBox: `0 0 ${width} ${height}` }, svg("image", { width, height, href: canvas().toDataURL() })));
+    };
+    return { canvas, drawing };
   }
   redraw() {
     if (this.waiting) return;
@@ -154,9 +194,13 @@ class SpaceView {
       for (const picture of this.pictures) this.draw(picture);
     });
   }
-  draw({ canvas, marks, scene, edges, dots: points, edge }) {
-    const dots = window.devicePixelRatio || 1, width = Math.round(canvas.clientWidth * dots), height = Math.round(canvas.clientHeight * dots);
-    if (!width || !height) return;
+  draw(picture) {
+    const { clientWidth: width, clientHeight: height } = picture.canvas;
+    if (width && height) this.drawOn(picture.canvas, picture, width, height, window.devicePixelRatio || 1);
+  }
+  /// In pixels of the page, with so many dots to each.
+  drawOn(canvas, { marks, scene, edges, dots: points, edge }, wide0, high0, dots) {
+    const width = Math.round(wide0 * dots), height = Math.round(high0 * dots);
     const { camera, radius } = this, wide = width / height;
     [camera.left, camera.right, camera.top, camera.bottom] = [-radius * Math.max(1, wide), radius * Math.max(1, wide),
       radius * Math.max(1, 1 / wide), -radius * Math.max(1, 1 / wide)];
@@ -165,7 +209,7 @@ class SpaceView {
     camera.updateMatrixWorld();
     this.light.position.copy(camera.position).sub(this.target);
     scene.add(this.light);
-    const pixels = (edge * camera.zoom * canvas.clientWidth) / (camera.right - camera.left);
+    const pixels = (edge * camera.zoom * wide0) / (camera.right - camera.left);
     edges.material.opacity = Math.min(0.6, pixels / 12);
     for (const p of points) {
       p.material.size = dots * Math.min(7, 0.4 * pixels);
@@ -181,7 +225,7 @@ class SpaceView {
     pen.scale(dots, dots);
     marks.forEach((at, i) => {
       const p = new THREE.Vector3(...at).project(camera);
-      drawPin(pen, ((p.x + 1) / 2) * canvas.clientWidth, ((1 - p.y) / 2) * canvas.clientHeight, i + 1, canvas.clientWidth);
+      drawPin(pen, ((p.x + 1) / 2) * wide0, ((1 - p.y) / 2) * high0, i + 1, wide0);
     });
   }
 }

@@ -58,6 +58,7 @@ TEST(Metrics, OfTheFiveQuadsOfAPentagon) {
   EXPECT_EQ(metrics.values.at("d_max"), 5);
   EXPECT_EQ(metrics.values.at("n_irregular"), 1);
   EXPECT_EQ(metrics.valences, (std::map<int, long long>{{5, 1}}));
+  EXPECT_EQ(metrics.quad_valences, metrics.valences);
   // Each quad has angles of 72, 90, 108 and 90 degrees.
   EXPECT_NEAR(metrics.values.at("eta_mean"), 0.8, kRounding);
   EXPECT_NEAR(metrics.values.at("scaled_jacobian_min"), std::sin(72 * std::numbers::pi / 180), kRounding);
@@ -97,7 +98,10 @@ TEST(Metrics, VertexWithATriangleIsNotRegular) {
   mesh.quad_region.pop_back();
   mesh.triangles = {{0, 1, 4}, {0, 4, 3}};
   mesh.triangle_region = {0, 0};
-  const auto values = evaluate_metrics(mesh, nullptr).values;
+  const MeshMetrics metrics = evaluate_metrics(mesh, nullptr);
+  EXPECT_EQ(metrics.valences, (std::map<int, long long>{{5, 1}}));
+  EXPECT_TRUE(metrics.quad_valences.empty());
+  const auto& values = metrics.values;
   EXPECT_EQ(values.at("percent_quads"), 60);
   EXPECT_EQ(values.at("d_max"), 5);
   EXPECT_EQ(values.at("d4"), 0);

@@ -122,7 +122,7 @@ TEST(PackedMesh, ReadsBackPlanarQuads) {
   EXPECT_EQ(packed.unit, 1.0 / 64);
   Unpacker unpacker(packed);
   expect_same(unpacker.run(), mesh, 0.5);
-  EXPECT_EQ(unpacker.eta, std::vector<int>(35, 63));
+  EXPECT_EQ(unpacker.eta, std::vector<int>(35, 127));
   EXPECT_TRUE(unpacker.irregular.empty());
 }
 
@@ -150,7 +150,7 @@ TEST(PackedMesh, NamesIrregularVerticesAndEta) {
   EXPECT_EQ(unpacker.irregular[0].second, 3);
   EXPECT_LT(norm(read.points[unpacker.irregular[0].first]), packed.unit);
   std::vector<int> expected;
-  for (const double eta : quad_etas(mesh)) expected.push_back(static_cast<int>(64 * eta));
+  for (const double eta : quad_etas(mesh)) expected.push_back(static_cast<int>(128 * eta));
   std::sort(expected.begin(), expected.end());
   std::sort(unpacker.eta.begin(), unpacker.eta.end());
   EXPECT_EQ(unpacker.eta, expected);

@@ -36,8 +36,10 @@ TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
   ASSERT_EQ(data["studies"].size(), 1u);
   const Json& study = data["studies"][0];
   EXPECT_EQ(study["title"], "A square </script> & <b>more</b>");
-  ASSERT_EQ(study["sheets"].size(), 4u);  // two cases, two seeds
-  const Json& done = study["sheets"][0]["cells"];
+  ASSERT_EQ(study["sheets"].size(), 2u);  // two cases
+  ASSERT_EQ(study["sheets"][0]["seeds"].size(), 2u);
+  EXPECT_EQ(study["sheets"][0]["seeds"][1]["seed"], "2");
+  const Json& done = study["sheets"][0]["seeds"][0]["cells"];
   ASSERT_EQ(done.size(), 3u);
   EXPECT_EQ(done[0]["mesh"]["quads"], 0);
   EXPECT_EQ(done[1]["mesh"]["step"], 1);
@@ -46,10 +48,50 @@ TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
   EXPECT_FALSE(done[1].contains("energy"));
   EXPECT_FALSE(done[2]["energy"][0].empty());
   EXPECT_EQ(done[1]["closeups"][0]["eta"], done[1]["values"]["eta_worst"]);
-  const Json& failed = study["sheets"][2]["cells"][0];
+  const Json& failed = study["sheets"][1]["seeds"][0]["cells"][0];
   EXPECT_EQ(failed["status"], "failed");
   EXPECT_FALSE(failed["reason"].get<std::string>().empty());
   EXPECT_EQ(study["tables"][0]["rows"].size(), 6u);
+}
+
+/// Shares of vertices by the quads around them are counted as d4 is: a vertex with triangles is not regular.
+TEST(Report, ValencesAreThoseOfD4) {
+  const TemporaryFolder folder;
+  const ProgramResult made =
+      run_into(folder, "disc",
+               "pipelines = [\"DB\", \"DG\"]\nsize = 0.15\n[[case]]\nname = \"disc\"\nloop = { circle = { "
+               "centre = [0, 0], radius = 1 } }\n");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  const Json cells = data_of(folder / "r.html")["studies"][0]["sheets"][0]["seeds"][0]["cells"];
+  ASSERT_EQ(cells.size(), 2u);
+  for (const Json& cell : cells) {
+    const Json& around = cell["valences"];
+    EXPECT_EQ(around["of"], "quads");
+    double all = around["mixed"].get<double>();
+    for (const Json& n : around["counts"]) all += n.get<double>();
+    EXPECT_NEAR(100 * around["counts"]["4"].get<double>() / all, cell["values"]["d4"].get<double>(), 1e-9);
+  }
+  EXPECT_EQ(cells[0]["valences"]["mixed"], 0);
+  EXPECT_GT(cells[1]["valences"]["mixed"], 0);
+}
+
+/// Figures that lie in the results are on the page, or it says where those lie that are too large.
+TEST(Report, FiguresOfTheFolder) {
+  const TemporaryFolder folder;
+  run_into(folder, "square", kSquareExperiment);
+  fs::create_directories(folder / "results/square/figures");
+  const std::string small = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>";
+  write_text(folder / "results/square/figures/b.svg", small);
+  write_text(folder / "results/square/figures/a.svg", small + std::string(600'000, ' '));
+  write_text(folder / "results/square/figures/notes.txt", "no figure");
+  ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  const Json drawings = data_of(folder / "r.html")["studies"][0]["drawings"];
+  ASSERT_EQ(drawings.size(), 2u);
+  EXPECT_FALSE(drawings[0].contains("svg"));
+  EXPECT_NE(drawings[0]["left_out"].get<std::string>().find("figures/a.svg"), std::string::npos);
+  EXPECT_EQ(drawings[1]["name"], "b");
+  EXPECT_EQ(drawings[1]["svg"], small);
 }
 
 TEST(Report, SameBytesTwice) {
@@ -93,10 +135,10 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   const Json data = data_of(folder / "r.html");
   ASSERT_EQ(data["studies"].size(), 3u);
   EXPECT_TRUE(data["left_out"].empty());
-  const Json& damaged = data["studies"][2]["sheets"][0]["cells"][1];
+  const Json& damaged = data["studies"][2]["sheets"][0]["seeds"][0]["cells"][1];
   EXPECT_EQ(damaged["status"], "failed");
   EXPECT_EQ(damaged["reason"].get<std::string>().find("damaged record: "), 0u);
-  const Json& cell = data["studies"][1]["sheets"][0]["cells"][1];
+  const Json& cell = data["studies"][1]["sheets"][0]["seeds"][0]["cells"][1];
   EXPECT_EQ(cell["status"], "ok");
   EXPECT_FALSE(cell.contains("mesh"));
   EXPECT_NE(cell["no_picture"].get<std::string>().find("mesh.msh"), std::string::npos);
@@ -123,7 +165,9 @@ TEST(Report, LargeSweeps) {
   ASSERT_EQ(delquad({"report", folder / "out", "-o", folder / "r.html"}).exit_code, 0);
   EXPECT_LT(fs::file_size(folder / "r.html"), 25'000'000u);
   const Json study = data_of(folder / "r.html")["studies"][0];
-  EXPECT_EQ(study["sheets"].size(), 2000u);
+  ASSERT_EQ(study["sheets"].size(), 1u);
+  EXPECT_EQ(study["sheets"][0]["seeds"].size(), 2000u);
+  EXPECT_EQ(study["sheets"][0]["means"][0]["n"], 2100);
   EXPECT_EQ(study["cells_left_out"], 100);
   EXPECT_EQ(study["tables"][0]["rows"].size(), 1u);
 }
