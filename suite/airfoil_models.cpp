@@ -47,7 +47,7 @@ void add_airfoil(ModelText& model, const Airfoil& a, const std::string& name) {
     curves.push_back(name + "_tail");
     model.segment(curves[2], tail(a, 1), tail(a, -1));
   }
-  model.loop(curves, {name, ""});
+  model.hole(curves);
 }
 
 }  // namespace

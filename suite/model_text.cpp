@@ -45,10 +45,10 @@ void ModelText::segment(const std::string& name, Vec2 a, Vec2 b) {
   text_ += fmt::format("[[curve]]\nname = \"{}\"\nsegment = [{}, {}]\n", name, point(a), point(b));
 }
 
-void ModelText::loop(const std::vector<std::string>& curves, const LoopNames& names) {
+void ModelText::hole(const std::vector<std::string>& curves) {
   std::string list;
   for (const std::string& name : curves) list += (list.empty() ? "\"" : ", \"") + name + "\"";
-  begin_loop("curves = [" + list + "]", names);
+  begin_loop("curves = [" + list + "]", {});
 }
 
 }  // namespace delquad

@@ -21,7 +21,8 @@ class ModelText {
   /// Formulas in t.
   void curve(const std::string& name, const std::string& x, const std::string& y, double from, double to);
   void segment(const std::string& name, Vec2 a, Vec2 b);
-  void loop(const std::vector<std::string>& curves, const LoopNames& names);
+  /// Of curves that close up.
+  void hole(const std::vector<std::string>& curves);
   const std::string& text() const { return text_; }
 
  private:

@@ -85,7 +85,7 @@ Mesh make_knot() {
     const Vec3 tangent = {dr * cu - 2 * r * su, dr * su + 2 * r * cu, 3 * std::cos(3 * u)};
     const Vec3 side = 1 / norm(tangent) * cross(normal, tangent);
     const double angle = kTurn * t;
-    return Vec3{r * cu, r * su, std::sin(3 * u)} + 0.3 * (std::cos(angle) * normal - std::sin(angle) * side);
+    return Vec3{r * cu, r * su, std::sin(3 * u)} + 0.3 * (std::cos(angle) * normal + std::sin(angle) * side);
   }));
 }
 

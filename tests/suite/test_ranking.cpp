@@ -35,6 +35,9 @@ void write_study_of(const fs::path& results, const std::string& program, const s
   study.title = title;
   study.experiment = "suite";
   study.pipelines = {program};
+  for (const SuiteModel& model : suite().models)
+    for (int k = 0; k < 3; ++k) study.cases.push_back(case_name(model, k));
+  study.cells = study.cases.size();
   write_study(results, study);
 }
 
