@@ -20,7 +20,8 @@ inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput =
 struct RunArguments {
   std::filesystem::path experiment, folder;
   std::filesystem::path data = kDataFolder;
-  std::optional<std::string> pipelines;  ///< words separated by commas; else those of the file
+  std::optional<std::string> pipelines;      ///< words separated by commas; else those of the file
+  std::vector<std::filesystem::path> peers;  ///< files of further meshers, which are run, too
   long long max_elements = 50'000'000;
   int threads = 0;  ///< of each process; 0: the cores, shared out among the processes
   SweepOptions options;

@@ -113,6 +113,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   run->add_option("--data", arguments.data, "folder of the models that cases call data")
       ->capture_default_str();
   run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
+  run->add_option("--peer", arguments.peers, "file of other meshers, which are run beside; may be repeated")
+      ->allow_extra_args(false);
   run->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
       ->transform(kCount);

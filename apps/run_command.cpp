@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/commands.h"
@@ -38,6 +39,21 @@ int exit_code(const Outcome& outcome, bool allow_triangles) {
   return kTrianglesLeft;
 }
 
+/// Those that are named, and the peers of further files: of each the ones that are named, or else all.
+void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
+  std::vector<std::string> pipelines;
+  for (const Word& word : experiment.words) pipelines.push_back(word.text);
+  if (arguments.pipelines) pipelines = split(*arguments.pipelines);
+  for (const std::filesystem::path& file : arguments.peers) {
+    const std::vector<std::string> names = experiment.add_peer_file(file);
+    const auto is_named = [&](const std::string& name) {
+      return std::ranges::find(pipelines, name) != pipelines.end();
+    };
+    if (std::ranges::none_of(names, is_named)) pipelines.insert(pipelines.end(), names.begin(), names.end());
+  }
+  experiment.words = located("--pipelines", [&] { return experiment.find_pipelines(pipelines); });
+}
+
 void print_tables(const Outcome& outcome) {
   fmt::print("{}\n", to_markdown(outcome.table));
   if (!outcome.pairs.rows.empty()) fmt::print("{}\n", to_markdown(outcome.pairs));
@@ -51,9 +67,7 @@ int run_command(const RunArguments& arguments) {
   const RunScope run({.threads = threads});
   Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
   experiment.max_elements = arguments.max_elements;
-  if (arguments.pipelines)
-    experiment.words =
-        located("--pipelines", [&] { return experiment.find_pipelines(split(*arguments.pipelines)); });
+  choose_pipelines(arguments, experiment);
   if (arguments.dry_run) {
     fmt::print("{}", list_cells(experiment, arguments.folder));
     return kDone;

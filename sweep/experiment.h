@@ -57,6 +57,9 @@ class Experiment {
   std::filesystem::path file;
   std::vector<Word> words;  ///< and peers, as words without stages
   std::vector<Peer> peers;
+  std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
+  bool calibrate = false;                         ///< peers are compared at our number of quads
+  std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
   std::vector<MetricCommand> metrics;
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
@@ -68,6 +71,9 @@ class Experiment {
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
   std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
+  /// Reads the [[peer]] tables of a file of their own; returns their names, which `words` does not have yet.
+  /// Throws InputError with file and line.
+  std::vector<std::string> add_peer_file(const std::filesystem::path& path);
   /// Null for a word of stages.
   const Peer* peer_of(const Word& word) const;
 
@@ -84,6 +90,7 @@ class Experiment {
  private:
   void read_matrix(const TomlTable& matrix);
   void read_peer(const TomlTable& table);
+  void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
   void read_metric(const TomlTable& table);
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;

@@ -14,6 +14,9 @@
 #include "mesh/check_invariants.h"
 #include "mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
+#include "sweep/calibration.h"
+#include "sweep/peer_reference.h"
+#include "sweep/peer_sizes.h"
 #include "sweep/run_program.h"
 
 namespace delquad {
@@ -23,6 +26,9 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kVersionSeconds = 30;   // after which a program that only tells its version hangs
 constexpr std::size_t kLongestLine = 200;  // of a program's output, in a message
+/// With which a program ends that cannot be told the case, the reason in its last line.
+constexpr int kCannotBeTold = 77;
+constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
 
 /// What a program said went wrong: its first line with "error" in it, else its last.
 std::string complaint(const fs::path& log) {
@@ -36,6 +42,14 @@ std::string complaint(const fs::path& log) {
   return last.empty() ? "" : ": " + last;
 }
 
+std::string last_line(const fs::path& log) {
+  std::ifstream in(log);
+  std::string line, last;
+  while (std::getline(in, line))
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line.substr(0, kLongestLine);
+  return last;
+}
+
 /// `good`: exit codes.
 void check_run(const std::string& program, const ProgramRun& run, const std::vector<int>& good,
                const fs::path& log) {
@@ -43,32 +57,19 @@ void check_run(const std::string& program, const ProgramRun& run, const std::vec
   if (!end.empty()) throw PeerError(program + ": " + end + (run.error == 0 ? complaint(log) : ""));
 }
 
-/// A program with a slash in it counts from the peer's folder.
+/// A program with a slash in it counts from the peer's folder, and so do words that name files there.
 std::vector<std::string> located_command(const Peer& peer, std::vector<std::string> words) {
-  if (words[0].find('/') != std::string::npos)
-    words[0] = fs::absolute(peer.folder / words[0]).lexically_normal().string();
+  for (std::string& word : words) {
+    const bool is_program = &word == words.data();
+    if (is_program ? word.find('/') != word.npos : fs::is_regular_file(peer.folder / word))
+      word = fs::absolute(peer.folder / word).lexically_normal().string();
+  }
   return words;
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
-}
-
-std::vector<std::string> fill_in(const Peer& peer, const Case& c, const fs::path& input,
-                                 const std::string& output) {
-  std::vector<std::string> words = located_command(peer, peer.command);
-  for (std::string& word : words) {
-    if (word.find("{size}") != std::string::npos) {
-      const auto size = uniform_size(c);
-      if (!size) throw PeerError("'" + peer.name + "' is told one number for the size, which varies here");
-      replace_all(word, "{size}", fmt::format("{}", *size));
-    }
-    replace_all(word, "{input}", input.string());
-    replace_all(word, "{output}", output);
-    replace_all(word, "{seed}", std::to_string(c.seed));
-  }
-  return words;
 }
 
 Vec3 area_vector(const Mesh& mesh, std::span<const int> v) {
@@ -154,7 +155,169 @@ void check_surface(const PreparedProblem& prepared, const Mesh& mesh) {
     throw PeerError(fmt::format("its mesh has {} open edges, the model none", free_edges));
 }
 
+/// Its size where that is uniform; for a peer that has a field besides, the largest.
+double told_size(const PeerTask& task) {
+  if (const auto size = uniform_size(task.c)) return task.scale * *size;
+  if (task.peer.size_field.empty())
+    throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
+  return std::ranges::max(sample_sizes(task).delta);
+}
+
+/// What a program made of a task.
+struct PeerRun {
+  Mesh mesh;
+  ProgramRun program;
+};
+
+void check_end(const Peer& peer, const std::string& program, const ProgramRun& run, const fs::path& log) {
+  if (run.error == ENOENT && peer.optional) throw NotApplicable(program + " is not installed");
+  const auto is_good = [&](int code) {
+    return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
+  };
+  if (run.error == 0 && WIFEXITED(run.status) && WEXITSTATUS(run.status) == kCannotBeTold &&
+      !is_good(kCannotBeTold))
+    throw NotApplicable(last_line(log));
+  check_run(program, run, peer.exit_codes, log);
+}
+
+/// In `folder`, which is empty.
+PeerRun run_once(const PeerTask& task, const fs::path& folder) {
+  const Peer& peer = task.peer;
+  const fs::path log = folder / "peer.log", input = write_peer_input(task, folder);
+  const fs::path field =
+      peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
+  const std::string output = "output" + peer.output;
+  const auto words = peer_command(task, input, output, field);
+  PeerRun result;
+  result.program = run_program(words, folder, log);
+  check_end(peer, words[0], result.program, log);
+  if (!fs::exists(folder / output)) throw PeerError(words[0] + ": wrote no mesh" + complaint(log));
+  try {
+    result.mesh = read_mesh(folder / output);
+    check_peer_mesh(peer, task.prepared, result.mesh);
+  } catch (const InputError& error) {
+    std::string reason = error.what();
+    replace_all(reason, folder.string() + "/", "");
+    throw PeerError("its mesh cannot be read: " + reason);
+  }
+  fs::remove(folder / output);
+  return result;
+}
+
+/// At another scale of its sizes. The boundary of a planar model is made anew at it: our own edges would ask
+/// for our own size. Lines that are given, and surfaces, stay.
+PeerRun run_scaled(const Peer& peer, const Case& c, const PreparedProblem& prepared, double scale,
+                   const fs::path& folder) {
+  if (!c.model || scale == 1) return run_once({peer, c, prepared, scale, scale}, folder);
+  return run_once({peer, c, prepare_scaled(c, scale), scale, 1}, folder);
+}
+
+/// Everything in the folder but what is kept.
+void move_files(const fs::path& from, const fs::path& to) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().filename() != kKept) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::rename(file, to / file.filename());
+}
+
+void remove_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != kKept) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove_all(file);
+}
+
+/// The runs of a calibration, of which the closest is kept, with its files.
+class Calibrated {
+ public:
+  Calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared, const fs::path& folder,
+             double wanted)
+      : peer_(peer), c_(c), prepared_(prepared), folder_(folder), wanted_(wanted) {}
+
+  PeerRun run() {
+    done = calibrate_scale(wanted_, [&](double scale) { return quads_at(scale); });
+    if (fs::exists(folder_ / kKept)) {
+      remove_files(folder_);
+      move_files(folder_ / kKept, folder_);
+      fs::remove(folder_ / kKept);
+    }
+    return std::move(*best_);
+  }
+
+  Calibration done = {};
+  std::string failure = {};  ///< of the last run; empty: none
+
+ private:
+  std::optional<double> quads_at(double scale) {
+    try {
+      PeerRun run = run_scaled(peer_, c_, prepared_, scale, folder_);
+      const double quads = count_of_quads(run.mesh), off = std::abs(std::log(quads / wanted_));
+      if (best_ && !(off < off_)) return remove_files(folder_), quads;
+      fs::remove_all(folder_ / kKept);
+      fs::create_directory(folder_ / kKept);
+      move_files(folder_, folder_ / kKept);
+      best_ = std::move(run);
+      off_ = off;
+      return quads;
+    } catch (const PeerError& error) {
+      if (!best_) throw;
+      failure = error.what();
+    } catch (const InputError& error) {  // there is no boundary of that size
+      if (!best_) throw;
+      failure = error.what();
+    }
+    return std::nullopt;
+  }
+
+  const Peer& peer_;
+  const Case& c_;
+  const PreparedProblem& prepared_;
+  const fs::path& folder_;
+  double wanted_;
+  std::optional<PeerRun> best_;
+  double off_ = 0;
+};
+
+/// As close as it gets to the reference's number of quads; `log` receives how close.
+PeerRun run_calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared,
+                       const fs::path& folder, const ReferenceCell& reference, StageLog& log) {
+  const auto wanted = reference_quads(prepared, peer.calibrate_to, reference);
+  if (!wanted || !(*wanted > 0)) {
+    PeerRun run = run_once({peer, c, prepared}, folder);
+    log.summaries.add(kCalibrationStep, {{"to", peer.calibrate_to}, {"size_factor", 1.0}, {"runs", 1LL}});
+    return run;
+  }
+  Calibrated runs(peer, c, prepared, folder, *wanted);
+  PeerRun run = runs.run();
+  log.summaries.add(kCalibrationStep, {{"to", peer.calibrate_to},
+                                       {"wanted_quads", *wanted},
+                                       {"quads", runs.done.quads},
+                                       {"size_factor", runs.done.scale},
+                                       {"runs", static_cast<long long>(runs.done.runs)}});
+  if (!runs.failure.empty()) log.summaries.add(kCalibrationStep, {{"ended_by", runs.failure}});
+  return run;
+}
+
 }  // namespace
+
+std::vector<std::string> peer_command(const PeerTask& task, const fs::path& input, const std::string& output,
+                                      const fs::path& size_field) {
+  const Peer& peer = task.peer;
+  std::vector<std::string> words = located_command(peer, peer.command);
+  for (std::string& word : words) {
+    if (word.find("{size}") != std::string::npos)
+      replace_all(word, "{size}", fmt::format("{}", told_size(task)));
+    if (word.find("{quads}") != std::string::npos)
+      replace_all(
+          word, "{quads}",
+          fmt::format("{:.0f}", task.prepared.expected_quads / (task.field_scale * task.field_scale)));
+    replace_all(word, "{size_field}", size_field.string());
+    replace_all(word, "{input}", input.string());
+    replace_all(word, "{output}", output);
+    replace_all(word, "{seed}", std::to_string(task.c.seed));
+  }
+  return words;
+}
 
 std::string peer_version(const Peer& peer) {
   std::string pattern = (fs::temp_directory_path() / "delquad-XXXXXX").string();
@@ -191,31 +354,20 @@ void check_peer_mesh(const Peer& peer, const PreparedProblem& prepared, Mesh& me
 }
 
 RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
-                   const fs::path& scratch) {
+                   const fs::path& scratch, const ReferenceCell& reference) {
   fs::remove_all(scratch);
   fs::create_directories(scratch);
-  const fs::path folder = fs::absolute(scratch), log = folder / "peer.log";
-  const std::string output = "output" + peer.output;
-  const auto words = fill_in(peer, c, write_peer_input(peer, c, prepared, folder), output);
-  const ProgramRun run = run_program(words, folder, log);
-  check_run(words[0], run, peer.exit_codes, log);
-  if (!fs::exists(folder / output)) throw PeerError(words[0] + ": wrote no mesh" + complaint(log));
+  const fs::path folder = fs::absolute(scratch);
   RunResult result;
-  try {
-    result.mesh = read_mesh(folder / output);
-    check_peer_mesh(peer, prepared, result.mesh);
-  } catch (const InputError& error) {
-    std::string reason = error.what();
-    replace_all(reason, folder.string() + "/", "");
-    throw PeerError("its mesh cannot be read: " + reason);
-  }
-  fs::remove(folder / output);
-  if (WEXITSTATUS(run.status) != 0)
+  PeerRun run = peer.calibrate_to.empty() ? run_once({peer, c, prepared}, folder)
+                                          : run_calibrated(peer, c, prepared, folder, reference, result.log);
+  result.mesh = std::move(run.mesh);
+  if (const int code = WEXITSTATUS(run.program.status); code != 0)
     result.warnings.push_back(
-        fmt::format("{}: ended with exit code {}{}", label, WEXITSTATUS(run.status), complaint(log)));
-  result.log.add_seconds("peer", run.cpu_seconds);
-  result.seconds = run.seconds;
-  result.peak_memory = run.peak_memory;
+        fmt::format("{}: ended with exit code {}{}", label, code, complaint(folder / "peer.log")));
+  result.log.add_seconds("peer", run.program.cpu_seconds);
+  result.seconds = run.program.seconds;
+  result.peak_memory = run.program.peak_memory;
   result.metrics =
       evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
   result.soundness = check_elements(prepared, result.mesh);

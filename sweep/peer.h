@@ -11,11 +11,23 @@
 
 namespace delquad {
 
+/// How a domain is handed to a peer.
+enum class HandOver {
+  kModel,      ///< planar: our boundary edges; surfaces: the file of the model as it is
+  kTriangles,  ///< our triangles of F, of the wanted size
+  kNothing     ///< it cannot mesh such domains
+};
+
+/// Gmsh's language, for every case.
+inline constexpr const char* kGmshScript = ".geo";
+/// Formats of size fields: "pos", "sol", "points"; docs/experiments.md has what they are.
+const std::vector<std::string>& size_field_formats();
+
 /// Another mesher: a program that is run in place of a pipeline, and whose mesh is measured as ours are.
 struct Peer {
   std::string name;  ///< in place of a pipeline's word
-  /// Program and arguments; {input}, {output}, {size} and {seed} stand for these. A program with a slash in
-  /// it counts from `folder`.
+  /// Program and arguments; {input}, {output}, {size}, {size_field}, {quads} and {seed} stand for these. A
+  /// program with a slash in it counts from `folder`.
   std::vector<std::string> command;
   std::vector<std::string> version;  ///< program and arguments that print its version
   /// Extension of what it reads: ".geo" is Gmsh's language, for every case; with others it gets the lines of
@@ -26,8 +38,20 @@ struct Peer {
   /// Its planar meshes have just the boundary edges that they were given; else they are made to cover the
   /// same area.
   bool keeps_boundary = true;
-  std::filesystem::path folder;
+  bool optional = false;  ///< where its program is not there, its cells are not applicable
+  HandOver planar = HandOver::kModel, surfaces = HandOver::kModel;
+  std::string size_field = {};    ///< format of the file that {size_field} stands for; empty: none
+  std::string calibrate_to = {};  ///< word whose number of quads it shall have; empty: the size is as given
+  std::filesystem::path file = {}, folder = {};  ///< that it was read from
 };
+
+/// The case is none that the peer can be told: nothing has failed.
+class NotApplicable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+/// Its kind, as in ProcessFailure, and the status of its record.
+inline constexpr const char* kNotApplicable = "not applicable";
 
 /// A peer is missing, failed, or wrote no sound mesh of the case.
 class PeerError : public std::runtime_error {
@@ -38,19 +62,41 @@ class PeerError : public std::runtime_error {
 /// What the peer says of its version, in one line. Throws PeerError.
 std::string peer_version(const Peer& peer);
 
-/// Lets the peer mesh a case. Planar cases: with the same boundary edges, and the size as a number or, for
-/// .geo, between the corners of an F mesh. Surfaces: with the model and a size that has to be uniform. Works
-/// in the folder `scratch`, made anew, where peer.log has what it printed. `label` as in finish_meshing().
-/// Throws PeerError. A mesh whose elements are not sound, see check_elements(), is a result that says so.
+/// What a peer is told of a case.
+struct PeerTask {
+  const Peer& peer;
+  const Case& c;
+  const PreparedProblem& prepared;  ///< with the boundary that it gets
+  double scale = 1;                 ///< the sizes that it is told, over those of the case
+  double field_scale = 1;           ///< the same, over prepared.size
+};
+
+/// Where the record of the word that a peer is calibrated to will be, and the key that makes it valid; empty:
+/// nowhere.
+struct ReferenceCell {
+  std::filesystem::path folder;
+  std::string key;
+};
+
+/// Lets the peer mesh a case. Planar cases: with the same boundary edges. Surfaces: with the model. Sizes: a
+/// number, or what they are at the nodes of F. Where the peer is calibrated its size is changed, and with it
+/// the boundary that it gets, until it has the reference's number of quads; see calibrate_scale(). Works in
+/// the folder `scratch`, made anew, where peer.log has what it printed. `label` as in finish_meshing().
+/// Throws NotApplicable and PeerError. A mesh whose elements are not sound, see check_elements(), is a result
+/// that says so.
 RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
-                   const std::filesystem::path& scratch);
+                   const std::filesystem::path& scratch, const ReferenceCell& reference = {});
 
 /// delta where it is the same everywhere, as it was written.
 std::optional<double> uniform_size(const Case& c);
 
-/// Writes what the peer reads to `folder`; returns the file. Throws PeerError when the case cannot be told.
-std::filesystem::path write_peer_input(const Peer& peer, const Case& c, const PreparedProblem& prepared,
-                                       const std::filesystem::path& folder);
+/// Program and arguments for a task. Throws NotApplicable where they ask for what the case does not have.
+std::vector<std::string> peer_command(const PeerTask& task, const std::filesystem::path& input,
+                                      const std::string& output, const std::filesystem::path& size_field);
+
+/// Writes what the peer reads to `folder`; returns the file. Throws NotApplicable when the case cannot be
+/// told.
+std::filesystem::path write_peer_input(const PeerTask& task, const std::filesystem::path& folder);
 
 /// Makes `mesh` run counterclockwise on planar domains. Throws PeerError when it is not sound, does not cover
 /// the domain or, where the peer keeps it, has other edges on the boundary.

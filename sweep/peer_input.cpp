@@ -4,20 +4,19 @@
 #include <map>
 #include <numbers>
 
-#include "algorithms/insertion/insertion_options.h"
 #include "cases/problem.h"
-#include "delquad/extend.h"
 #include "geometry/cad/example_models.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "sweep/peer.h"
+#include "sweep/peer_sizes.h"
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kScript = ".geo", *kSizeView = "size.pos";
+constexpr const char* kSizeView = "size.pos";
 
 /// The edges of a patch as loops of points, the outermost first.
 std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
@@ -73,37 +72,16 @@ void write_boundary(TextWriter& out, const PreparedProblem& prepared) {
   }
 }
 
-/// delta at the corners of an F mesh, as a view of Gmsh.
-void write_size_view(const fs::path& path, const Case& c, const PreparedProblem& prepared) {
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
-    out << "View \"delta\" {\n";
-    for (const PreparedPatch& patch : prepared.patches) {
-      const TriPatch mesh = mesh_frontal(patch.boundary, *make_l2_frontal(), *patch.cross, *patch.size,
-                                         insertion_options(c.options).frontal);
-      int hint = -1;
-      std::vector<double> delta;
-      for (const Vec2& p : mesh.points) delta.push_back(patch.size->at(p, hint));
-      const double z = prepared.boundary.points[0].z;
-      for (const auto& v : mesh.triangles) {
-        for (int k = 0; k < 3; ++k)
-          out << (k == 0 ? "ST(" : ", ") << mesh.points[v[k]].x << ", " << mesh.points[v[k]].y << ", " << z;
-        out << "){" << delta[v[0]] << ", " << delta[v[1]] << ", " << delta[v[2]] << "};\n";
-      }
-    }
-    out << "};\n";
-    out.flush();
-  });
-}
-
 /// The file of a surface as it is, or the example as a STEP file.
-fs::path surface_file(const Peer& peer, const Case& c, const fs::path& folder) {
-  const SurfaceSpec& s = c.surface;
+fs::path surface_file(const PeerTask& task, const fs::path& folder) {
+  const SurfaceSpec& s = task.c.surface;
   if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.mirror || s.weld_tolerance)
-    throw PeerError("'" + peer.name + "' gets the model's file as it is, but the case changes its faces");
-  if (c.example.empty()) return fs::absolute(model_path(c));
+    throw NotApplicable("'" + task.peer.name +
+                        "' gets the model's file as it is, but the case changes its faces");
+  if (task.c.example.empty()) return fs::absolute(model_path(task.c));
   const fs::path file = folder / "model.step";
-  write_file_atomically(file, [&](std::ostream& out) { write_example(c.example, CadFormat::kStep, out); });
+  write_file_atomically(file,
+                        [&](std::ostream& out) { write_example(task.c.example, CadFormat::kStep, out); });
   return file;
 }
 
@@ -123,18 +101,18 @@ void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
   }
 }
 
-void write_script(const Peer& peer, const Case& c, const PreparedProblem& prepared, const fs::path& script) {
-  const auto size = uniform_size(c);
+void write_script(const PeerTask& task, const fs::path& script) {
+  const PreparedProblem& prepared = task.prepared;
+  const auto size = uniform_size(task.c);
   const fs::path folder = script.parent_path();
-  if (prepared.surface && !size)
-    throw PeerError("'" + peer.name + "' can be told uniform sizes only on surfaces");
-  const fs::path model = prepared.surface ? surface_file(peer, c, folder) : fs::path();
-  if (!size) write_size_view(folder / kSizeView, c, prepared);
+  const fs::path model = prepared.surface ? surface_file(task, folder) : fs::path();
+  if (!size) write_size_field(sample_sizes(task), "pos", folder);
   write_file_atomically(script, [&](std::ostream& stream) {
     TextWriter out(stream);
-    prepared.surface ? write_surface(out, c, model) : write_boundary(out, prepared);
+    prepared.surface ? write_surface(out, task.c, model) : write_boundary(out, prepared);
     if (size)
-      out << "Mesh.MeshSizeMin = " << *size << ";\nMesh.MeshSizeMax = " << *size << ";\n";
+      out << "Mesh.MeshSizeMin = " << task.scale * *size << ";\nMesh.MeshSizeMax = " << task.scale * *size
+          << ";\n";
     else
       out << "Merge \"" << kSizeView
           << "\";\nField[1] = PostView;\nField[1].ViewIndex = 0;\nBackground Field = 1;\n"
@@ -154,16 +132,20 @@ std::optional<double> uniform_size(const Case& c) {
   return s.max > 0 ? std::min(*size, s.max) : *size;
 }
 
-fs::path write_peer_input(const Peer& peer, const Case& c, const PreparedProblem& prepared,
-                          const fs::path& folder) {
+fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
+  const Peer& peer = task.peer;
+  const bool on_surface = task.prepared.surface != nullptr;
+  const HandOver given = on_surface ? peer.surfaces : peer.planar;
+  if (given == HandOver::kNothing)
+    throw NotApplicable(
+        fmt::format("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains"));
+  if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
   const fs::path file = folder / ("input" + peer.input);
-  if (peer.input == kScript) {
-    write_script(peer, c, prepared, file);
-  } else if (prepared.surface) {
-    return surface_file(peer, c, folder);
-  } else {
-    write_mesh(file, prepared.boundary);
-  }
+  if (peer.input == kGmshScript)
+    write_script(task, file);
+  else
+    write_mesh(file,
+               given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared.boundary);
   return file;
 }
 

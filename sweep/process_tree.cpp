@@ -184,6 +184,8 @@ class Family {
       fail("bad input", error.what());
     } catch (const UnsoundError& error) {
       fail("unsound", error.what());
+    } catch (const NotApplicable& error) {
+      fail(kNotApplicable, error.what());
     } catch (const PeerError& error) {
       fail("peer", error.what());
     } catch (const std::bad_alloc&) {

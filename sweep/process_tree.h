@@ -9,8 +9,9 @@ namespace delquad {
 
 /// What becomes of a process that did not get to its end.
 struct ProcessFailure {
-  /// "bad input", "unsound", "peer", "internal error", "timeout", "memory", "crash"; or "interrupted", where
-  /// somebody else ended it, as a scheduler does: this says nothing of the work
+  /// "bad input", "unsound", "peer", "internal error", "timeout", "memory", "crash"; "not applicable", where
+  /// a peer cannot be told the case, which is no failure; or "interrupted", where somebody else ended it, as
+  /// a scheduler does: this says nothing of the work
   std::string kind;
   std::string reason;  ///< for people
 };

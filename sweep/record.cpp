@@ -280,8 +280,19 @@ std::string source_of(const Case& c) {
 }
 
 Json peer_json(const Peer& peer, const std::string& version) {
-  return {{"version", version},    {"command", peer.command},       {"input", peer.input},
-          {"output", peer.output}, {"exit_codes", peer.exit_codes}, {"keeps_boundary", peer.keeps_boundary}};
+  const auto name_of = [](HandOver given, const char* plain) {
+    return given == HandOver::kModel ? plain : given == HandOver::kTriangles ? "triangles" : "none";
+  };
+  return {{"version", version},
+          {"command", peer.command},
+          {"input", peer.input},
+          {"output", peer.output},
+          {"exit_codes", peer.exit_codes},
+          {"keeps_boundary", peer.keeps_boundary},
+          {"planar", name_of(peer.planar, "boundary")},
+          {"surfaces", name_of(peer.surfaces, "file")},
+          {"size_field", peer.size_field},
+          {"calibrate_to", peer.calibrate_to}};
 }
 
 /// `metrics`: "failed" where one of them has no value.
@@ -301,6 +312,7 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   for (const auto& [title, value] : c.variant) json["variant"][title] = value;
   if (cell == nullptr) return json;
   if (cell->peer != nullptr) json["peer"] = peer_json(*cell->peer, cell->peer_version);
+  if (cell->peer != nullptr) json["peer_file"] = std::filesystem::absolute(cell->peer->file).string();
   json["experiment"] = cell->experiment;
   json["data"] = cell->data;
   json["place"] = cell->place;

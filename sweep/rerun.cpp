@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -70,6 +71,9 @@ Rerun rerun_record(const std::filesystem::path& file) {
   Experiment experiment =
       Experiment::read(record.at("experiment").get<std::string>(), record.at("data").get<std::string>());
   const auto pipeline = record.at("pipeline").get<std::string>();
+  if (record.contains("peer") &&
+      std::ranges::find(experiment.peers, pipeline, &Peer::name) == experiment.peers.end())
+    experiment.add_peer_file(record.at("peer_file").get<std::string>());  // of --peer
   experiment.words = experiment.find_pipelines({pipeline});
   experiment.max_elements = record.at("options").at("max_elements");
   const auto place = record.at("place").get<std::array<std::size_t, 3>>();

@@ -10,6 +10,7 @@
 
 #include "cases/case.h"
 #include "delquad/error.h"
+#include "sweep/calibration.h"
 #include "sweep/experiment.h"
 
 namespace delquad {
@@ -42,6 +43,12 @@ Metric parse_metric(const Json& json) {
   return metric;
 }
 
+CalibrationRecord parse_calibration(const Json& json) {
+  return {
+      json.at("to"),   json.at("size_factor"),    json.value("wanted_quads", 0.0), json.value("quads", 0.0),
+      json.at("runs"), json.value("ended_by", "")};
+}
+
 CellRecord parse(const Json& json) {
   CellRecord record;
   json.at("case").get_to(record.name);
@@ -56,7 +63,7 @@ CellRecord parse(const Json& json) {
   if (json.contains("place")) json.at("place").get_to(record.place);
   if (const auto status = json.at("status").get<std::string>(); status != "ok") {
     json.at("reason").get_to(record.reason);
-    record.skipped = status == "skipped";
+    record.skipped = status == "skipped" || status == kNotApplicable;
     record.kind = json.value("kind", "");
     return record;
   }
@@ -71,6 +78,7 @@ CellRecord parse(const Json& json) {
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
+  if (json.contains(kCalibrationStep)) record.calibration = parse_calibration(json.at(kCalibrationStep));
   record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
   const Json size = json.value("/options/size"_json_pointer, Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,15 @@
 #include "delquad/metrics.h"
 
 namespace delquad {
+
+/// What came of changing a peer's size until it has as many quads as one of our words.
+struct CalibrationRecord {
+  std::string to;                ///< the word
+  double size_factor = 1;        ///< by which the size was multiplied
+  double wanted = 0, quads = 0;  ///< numbers, the word's and its own; 0: the word has no mesh
+  long long runs = 1;
+  std::string ended_by = {};  ///< failure of a further run; empty: none
+};
 
 /// What a record says of one cell of an experiment.
 struct CellRecord {
@@ -28,6 +38,7 @@ struct CellRecord {
   std::vector<std::string> size_adapted_to = {};  ///< what made the size less than was asked for
   std::vector<Metric> own_metrics = {};           ///< that the project itself does not have
   std::map<std::string, std::string> failed_metrics = {};  ///< why a measure has no value, by key
+  std::optional<CalibrationRecord> calibration = {};       ///< of a peer
   std::filesystem::path folder = {};                       ///< of the cell
 };
 

@@ -43,6 +43,7 @@ struct Cell {
   const Word* word;
   CellIdentity identity;
   fs::path folder;
+  ReferenceCell reference = {};  ///< that a peer is calibrated to
 };
 
 /// Where peers and measures by command work.
@@ -52,7 +53,8 @@ fs::path scratch_of(const fs::path& cell) {
 
 bool is_done(const Cell& cell) {
   const auto head = read_head(cell.folder);
-  return head && head->key == cell.identity.key && head->status == "ok" && head->metrics_status.empty();
+  return head && head->key == cell.identity.key && head->metrics_status.empty() &&
+         (head->status == "ok" || head->status == kNotApplicable);
 }
 
 /// A variant of a case with the cells that are to be made from it, in the process that works on it: each
@@ -85,7 +87,7 @@ struct Work {
     const fs::path scratch = scratch_of(cell.folder);
     const std::string name = c.name + " " + cell.word->text;
     RunResult result = cell.identity.peer != nullptr
-                           ? run_peer(*cell.identity.peer, c, *prepared, name, scratch)
+                           ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
                            : finish_meshing(*prepared, name, std::move(state));
     for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
     // What others make is shown as it is.
@@ -138,6 +140,11 @@ struct Work {
     fs::remove_all(scratch_of(cell.folder), ignored);
   }
 
+  /// A cell whose process did not get to its end.
+  void fail(const Cell& cell, const ProcessFailure& why) const {
+    give_up(cell, why.kind == kNotApplicable ? kNotApplicable : "failed", why);
+  }
+
   /// Leaves a record of why there is no mesh; none where the cell was interrupted: it is to be made yet.
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
     remove_scratch(cell);
@@ -158,7 +165,7 @@ struct Work {
 };
 
 /// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows. Peers
-/// come right after the root, without a stage.
+/// come right after the root, without a stage, and last: those that are calibrated ask for a word's record.
 struct Branch {
   const Stage* stage = nullptr;  ///< null at the root and for a peer
   const Cell* cell = nullptr;    ///< null where no pipeline ends here
@@ -177,6 +184,7 @@ Branch make_tree(const std::vector<Cell>& cells) {
     if (cell.word->stages.empty()) at = &root.next.emplace_back();
     at->cell = &cell;
   }
+  std::ranges::stable_partition(root.next, [](const Branch& branch) { return branch.stage != nullptr; });
   return root;
 }
 
@@ -192,15 +200,20 @@ const Branch& end_of_stretch(const Branch& branch) {
   return *at;
 }
 
+void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
+  const char* head = why.kind == kNotApplicable ? "not applicable" : "error";
+  say(fmt::format("{}: {} {}: {}", head, folder, cell.word->text, why.reason));
+}
+
 /// What reports a failure for all cells of a branch that were not done.
 std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<Work>& work,
                                                       const Branch& branch) {
   return [work, &branch](const ProcessFailure& why) {
     std::vector<const Cell*> cells;
     collect_cells(branch, cells);
-    say(fmt::format("error: {} {}: {}", work->c.folder, cells[0]->word->text, why.reason));
+    say_why(work->c.folder, *cells[0], why);
     for (const Cell* cell : cells)
-      if (!is_done(*cell)) work->give_up(*cell, "failed", why);
+      if (!is_done(*cell)) work->fail(*cell, why);
   };
 }
 
@@ -227,8 +240,8 @@ Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
       Job ending;
       ending.work = [work, &end] { work->finish(*end.cell); };
       ending.failed = [work, &end](const ProcessFailure& why) {
-        say(fmt::format("error: {} {}: {}", work->c.folder, end.cell->word->text, why.reason));
-        work->give_up(*end.cell, "failed", why);
+        say_why(work->c.folder, *end.cell, why);
+        work->fail(*end.cell, why);
       };
       jobs.push_back(std::move(ending));
     }
@@ -303,11 +316,23 @@ class Sweep {
       const Word& word = experiment_.words[w];
       Cell cell{&word, identify(experiment_, work.c, model, {i / n_variants, i % n_variants, w}),
                 cell_folder(folder_, work.c, word)};
+      cell.reference = reference_of(cell, work.c, model, {i / n_variants, i % n_variants, w});
       if (!options_.force && is_done(cell))
         progress_.found(1);
       else
         work.cells.push_back(std::move(cell));
     }
+  }
+
+  /// The cell of the word that a peer is calibrated to, if it is run, too.
+  ReferenceCell reference_of(const Cell& cell, const Case& c, const std::string& model,
+                             std::array<std::size_t, 3> place) const {
+    const Peer* peer = cell.identity.peer;
+    if (peer == nullptr || peer->calibrate_to.empty()) return {};
+    const auto at = std::ranges::find(experiment_.words, peer->calibrate_to, &Word::text);
+    if (at == experiment_.words.end()) return {};
+    place[2] = static_cast<std::size_t>(at - experiment_.words.begin());
+    return {cell_folder(folder_, c, *at), identify(experiment_, c, model, place).key};
   }
 
   void skip(const Work& work) {

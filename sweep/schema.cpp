@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/case_keys.h"
+#include "sweep/peer.h"
 
 namespace delquad {
 namespace {
@@ -21,6 +22,7 @@ const std::string kSeeds =
 const std::string kFolder = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
+const std::string kCalibrate = one_of({"quads", "none"});
 /// What a model is made of, which does not vary.
 const std::vector<std::string> kModels = {"loop", "pattern", "curve", "example",
                                           "mesh", "model",   "data",  "compare"};
@@ -81,7 +83,18 @@ const TomlKeys& peer_keys() {
       {"input", "what it reads", one_of({"geo", "msh", "obj", "inp", "mesh"})},
       {"output", "what it writes", one_of({"msh", "obj", "off", "stl"})},
       {"exit_codes", "with which its mesh is worth a look", kExitCodes},
-      {"keeps_boundary", "whether it has the boundary's edges", kFlag}};
+      {"keeps_boundary", "whether it has the boundary's edges", kFlag},
+      {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
+      {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
+      {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
+      {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
+      {"calibrate_to", "the word whose number that is", kText},
+      {"optional", "whether it may be missing", kFlag}};
+  return keys;
+}
+
+const TomlKeys& peer_file_keys() {
+  static const TomlKeys keys = {{"peer", "other meshers", "", peer_keys, true, true}};
   return keys;
 }
 
@@ -123,6 +136,9 @@ TomlKeys experiment_keys() {
   TomlKeys keys = {{"title", "of the tables", kText},
                    {"pipelines", "words of stages and names of peers", kTexts},
                    {"peer", "other meshers", "", peer_keys, true},
+                   {"peer_files", "files with further peers", kTexts},
+                   {"calibrate", "whether peers are compared at our number of quads", kCalibrate},
+                   {"calibrate_to", "the word whose number that is", kText},
                    {"metric", "measures that other programs take", "", metric_keys, true},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},

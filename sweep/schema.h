@@ -10,6 +10,7 @@ namespace delquad {
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
 const TomlKeys& peer_keys();
+const TomlKeys& peer_file_keys();
 const TomlKeys& metric_keys();
 const TomlKeys& ratio_keys();
 const TomlKeys& linf_study_keys();

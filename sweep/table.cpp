@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
+#include "sweep/peer.h"
 
 namespace delquad {
 namespace {
@@ -67,6 +68,11 @@ std::size_t characters(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+/// What stands in place of values where there are none; empty: there are.
+std::string shown_skip(const TableRow& row) {
+  return row.skipped.empty() ? "" : row.skipped == kNotApplicable ? row.skipped : "skipped";
+}
+
 std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
 
 /// Header and body as text; a failed row's reason goes to the notes.
@@ -84,7 +90,7 @@ Rendered render(const Table& table, const Style& style, std::string (*escape)(co
     std::vector<std::string> line = {escape(row.group), escape(shown_name(row))};
     for (const TableColumn& column : table.columns) {
       const bool first = line.size() == 2;
-      const std::string missing = !row.failure.empty() ? "failed" : !row.skipped.empty() ? "skipped" : "";
+      const std::string missing = !row.failure.empty() ? "failed" : shown_skip(row);
       line.push_back(missing.empty() ? cell(row, column, style) : first ? missing : "");
     }
     result.lines.push_back(std::move(line));
@@ -111,7 +117,7 @@ std::string csv_quoted(const std::string& text) {
 
 std::string status(const TableRow& row) {
   if (!row.failure.empty()) return "failed: " + row.failure;
-  if (!row.skipped.empty()) return "skipped: " + row.skipped;
+  if (!row.skipped.empty()) return row.skipped == kNotApplicable ? row.skipped : "skipped: " + row.skipped;
   return row.unsound.empty() ? "ok" : row.unsound;
 }
 

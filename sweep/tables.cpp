@@ -10,6 +10,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
+#include "sweep/calibration_notes.h"
 #include "sweep/statistics.h"
 
 namespace delquad {
@@ -228,13 +229,17 @@ class Tabulation {
       if (said.insert(text).second) notes.push_back(text);
     };
     for (const CellRecord& record : records_) {
-      if (record.skipped) say(fmt::format("{}: {}", record.name, record.reason));
+      if (record.kind == kNotApplicable)
+        say(fmt::format("{} {} is not applicable: {}", record.group, record.pipeline, record.reason));
+      else if (record.skipped)
+        say(fmt::format("{}: {}", record.name, record.reason));
       say_size(record, say);
       for (const std::string& reason : record.unsound)
         say(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
       for (const std::string& warning : record.warnings)
         if (warning.starts_with(record.name + " ")) say("warning: " + warning);
     }
+    for (const std::string& note : calibration_notes(records_)) say(note);
     if (records_.size() < study_.cells)
       notes.push_back(
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));

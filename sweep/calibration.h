@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// Within this part of a number of quads, two meshes count as equally fine.
+inline constexpr double kEquallyMany = 0.01;
+/// How often a mesher is run to get there, at most.
+inline constexpr int kMostCalibrationRuns = 8;
+
+/// What records call it.
+inline constexpr const char* kCalibrationStep = "calibration";
+
+/// Quads, and a triangle as half a quad, whose area it has.
+double count_of_quads(const Mesh& mesh);
+
+/// How close a mesher came to a number of quads by changing its size.
+struct Calibration {
+  double scale = 1;  ///< by which the size is multiplied
+  double quads = 0;  ///< its number then
+  int runs = 0;      ///< how often it was run
+};
+
+/// Looks for the scale of the sizes at which `quads_at` gives `wanted` within kEquallyMany, beginning with 1:
+/// by regula falsi on the logarithms, and by the secant before there is a bracket. Ends, with the closest,
+/// after kMostCalibrationRuns, when the number does not follow the size or jumps over `wanted`, and when
+/// `quads_at` gives nothing.
+Calibration calibrate_scale(double wanted,
+                            const std::function<std::optional<double>(double scale)>& quads_at);
+
+}  // namespace delquad

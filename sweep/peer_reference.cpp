@@ -1,0 +1,67 @@
+#include "sweep/peer_reference.h"
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cases/problem.h"
+#include "delquad/error.h"
+#include "mesher/runner.h"
+#include "sweep/calibration.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The record of the cell, if it is of the same case, options and program.
+std::optional<Json> valid_record(const ReferenceCell& cell) {
+  if (cell.folder.empty()) return std::nullopt;
+  std::ifstream in(cell.folder / "record.json");
+  const Json json = Json::parse(in, nullptr, false);
+  if (!json.is_object() || json.value("key", "") != cell.key) return std::nullopt;
+  return json;
+}
+
+class ScaledSize final : public SizeField {
+ public:
+  ScaledSize(std::shared_ptr<const SizeField> size, double scale) : size_(std::move(size)), scale_(scale) {}
+  double at(const Vec3& x, int& hint) const override { return scale_ * size_->at(x, hint); }
+
+ private:
+  std::shared_ptr<const SizeField> size_;
+  double scale_;
+};
+
+}  // namespace
+
+std::optional<double> reference_quads(const PreparedProblem& prepared, const std::string& word,
+                                      const ReferenceCell& cell) {
+  if (const auto record = valid_record(cell)) {
+    if (record->value("status", "") != "ok") return std::nullopt;
+    const Json& metrics = record->at("metrics");
+    return metrics.at("n_quads").get<double>() + 0.5 * metrics.at("n_triangles").get<double>();
+  }
+  try {
+    return count_of_quads(run_word(prepared, parse_word(word)).mesh);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+PreparedProblem prepare_scaled(const Case& c, double scale) {
+  MeshProblem problem = make_problem(c);
+  SizeSpec& size = problem.size;
+  if (size.field) size.field = std::make_shared<ScaledSize>(size.field, scale);
+  for (SizeSource& source : size.sources) {
+    source.size_near *= scale;
+    source.size_far *= scale;
+  }
+  size.gradation *= scale;  // of the scaled field, |grad| is
+  size.min *= scale;
+  size.max *= scale;
+  return prepare(problem);
+}
+
+}  // namespace delquad
