@@ -42,7 +42,7 @@ std::string make_gear() {
   return model.text();
 }
 
-/// Teeth inside, and a sun wheel of another material that hardly touches its grease.
+/// Teeth inside around a wheel, and grease between: the teeth come within 0.02.
 std::string make_ring_gear() {
   ModelText model;
   model.circle({0, 0}, 1, {"rim", "ring"});
