@@ -4,7 +4,7 @@ RESULTS ?= results
 # Models that are no part of the project, see `make data`; experiments without theirs are skipped.
 DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
 # Files of peers that `make suite` runs beside our own words.
-SUITE_PEERS ?=
+SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/gmsh.toml)
 CMAKE_FLAGS ?=
 
 .PHONY: packages build test python data paper peers suite bench
@@ -42,7 +42,7 @@ data:
 # Ours and other programs on the models that the program makes itself: failed cells are part of the ranking.
 suite: build
 	build/$(PRESET)/delquad suite models -o $(RESULTS)/suite/models
-	build/$(PRESET)/delquad run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 120 \
+	build/$(PRESET)/delquad run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
 	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
 	build/$(PRESET)/delquad suite table $(RESULTS)/suite
 	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html

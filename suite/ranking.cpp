@@ -10,6 +10,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "suite/suite_list.h"
+#include "sweep/peer.h"
 #include "sweep/run_experiment.h"
 #include "sweep/tables.h"
 
@@ -37,6 +38,13 @@ std::vector<fs::path> result_folders(const fs::path& results) {
   return folders;
 }
 
+/// Whether a peer that may be absent is absent here: there is nothing to rank.
+bool is_absent(const Program& program) {
+  return !program.records.empty() && std::ranges::all_of(program.records, [](const auto& record) {
+    return record.second.kind == kNotApplicable;
+  });
+}
+
 std::vector<Program> read_programs(const fs::path& results) {
   std::vector<Program> programs;
   for (const fs::path& folder : result_folders(results)) {
@@ -51,6 +59,7 @@ std::vector<Program> read_programs(const fs::path& results) {
         if (record.pipeline == name) programs.back().records[record.name] = std::move(record);
     }
   }
+  std::erase_if(programs, is_absent);
   return programs;
 }
 

@@ -135,9 +135,9 @@ class Tetrahedra {
     return 1.0 / static_cast<double>(corners.size()) * sum;
   }
 
-  /// The point on an edge; not at its ends, where triangles would have no area.
+  /// A point on an edge, near to the surface; not at its ends, where triangles would have no area.
   int crossing(int a, int b) {
-    constexpr double kFromEnd = 0.04;
+    constexpr double kFromEnd = 0.15;
     if (a > b) std::swap(a, b);
     const auto [at, is_new] = crossings_.try_emplace({a, b}, static_cast<int>(mesh_.points.size()));
     if (is_new) {
@@ -160,11 +160,28 @@ class Tetrahedra {
   Mesh mesh_;
 };
 
+Vec3 gradient(const std::function<double(const Vec3&)>& f, const Vec3& p) {
+  constexpr double kStep = 1e-5;
+  const auto slope = [&](const Vec3& by) { return (f(p + by) - f(p - by)) / (2 * kStep); };
+  return {slope({kStep, 0, 0}), slope({0, kStep, 0}), slope({0, 0, kStep})};
+}
+
+/// Newton's steps along the gradient.
+Vec3 moved_to_zero(const std::function<double(const Vec3&)>& f, Vec3 p) {
+  for (int step = 0; step < 4; ++step) {
+    const Vec3 g = gradient(f, p);
+    p = p - f(p) / dot(g, g) * g;
+  }
+  return p;
+}
+
 }  // namespace
 
 Mesh zero_surface(const std::function<double(const Vec3&)>& f, const Vec3& low, const Vec3& high,
                   double step) {
-  return Tetrahedra(f, low, high, step).surface();
+  Mesh mesh = Tetrahedra(f, low, high, step).surface();
+  for (Vec3& p : mesh.points) p = moved_to_zero(f, p);
+  return mesh;
 }
 
 }  // namespace delquad

@@ -73,6 +73,19 @@ TEST(Ranking, CountsWhatIsMissingAsFailed) {
   EXPECT_FALSE(table.rows[5].values.contains("eta_mean"));
 }
 
+TEST(Ranking, LeavesOutWhatIsNotInstalled) {
+  const TemporaryFolder folder;
+  write_study_of(folder / "a", "absent", suite_title());
+  write_study_of(folder / "b", "failing", suite_title());
+  write_cell(folder / "a", "gear_1", "absent",
+             {{"status", "not applicable"}, {"kind", "not applicable"}, {"reason", "not installed"}});
+  write_cell(folder / "b", "gear_1", "failing",
+             {{"status", "failed"}, {"kind", "peer"}, {"reason", "crashed"}});
+  const Table table = rank_programs(folder.path());
+  ASSERT_EQ(table.rows.size(), 4u);
+  for (const TableRow& row : table.rows) EXPECT_EQ(row.name, "failing");
+}
+
 TEST(Ranking, RefusesResultsOfSomethingElse) {
   const TemporaryFolder folder;
   EXPECT_THROW(rank_programs(folder.path()), InputError);
