@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModelsFolder = "models";
+constexpr const char *kModelsFolder = "models", *kDescription = "result.toml";
 
 /// The mesh of a case; empty: there is none.
 fs::path find_mesh(const fs::path& folder, const std::string& name) {
@@ -60,6 +60,8 @@ class Adding {
       : submission_(submission), experiment_(experiment), folder_(results / submission.program) {
     peer_.name = submission.program;
     peer_.command = {submission.command};
+    peer_.folder = submission.folder;
+    peer_.file = submission.folder / kDescription;
     experiment.words = {Word{submission.program, {}}};
     experiment.peers = {peer_};
   }
@@ -68,6 +70,7 @@ class Adding {
     prepare_folder(folder_);
     const FolderLock lock(folder_, 0, 1);
     write_study(folder_, describe(experiment_));
+    fs::copy_file(peer_.file, folder_ / kDescription, fs::copy_options::overwrite_existing);
     Progress progress(static_cast<int>(experiment_.n_cases()));
     for (std::size_t i = 0; i < experiment_.n_cases(); ++i) {
       const Case c = experiment_.read_variant(i);
@@ -132,7 +135,7 @@ class Adding {
 }  // namespace
 
 Submission read_submission(const fs::path& folder) {
-  const TomlTable table = TomlTable::read(folder / "result.toml");
+  const TomlTable table = TomlTable::read(folder / kDescription);
   Submission submission{folder, table.text("program"), table.text("version"), table.text("command"),
                         table.texts("authors")};
   table.finish();
