@@ -22,68 +22,71 @@ std::string result_text(const std::string& program) {
          "\"\nversion = \"1.2\"\ncommand = \"mesh {input}\"\nauthors = [\"A. Nother\"]\n";
 }
 
-/// Meshes of ours pass for those of another program. One for all tests: it takes a while.
-class SuiteCommands : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    const auto written = delquad({"suite", "models", "-o", *folder_ / "models"});
-    ASSERT_EQ(written.exit_code, 0) << written.err;
-    for (const char* model : {"gear.toml", "circles.toml", "torus.step", "sphere_noisy.obj"}) {
-      const std::string stem = fs::path(model).stem();
-      const fs::path mesh = *folder_ / (stem + (stem == "torus" ? ".obj" : ".msh"));
-      const auto meshed = delquad(
-          {"mesh", *folder_ / "models" / model, "-o", mesh, "--size", size_of(stem), "--quality", "fast"});
-      ASSERT_EQ(meshed.exit_code, 0) << meshed.err;
-    }
-  }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
+std::string size_of(const std::string& name) {
+  for (const SuiteModel& model : suite().models)
+    if (model.name == name) return model.sizes[0];
+  return "";
+}
 
-  static std::string size_of(const std::string& name) {
-    for (const SuiteModel& model : suite().models)
-      if (model.name == name) return model.sizes[0];
-    return "";
-  }
-  static fs::path models() { return *folder_ / "models"; }
-  static fs::path mesh(const std::string& file) { return *folder_ / file; }
+/// A submission: meshes of ours pass for those of another program.
+struct Folder {
+  TemporaryFolder work;
+  fs::path in = work / "in", out = work / "out";
 
-  static TemporaryFolder* folder_;
+  explicit Folder(const std::string& program) {
+    fs::create_directory(in);
+    std::ofstream(in / "result.toml") << result_text(program);
+  }
+  fs::path operator/(const std::string& name) const { return work / name; }
+  ProgramResult add() const { return delquad({"suite", "add", in, "-o", out}); }
+
+  /// Meshes a model of the suite at its first size, as work/`file`.
+  fs::path mesh(const std::string& model, const std::string& file) const {
+    for (const SuiteModel& m : suite().models)
+      if (m.name == model) std::ofstream(work / file_name(m)) << make_suite_model(m);
+    const fs::path mesh = work / file;
+    for (const char* extension : {".toml", ".step", ".obj"})
+      if (const fs::path file_of_model = work / (model + extension); fs::exists(file_of_model)) {
+        const auto run =
+            delquad({"mesh", file_of_model, "-o", mesh, "--size", size_of(model), "--quality", "fast"});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        break;
+      }
+    return mesh;
+  }
 };
 
-TemporaryFolder* SuiteCommands::folder_ = nullptr;
-
-TEST_F(SuiteCommands, ModelsAreWrittenForOthers) {
-  const Json cases = read_json(models() / "cases.json");
+TEST(SuiteCommands, ModelsAreWrittenForOthers) {
+  const TemporaryFolder folder;
+  const fs::path models = folder / "models";
+  const auto written = delquad({"suite", "models", "-o", models});
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  const Json cases = read_json(models / "cases.json");
   EXPECT_EQ(cases.at("suite"), suite().version);
   ASSERT_EQ(cases.at("cases").size(), 120u);
   for (const Json& c : cases.at("cases")) {
-    EXPECT_TRUE(fs::exists(models() / c.at("model").get<std::string>())) << c;
+    EXPECT_TRUE(fs::exists(models / c.at("model").get<std::string>())) << c;
     if (c.at("family") != "planar") continue;
-    const Mesh lines = read_msh(models() / c.at("boundary").get<std::string>());
+    const Mesh lines = read_msh(models / c.at("boundary").get<std::string>());
     EXPECT_FALSE(lines.lines.empty()) << c;
     EXPECT_TRUE(lines.quads.empty()) << c;
   }
-  const auto dry = delquad({"run", models() / "suite.toml", "-o", *folder_ / "none", "--dry-run"});
+  const auto dry = delquad({"run", models / "suite.toml", "-o", folder / "none", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
   EXPECT_EQ(std::ranges::count(dry.out, '\n'), 240);
 }
 
-TEST_F(SuiteCommands, AddMeasuresAndRanks) {
-  const TemporaryFolder work;
-  fs::create_directory(work / "in");
-  std::ofstream(work / "in/result.toml") << result_text("theirs");
-  fs::copy(mesh("gear.msh"), work / "in/gear_1.msh");
-  fs::copy(mesh("circles.msh"), work / "in/circles_1.msh");
-  fs::copy(mesh("torus.obj"), work / "in/torus_1.obj");
-  fs::copy(mesh("sphere_noisy.msh"), work / "in/sphere_noisy_1.msh");
+TEST(SuiteCommands, AddMeasuresAndRanks) {
+  const Folder work("theirs");
+  work.mesh("gear", "in/gear_1.msh");
+  work.mesh("circles", "in/circles_1.msh");
+  work.mesh("torus", "in/torus_1.obj");
+  work.mesh("sphere_noisy", "in/sphere_noisy_1.msh");
   // Meshes of something else: another model, the right area in another place, a file that is none.
-  fs::copy(mesh("gear.msh"), work / "in/ring_gear_1.msh");
-  fs::copy(mesh("torus.obj"), work / "in/bracket_1.obj");
+  fs::copy(work / "in/gear_1.msh", work / "in/ring_gear_1.msh");
+  fs::copy(work / "in/torus_1.obj", work / "in/bracket_1.obj");
   std::ofstream(work / "in/hood_1.obj") << "v 1 2\n";
-  const auto added = delquad({"suite", "add", work / "in", "-o", work / "out"});
+  const auto added = work.add();
   ASSERT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(contains(added.out, "theirs: 4 meshes measured, 3 refused, 113 missing")) << added.out;
   const auto record = [&](const std::string& name) {
@@ -117,17 +120,15 @@ TEST_F(SuiteCommands, AddMeasuresAndRanks) {
   EXPECT_EQ(delquad({"report", work / "out", "-o", work / "page.html"}).exit_code, 0);
 }
 
-TEST_F(SuiteCommands, AddRefusesMeshesBesideTheModel) {
-  const TemporaryFolder work;
-  fs::create_directory(work / "in");
-  std::ofstream(work / "in/result.toml") << result_text("moved");
-  const auto moved = [&](const std::string& from, const std::string& to, Vec3 by) {
-    Mesh m = read_mesh(mesh(from));
+TEST(SuiteCommands, AddRefusesMeshesBesideTheModel) {
+  const Folder work("moved");
+  const auto moved = [&](const std::string& model, const std::string& to, Vec3 by) {
+    Mesh m = read_mesh(work.mesh(model, "in/" + to));
     for (Vec3& p : m.points) p = p + by;
     write_mesh(work / "in" / to, m);
   };
-  moved("gear.msh", "gear_1.msh", {0.2, 0, 0});
-  moved("torus.obj", "torus_1.obj", {0, 8, 0});
+  moved("gear", "gear_1.msh", {0.2, 0, 0});
+  moved("torus", "torus_1.obj", {0, 8, 0});
   // A grid over the plate of discs, which knows nothing of them.
   Mesh grid;
   constexpr int kX = 40, kY = 20;
@@ -141,7 +142,7 @@ TEST_F(SuiteCommands, AddRefusesMeshesBesideTheModel) {
   grid.quad_region.assign(grid.quads.size(), 0);
   grid.regions = {{1, {}}};
   write_mesh(work / "in/fracture_network_1.msh", grid);
-  const auto added = delquad({"suite", "add", work / "in", "-o", work / "out"});
+  const auto added = work.add();
   ASSERT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(contains(added.out, "0 meshes measured, 3 refused")) << added.out;
   const auto reason = [&](const std::string& name) -> std::string {
@@ -153,11 +154,11 @@ TEST_F(SuiteCommands, AddRefusesMeshesBesideTheModel) {
       << reason("fracture_network_1");
 }
 
-TEST_F(SuiteCommands, AddRefusesMistakes) {
-  const TemporaryFolder work;
-  fs::create_directory(work / "in");
+TEST(SuiteCommands, AddRefusesMistakes) {
+  const Folder work("theirs");
+  fs::remove(work / "in/result.toml");
   const auto refused = [&](const std::string& part) {
-    const auto run = delquad({"suite", "add", work / "in", "-o", work / "out"});
+    const auto run = work.add();
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_TRUE(contains(run.err, part)) << run.err;
     EXPECT_FALSE(fs::exists(work / "out"));
@@ -175,15 +176,13 @@ TEST_F(SuiteCommands, AddRefusesMistakes) {
   refused("expected one of them");
 }
 
-TEST_F(SuiteCommands, AddLeavesRunsAlone) {
-  const TemporaryFolder work;
-  fs::create_directories(work / "in");
-  std::ofstream(work / "in/result.toml") << result_text("run");
-  fs::copy(mesh("gear.msh"), work / "in/gear_1.msh");
+TEST(SuiteCommands, AddLeavesRunsAlone) {
+  const Folder work("run");
+  std::ofstream(work / "in/gear_1.msh") << "";
   std::ofstream(work / "e.toml")
       << "title = \"Suite 1\"\npipelines = [\"DB\"]\n[[case]]\nname = \"gear_1\"\nsize = 0.5\n" + kSquare;
   ASSERT_EQ(delquad({"run", work / "e.toml", "-o", work / "out/run"}).exit_code, 0);
-  const auto run = delquad({"suite", "add", work / "in", "-o", work / "out"});
+  const auto run = work.add();
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(contains(run.err, "holds the results of a run")) << run.err;
   EXPECT_TRUE(fs::exists(work / "out/run/gear_1/DB/mesh.msh"));
