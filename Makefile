@@ -1,11 +1,13 @@
 # Installs what is missing, then calls the CMake presets.
 PRESET ?= release
 RESULTS ?= results
-# Models that are no part of the project; experiments without theirs are skipped.
-DATA ?= ../shared/data
+# Models that are no part of the project, see `make data`; experiments without theirs are skipped.
+DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
+# Files of peers that `make suite` runs beside our own words.
+SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/gmsh.toml)
 CMAKE_FLAGS ?=
 
-.PHONY: packages build test python paper peers bench
+.PHONY: packages build test python data paper peers suite bench
 
 packages:
 	@cmake/install-packages.sh
@@ -32,6 +34,19 @@ paper peers: build
 	done
 	build/$(PRESET)/delquad report $(RESULTS) -o $(RESULTS)/report.html
 	@echo "Tables and pictures lie in $(RESULTS)/; $(RESULTS)/report.html shows them."
+
+# Fetches what is missing of the paper's own models, and checks what is there.
+data:
+	@python3 experiments/data/fetch.py $(DATA)
+
+# Ours and other programs on the models that the program makes itself: failed cells are part of the ranking.
+suite: build
+	build/$(PRESET)/delquad suite models -o $(RESULTS)/suite/models
+	build/$(PRESET)/delquad run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
+	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
+	build/$(PRESET)/delquad suite table $(RESULTS)/suite
+	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
+	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
 
 # The Python module, in build/$(PRESET)/python, and its tests.
 python: packages

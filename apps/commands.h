@@ -105,6 +105,14 @@ struct ExampleArguments {
 };
 int example_command(const ExampleArguments& arguments);
 
+struct SuiteArguments {
+  std::filesystem::path folder;  ///< to write to, or with the results
+  std::filesystem::path result;  ///< folder of a submission
+};
+int suite_models_command(const SuiteArguments& arguments);
+int suite_add_command(const SuiteArguments& arguments);
+int suite_table_command(const SuiteArguments& arguments);
+
 /// Version, commit and compiler; with `all` the libraries, too.
 void print_version(bool all);
 

@@ -292,6 +292,25 @@ void add_example(CLI::App& app, ExampleArguments& arguments, CommonArguments& co
   add_time_limit(*example, common);
 }
 
+void add_suite(CLI::App& app, SuiteArguments& arguments) {
+  CLI::App* suite = app.add_subcommand("suite", "Compare programs on models that this one makes");
+  suite->require_subcommand(1);
+  CLI::App* models =
+      suite->add_subcommand("models", "Write the suite's models and sizes, and the experiment");
+  models->add_option("-o,--output", arguments.folder, "folder to write to")->required();
+  CLI::App* add = suite->add_subcommand("add", "Measure the meshes of another program");
+  add->add_option("result", arguments.result, "folder of its meshes, with result.toml")->required();
+  add->add_option("-o,--output", arguments.folder, "folder of results")->required();
+  CLI::App* table = suite->add_subcommand("table", "Rank the programs of a folder of results");
+  table->add_option("folder", arguments.folder, "folder of results")->required();
+}
+
+int run_suite(const CLI::App& app, const SuiteArguments& arguments) {
+  const CLI::App& suite = *app.get_subcommand("suite");
+  if (suite.got_subcommand("models")) return suite_models_command(arguments);
+  return suite.got_subcommand("add") ? suite_add_command(arguments) : suite_table_command(arguments);
+}
+
 int run_command_line(int argc, char** argv);
 
 /// As the program and its commands explain themselves.
@@ -338,6 +357,7 @@ int run_command_line(int argc, char** argv) {
   ExampleArguments example;
   RecordsArguments records;
   ReportArguments report;
+  SuiteArguments suite;
   add_common(app, common);
   add_run(app, run);
   add_records(app, records);
@@ -350,6 +370,7 @@ int run_command_line(int argc, char** argv) {
   add_compare(app, compare);
   add_info(app, info, common);
   add_example(app, example, common);
+  add_suite(app, suite);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -372,6 +393,7 @@ int run_command_line(int argc, char** argv) {
   std::optional<TimeLimit> limit;
   if (common.time_limit > 0) limit.emplace(common.time_limit);
   if (app.got_subcommand("run")) return run_command(run);
+  if (app.got_subcommand("suite")) return run_suite(app, suite);
   if (app.got_subcommand("report")) return report_command(report);
   if (app.got_subcommand("schema")) return schema_command(only_options);
   if (const auto code = run_on_records(app, records)) return *code;

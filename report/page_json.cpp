@@ -65,6 +65,7 @@ Json table_json(const Table& table) {
                             {"published", values_json(row.published)},
                             {"half_widths", values_json(row.half_widths)},
                             {"marks", marks},
+                            {"texts", row.texts},
                             {"source", row.source},
                             {"failure", row.failure},
                             {"skipped", row.skipped}});

@@ -14,6 +14,15 @@ const std::vector<Example>& example_models() {
       {"sphere", "radius 10"},
       {"torus", "radii 20 and 8"},
       {"wing_body", "a solid: a fuselage 100 long and a tapered wing with a sharp trailing edge, span 100"},
+      {"blended_tee", "two pipes with walls and a fillet where they meet, 120 x 40 x 80"},
+      {"cone_tip", "a cone with its tip on a drilled shaft, 40 x 40 x 80"},
+      {"cross_drilled", "a block with three bores that meet, and a corner taken off by a ball, 60 x 50 x 40"},
+      {"elbow", "a pipe with a wall and a bend, 65 x 55 x 20"},
+      {"fins", "a tube with nine fins, 1.2 thick, 71 x 71 x 50"},
+      {"free_form", "a wavy patch with three holes and a corner cut off, 100 x 100, open"},
+      {"loft", "a solid through four ellipses that turn, 48 x 36 x 80"},
+      {"thin_box", "an open box of four rooms with walls 1.5 thick, drilled through, 80 x 60 x 30"},
+      {"variable_fillet", "a block with four fillets whose radii vary, and a hole, 80 x 50 x 30"},
   };
   return kAll;
 }

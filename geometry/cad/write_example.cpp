@@ -19,6 +19,7 @@
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -30,12 +31,25 @@ namespace delquad {
 namespace cad {
 
 CadShape make_example(const std::string& name) {
-  if (name == "bracket") return make_bracket();
-  if (name == "hood") return make_hood();
-  if (name == "pipe_tee") return make_pipe_tee();
-  if (name == "sphere") return make_sphere();
-  if (name == "torus") return make_torus();
-  if (name == "wing_body") return make_wing_body();
+  static const std::map<std::string, CadShape (*)()> kMakers = {
+      {"bracket", make_bracket},
+      {"hood", make_hood},
+      {"pipe_tee", make_pipe_tee},
+      {"sphere", make_sphere},
+      {"torus", make_torus},
+      {"wing_body", make_wing_body},
+      {"blended_tee", make_blended_tee},
+      {"cone_tip", make_cone_tip},
+      {"cross_drilled", make_cross_drilled},
+      {"elbow", make_elbow},
+      {"fins", make_fins},
+      {"free_form", make_free_form},
+      {"loft", make_loft},
+      {"thin_box", make_thin_box},
+      {"variable_fillet", make_variable_fillet},
+  };
+  const auto at = kMakers.find(name);
+  if (at != kMakers.end()) return at->second();
   throw std::logic_error("no example " + name);
 }
 

@@ -11,6 +11,15 @@ CadShape make_pipe_tee();
 CadShape make_sphere();
 CadShape make_torus();
 CadShape make_wing_body();
+CadShape make_blended_tee();
+CadShape make_cone_tip();
+CadShape make_cross_drilled();
+CadShape make_elbow();
+CadShape make_fins();
+CadShape make_free_form();
+CadShape make_loft();
+CadShape make_thin_box();
+CadShape make_variable_fillet();
 
 /// One of them by its name, which must exist.
 CadShape make_example(const std::string& name);

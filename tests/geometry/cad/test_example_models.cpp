@@ -110,6 +110,22 @@ const std::vector<Topology> kTopologies = {
     {"sphere", 1, 0, 0, 2},
     {"torus", 1, 0, 0, 0},
     {"wing_body", 8, 14, 10, 2, 0, {{"fuselage", 2}, {"tips", 2}, {"wing", 4}}},
+    // Two pipes with a fillet outside, two inside, three ends; genus 2.
+    {"blended_tee", 8, 9, 0, -2, 0},
+    {"cone_tip", 5, 6, 2, 0, 0},
+    {"cross_drilled", 11, 26, 14, -6, 0},
+    // Two straight parts and a bend outside and inside, two ends.
+    {"elbow", 8, 8, 0, 0, 0},
+    // A fin has 5 faces, 12 curves and 8 corners; the tube 4 faces and 4 curves; a fin cuts its seam in two
+    // places.
+    {"fins", 9 * 5 + 4, 9 * 12 + 4 + 2, 9 * 8 + 2, 0, 0},
+    {"free_form", 1, 11, 11, -2, 11},
+    // Four sides and two ends.
+    {"loft", 6, 12, 8, 2, 0},
+    // Five sides outside and the rim, five of each room, six holes in walls.
+    {"thin_box", 6 + 4 * 5 + 6, 72, 40, 2 - 2 * 6, 0},
+    // A block's six sides, four fillets, a hole.
+    {"variable_fillet", 6 + 4 + 1, 26, 16, 0, 0},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ExampleModels, ::testing::ValuesIn(kTopologies),

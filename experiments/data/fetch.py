@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Fetches the models of files.toml that are missing in a folder, with curl.
+
+Usage: fetch.py FOLDER [--mirror URL]. A file appears when its SHA-256 is right, and not otherwise.
+--mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list.
+"""
+import argparse
+import hashlib
+import os
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+LIST = pathlib.Path(__file__).with_name("files.toml")
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def download(url, path):
+    """Why it failed; empty: it did not."""
+    curl = ["curl", "--fail", "--silent", "--show-error", "--location", "--connect-timeout", "20", "--retry", "2"]
+    run = subprocess.run([*curl, "--output", path, url], capture_output=True, text=True)
+    if run.returncode == 0:
+        return ""
+    return (run.stderr.strip().splitlines() or [f"curl ended with exit code {run.returncode}"])[-1]
+
+
+def fetch(file, folder, mirror):
+    """Whether the file is there in the end."""
+    path = folder / file["name"]
+    if path.exists():
+        if digest(path) == file["sha256"]:
+            print(f"{path}: is there")
+            return True
+        print(f"error: {path}: SHA-256 is {digest(path)}: expected {file['sha256']}; "
+              "move it away to fetch it anew", file=sys.stderr)
+        return False
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        for url in ([f"{mirror.rstrip('/')}/{file['name']}"] if mirror else []) + file["urls"]:
+            reason = download(url, part)
+            if not reason and digest(part) != file["sha256"]:
+                reason = f"SHA-256 is {digest(part)}: expected {file['sha256']}"
+            if not reason:
+                part.rename(path)
+                print(f"{path}: fetched from {url}\n  {file['what']}; {file['licence']}")
+                return True
+            print(f"warning: {url}: {reason}", file=sys.stderr)
+    finally:
+        part.unlink(missing_ok=True)
+    print(f"error: {path}: not fetched. By hand: put the file of {file['urls'][0]} there "
+          f"(SHA-256 {file['sha256']})", file=sys.stderr)
+    return False
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--mirror", default=os.environ.get("DELQUAD_MIRROR"))
+    parser.add_argument("--list", type=pathlib.Path, default=LIST)
+    arguments = parser.parse_args()
+    files = tomllib.loads(arguments.list.read_text())["file"]
+    try:
+        there = [fetch(file, arguments.folder, arguments.mirror) for file in files]
+    except OSError as error:
+        sys.exit(f"error: {error.filename or arguments.folder}: {error.strerror}")
+    return 0 if all(there) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

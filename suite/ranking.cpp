@@ -1,0 +1,164 @@
+#include "suite/ranking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+
+#include "delquad/error.h"
+#include "io/mesh_io.h"
+#include "suite/suite_list.h"
+#include "sweep/peer.h"
+#include "sweep/run_experiment.h"
+#include "sweep/tables.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a program made of the cases, by their names.
+struct Program {
+  std::string name;
+  std::map<std::string, CellRecord> records;
+};
+
+std::vector<fs::path> result_folders(const fs::path& results) {
+  std::vector<fs::path> folders;
+  if (fs::exists(results / "study.json")) folders.push_back(results);
+  if (fs::is_directory(results))
+    for (const auto& entry : fs::directory_iterator(results))
+      if (fs::exists(entry.path() / "study.json")) folders.push_back(entry.path());
+  std::ranges::sort(folders);
+  if (folders.empty())
+    throw InputError(results.string() +
+                     ": no results of the suite: expected folders of 'delquad run' or 'delquad suite add'");
+  return folders;
+}
+
+/// Whether a peer that may be absent is absent here: there is nothing to rank.
+bool is_absent(const Program& program) {
+  return !program.records.empty() && std::ranges::all_of(program.records, [](const auto& record) {
+    return record.second.kind == kNotApplicable;
+  });
+}
+
+std::vector<Program> read_programs(const fs::path& results) {
+  std::vector<Program> programs;
+  for (const fs::path& folder : result_folders(results)) {
+    StudyResults found = read_results(folder);
+    if (found.study.title != suite_title())
+      throw InputError(fmt::format("{}: holds results of '{}', not of '{}'", folder.string(),
+                                   found.study.title, suite_title()));
+    for (const std::string& name : found.study.pipelines) {
+      const bool known = std::ranges::find(programs, name, &Program::name) != programs.end();
+      programs.push_back({known ? folder.filename().string() + "/" + name : name, {}});
+      for (CellRecord& record : found.records)
+        if (record.pipeline == name) programs.back().records[record.name] = std::move(record);
+    }
+  }
+  std::erase_if(programs, is_absent);
+  return programs;
+}
+
+bool is_sound(const CellRecord& record) {
+  return record.reason.empty() && !record.skipped && record.unsound.empty();
+}
+
+double value_of(const CellRecord& record, const char* key) {
+  const auto at = record.values.find(key);
+  return at == record.values.end() ? std::nan("") : at->second;
+}
+
+/// What is added up over the cases of a family.
+class Sums {
+ public:
+  void add_case(const CellRecord* record) {
+    ++cases_;
+    if (record == nullptr || !is_sound(*record)) return;
+    ++sound_;
+    const double quads = value_of(*record, "percent_quads");
+    solved_ += quads == 100;
+    score_ += value_of(*record, "eta_mean") * value_of(*record, "tau") / 100 * quads / 100;
+    for (const char* key : {"eta_mean", "d4", "tau"}) means_[key] += value_of(*record, key);
+    worst_ = std::min(worst_, value_of(*record, "eta_worst"));
+    if (const double time = value_of(*record, "seconds_total"); time > 0) seconds_ += time;
+  }
+
+  std::map<std::string, double> values() const {
+    std::map<std::string, double> values = {{"score", 100 * score_ / cases_},
+                                            {"cases", cases_},
+                                            {"solved", solved_},
+                                            {"with_triangles", sound_ - solved_},
+                                            {"failed", cases_ - sound_}};
+    if (sound_ == 0) return values;
+    values["eta_worst"] = worst_;
+    for (const auto& [key, sum] : means_) values[key] = sum / sound_;
+    if (seconds_ > 0) values["seconds_total"] = seconds_;
+    return values;
+  }
+
+ private:
+  int cases_ = 0, sound_ = 0, solved_ = 0;
+  double score_ = 0, worst_ = 1, seconds_ = 0;
+  std::map<std::string, double> means_;
+};
+
+/// `family`: null: all of them.
+TableRow row_of(const Program& program, const SuiteFamily* family) {
+  Sums sums;
+  for (const SuiteModel& model : suite().models) {
+    if (family != nullptr && model.family != *family) continue;
+    for (std::size_t k = 0; k < model.sizes.size(); ++k) {
+      const auto at = program.records.find(case_name(model, k));
+      sums.add_case(at == program.records.end() ? nullptr : &at->second);
+    }
+  }
+  TableRow row;
+  row.group = family != nullptr ? name_of(*family) : "all";
+  row.name = program.name;
+  row.values = sums.values();
+  return row;
+}
+
+void add_rows(const std::vector<Program>& programs, const SuiteFamily* family, Table& table) {
+  std::vector<TableRow> rows;
+  for (const Program& program : programs) rows.push_back(row_of(program, family));
+  std::ranges::stable_sort(rows, std::greater(), [](const TableRow& row) { return row.values.at("score"); });
+  table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+Table rank_programs(const fs::path& results) {
+  const std::vector<Program> programs = read_programs(results);
+  Table table;
+  table.title = suite_title() + ", ranked";
+  table.group_title = "family";
+  table.name_title = "program";
+  table.columns = {{"score", "score", 2},       {"cases", "cases", 0},
+                   {"solved", "solved", 0},     {"with_triangles", "with triangles", 0},
+                   {"failed", "failed", 0},     {"eta_worst", "eta worst", 3},
+                   {"eta_mean", "eta mean", 3}, {"d4", "d4", 1},
+                   {"tau", "tau", 1},           {"seconds_total", "CPU s", 1}};
+  add_rows(programs, nullptr, table);
+  for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
+    add_rows(programs, &family, table);
+  table.notes = {
+      "score: mean over all cases of mean eta x tau x share of quads, 0 for a case without a sound mesh, in "
+      "percent",
+      "solved: sound and quads only; failed: no mesh, or one that is not sound or not of its model",
+      "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known"};
+  return table;
+}
+
+void write_ranking(const fs::path& results, const Table& table) {
+  prepare_folder(results / "ranking");
+  for (const TableFormat& format : table_formats())
+    write_file_atomically(results / "ranking" / ("table" + std::string(format.extension)),
+                          [&](std::ostream& out) { out << format.print(table); });
+}
+
+}  // namespace delquad

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""What becomes of the models that are to be fetched, with servers on this machine.
+
+Usage: test_fetch.py FETCH.PY [unittest's arguments]
+"""
+import hashlib
+import http.server
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import tomllib
+import unittest
+
+FETCH = pathlib.Path(sys.argv[1])
+CONTENT = b"a model\n" * 1000
+
+
+class Server(http.server.BaseHTTPRequestHandler):
+    """/good: the file. /other: another one. /short: it breaks off. Else: 404."""
+
+    asked = []
+
+    def do_GET(self):
+        Server.asked.append(self.path)
+        known = {"/good": CONTENT, "/other": b"something else", "/short": CONTENT[:100],
+                 "/mirror/cad/part.step": CONTENT}
+        self.send_response(200 if self.path in known else 404)
+        body = known.get(self.path, b"")
+        self.send_header("Content-Length", str(len(CONTENT) if self.path == "/short" else len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, *_):
+        pass
+
+
+class Fetch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
+        cls.base = f"http://127.0.0.1:{cls.server.server_port}"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.shutdown()
+        cls.server.server_close()
+
+    def setUp(self):
+        Server.asked.clear()
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.list = pathlib.Path(folder.name) / "list.toml"
+        self.data = pathlib.Path(folder.name) / "data"
+
+    def fetch(self, *paths, arguments=(), base=None):
+        urls = [(base or self.base) + path for path in paths]
+        self.list.write_text(
+            f'[[file]]\nname = "cad/part.step"\nwhat = "a part"\nlicence = "free"\nurls = {urls}\n'
+            f'sha256 = "{hashlib.sha256(CONTENT).hexdigest()}"\n')
+        return subprocess.run([sys.executable, FETCH, self.data, "--list", self.list, *arguments],
+                              capture_output=True, text=True, env={"PATH": "/usr/bin:/bin"})
+
+    def files(self):
+        return sorted(p.name for p in self.data.rglob("*") if p.is_file())
+
+    def refuse(self, run, *parts):
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(self.files(), [])
+        for part in (*parts, "By hand: put the file of"):
+            self.assertIn(part, run.stderr)
+
+    def test_good_file(self):
+        run = self.fetch("/good")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual((self.data / "cad/part.step").read_bytes(), CONTENT)
+        self.assertEqual(self.files(), ["part.step"])
+        self.assertIn("free", run.stdout)
+
+    def test_is_not_fetched_again(self):
+        self.fetch("/good")
+        Server.asked.clear()
+        run = self.fetch("/good")
+        self.assertEqual((run.returncode, Server.asked), (0, []))
+        self.assertIn("is there", run.stdout)
+
+    def test_wrong_checksum(self):
+        self.refuse(self.fetch("/other"), "SHA-256 is")
+
+    def test_truncated(self):
+        self.refuse(self.fetch("/short"), "/short: ")
+
+    def test_not_found_then_next_url(self):
+        run = self.fetch("/nothing", "/other", "/good")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("404", run.stderr)
+        self.assertEqual(self.files(), ["part.step"])
+
+    def test_mirror_first(self):
+        run = self.fetch("/nothing", arguments=["--mirror", self.base + "/mirror/"])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(Server.asked, ["/mirror/cad/part.step"])
+
+    def test_offline(self):
+        self.refuse(self.fetch("/good", base="http://127.0.0.1:1"), "curl: ")
+
+    def test_another_file_stays(self):
+        (self.data / "cad").mkdir(parents=True)
+        (self.data / "cad/part.step").write_text("mine")
+        run = self.fetch("/good")
+        self.assertEqual((run.returncode, Server.asked), (1, []))
+        self.assertIn("move it away", run.stderr)
+        self.assertEqual((self.data / "cad/part.step").read_text(), "mine")
+
+    def test_folder_that_cannot_be_made(self):
+        self.data.write_text("a file")
+        run = self.fetch("/good")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("error: ", run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+
+
+class List(unittest.TestCase):
+    def test_is_complete(self):
+        files = tomllib.loads((FETCH.parent / "files.toml").read_text())["file"]
+        for file in files:
+            self.assertEqual(sorted(file), ["licence", "name", "sha256", "urls", "what"])
+            self.assertRegex(file["sha256"], "^[0-9a-f]{64}$")
+        names = {file["name"] for file in files}
+        used = set()
+        for experiment in FETCH.parent.parent.glob("*.toml"):
+            for case in tomllib.loads(experiment.read_text()).get("case", []):
+                used |= {case["data"]} if "data" in case else set()
+        self.assertEqual(names, used)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
