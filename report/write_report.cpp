@@ -223,7 +223,7 @@ class Page {
     if (cell.kind == "damaged") {
       problems_.push_back(cell.reason);
       const Json record = {{"pipeline", cell.pipeline}, {"status", "failed"}, {"reason", cell.reason}};
-      sheet["cells"].push_back(cell_json(record, std::nullopt));
+      cells_of(seed_of(cell), sheet).push_back(cell_json(record, std::nullopt));
       return;
     }
     try {

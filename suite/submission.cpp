@@ -20,6 +20,7 @@
 #include "sweep/cells.h"
 #include "sweep/digest.h"
 #include "sweep/folder_lock.h"
+#include "sweep/machine.h"
 #include "sweep/run_experiment.h"
 #include "sweep/study_file.h"
 #include "sweep/tables.h"
@@ -75,18 +76,18 @@ class Adding {
     for (std::size_t i = 0; i < experiment_.n_cases(); ++i) {
       const Case c = experiment_.read_variant(i);
       progress.step(c.name);
-      add(c, i);
+      add(c);
     }
     for (const std::string& error : write_tables(folder_, make_tables(folder_))) throw InputError(error);
     return count_;
   }
 
  private:
-  void add(const Case& c, std::size_t i) {
+  void add(const Case& c) {
     const fs::path file = find_mesh(submission_.folder, c.name);
     CellIdentity identity;
     identity.model_digest = model_digest(c);
-    identity.place = {i, 0, 0};
+    identity.start = machine_state();
     identity.peer = &peer_;
     identity.peer_version = submission_.version;
     identity.key = digest(identity.model_digest + (file.empty() ? "" : file_digest(file)));
@@ -109,7 +110,7 @@ class Adding {
     const Word& word = experiment_.words[0];
     write_cell(cell_folder(folder_, c, word), [&](const fs::path& at) {
       write_msh(at / "mesh.msh", result.mesh);
-      identity.mesh_digest = file_digest(at / "mesh.msh");
+      identity.files = marks_of(at);
       write_file_atomically(at / "record.json", [&](std::ostream& out) {
         out << run_record(c, prepared, word, result, &identity);
       });

@@ -60,15 +60,17 @@ std::string value_of(std::string_view head, const std::string& key) {
   return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
 }
 
-/// Asked once; empty where the peer does not tell, as its cells will say.
-const std::string& version_of(const Peer& peer) {
-  static std::map<std::vector<std::string>, std::string> known;
-  const auto [at, is_new] = known.try_emplace(peer.version);
-  if (is_new) try {
-      at->second = peer_version(peer);
-    } catch (const PeerError&) {
-    }
-  return at->second;
+/// Asked until it tells; empty where the peer does not, as its cells will say.
+std::string version_of(const Peer& peer) {
+  static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
+  const std::pair asked{peer.folder, peer.version};
+  if (const auto at = known.find(asked); at != known.end()) return at->second;
+  try {
+    return known[asked] = peer_version(peer);
+  } catch (const PeerError&) {
+    known.erase(asked);
+    return "";
+  }
 }
 
 }  // namespace

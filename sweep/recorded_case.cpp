@@ -52,10 +52,11 @@ Experiment recorded_experiment(const Json& record, const fs::path& results, cons
   if (const std::vector<std::string> wrong = check_copy(results, file); !wrong.empty())
     throw InputError(wrong[0]);
   Experiment experiment = Experiment::read(results / file, data);
-  const auto pipeline = record.at("pipeline").get<std::string>();
-  if (record.contains("peer") &&
-      std::ranges::find(experiment.peers, pipeline, &Peer::name) == experiment.peers.end())
-    experiment.add_peer_file((results / file).parent_path() / record.at("peer_file").get<std::string>());
+  if (record.contains("peer")) {
+    const auto name = record.at("pipeline").get<std::string>();
+    if (std::ranges::find(experiment.peers, name, &Peer::name) == experiment.peers.end())
+      experiment.add_peer_file((results / file).parent_path() / record.at("peer_file").get<std::string>());
+  }
   experiment.max_elements = record.at("options").at("max_elements");
   return experiment;
 }
