@@ -25,6 +25,7 @@ struct CellIdentity {
     std::map<std::string, std::string> files;
   };
   std::vector<IdentifiedMetric> metrics = {};
+  std::vector<std::string> solvers = {};  ///< that measure the mesh
 };
 
 /// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
@@ -40,7 +41,7 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
 std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
 /// What determines a peer's mesh besides the case, in one line of JSON.
 std::string peer_record(const Peer& peer, const std::string& version);
-/// What determines the values of a cell's measures by command, in one line of JSON.
+/// What determines the values of a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
 /// Every option of a case in one line of JSON.
 std::string options_record(const Case& c);

@@ -21,6 +21,7 @@
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesher/runner.h"
+#include "metrics/solve/solver_metrics.h"
 #include "sweep/cell_folder.h"
 #include "sweep/cells.h"
 #include "sweep/digest.h"
@@ -95,6 +96,7 @@ struct Work {
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
     if (!result.soundness.sound())
       say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
+    measure_by_solvers(cell, result);
     measure_by_commands(cell, scratch, result);
     write_cell(cell.folder, [&](const fs::path& at) {
       if (fs::exists(scratch))
@@ -115,6 +117,20 @@ struct Work {
     });
     remove_scratch(cell);
     progress->done();
+  }
+
+  void measure_by_solvers(const Cell& cell, RunResult& result) const {
+    if (cell.identity.solvers.empty()) return;
+    const DoingStage measuring("solvers");
+    const Stopwatch watch;
+    for (const std::string& solver : cell.identity.solvers) {
+      SolverOutcome outcome = measure_by_solver(result.mesh, solver);
+      result.metrics.values.merge(outcome.values);
+      if (outcome.undefined.empty()) continue;
+      say(fmt::format("warning: {} {}: no '{}': {}", c.folder, cell.word->text, solver, outcome.undefined));
+      result.metrics.failures[solver] = outcome.undefined;
+    }
+    result.log.add_seconds("solvers", watch.seconds());
   }
 
   /// Lets other programs measure the mesh, before anything of the cell is in place: it may take long.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -80,14 +81,14 @@ struct Tridiagonal {
 /// the Ritz pair is below the tolerance. `apply` is symmetric; `project` takes away what is not asked about.
 double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vector&)>& apply,
                           const std::function<void(Vector&)>& project) {
-  constexpr int kMost = 400, kCheckEvery = 8;
+  constexpr int kMost = 400;
   constexpr double kNothingLeft = 1e-13;  // relative to the value: the space is exhausted
   std::vector<Vector> basis;
   Tridiagonal ritz;
   Vector v = start_vector(n);
   project(v);
   v.normalize();
-  for (int k = 1; k <= kMost; ++k) {
+  for (int k = 1, next_check = 8; k <= kMost; ++k) {
     check_cancelled();
     basis.push_back(v);
     v = apply(v);
@@ -97,7 +98,8 @@ double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vecto
       for (const Vector& b : basis) v -= v.dot(b) * b;
     ritz.beside.push_back(v.norm());
     const bool exhausted = ritz.beside.back() <= kNothingLeft * std::abs(ritz.diagonal[0]);
-    if (exhausted || k % kCheckEvery == 0) {
+    if (exhausted || k == std::min(next_check, kMost)) {
+      next_check += next_check / 4;
       const auto [value, error] = ritz.largest();
       if (exhausted || error <= kEigenvalueTolerance * value) return value;
     }
