@@ -18,7 +18,7 @@ struct LinearSystem {
 /// right side.
 inline constexpr double kCgTolerance = 1e-8;
 /// How far off, at most, an eigenvalue of condition_number() may be, relative to itself.
-inline constexpr double kEigenvalueTolerance = 1e-4;
+inline constexpr double kEigenvalueTolerance = 1e-3;
 
 /// By Cholesky's factorisation; on each floating set the first unknown is 0. Throws InputError where the
 /// matrix is not as it should be.

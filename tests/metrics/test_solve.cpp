@@ -146,7 +146,7 @@ TEST(Solve, AgreesWithADenseSolver) {
   const auto expect = [](const SolverErrors& ours, const double(&reference)[4]) {
     EXPECT_NEAR(ours.l2 / reference[0], 1, 1e-12);
     EXPECT_NEAR(ours.h1 / reference[1], 1, 1e-12);
-    EXPECT_NEAR(ours.condition / reference[2], 1, 1e-6);
+    EXPECT_NEAR(ours.condition / reference[2], 1, 2e-3);
     EXPECT_EQ(ours.cg_iterations, reference[3]);
   };
   expect(poisson(reference_mesh()), kPoisson);
@@ -179,7 +179,7 @@ TEST(Solve, KnowsTheConditionOfAGrid) {
       least = std::min(least, eigenvalue(k, l));
       largest = std::max(largest, eigenvalue(k, l));
     }
-  EXPECT_NEAR(poisson(quad_grid(n, n)).condition / (largest / least), 1, 1e-6);
+  EXPECT_NEAR(poisson(quad_grid(n, n)).condition / (largest / least), 1, 2e-3);
 }
 
 /// The second smallest eigenvalue counts where constants are the kernel; two parts have two of them.
