@@ -23,6 +23,9 @@ double cleared_value(const CellRecord& record, const std::string& key) {
   return power == 0 ? value : value * std::pow(value_of(record, "n_vertices"), -power);
 }
 
+/// Of fewer, percentiles of a bootstrap are little but the least and the greatest of them.
+constexpr std::size_t kLeastDomains = 6;
+
 /// Pairs of values of the runs of one variant of a domain.
 struct Pairs {
   std::vector<double> a, b;
@@ -60,7 +63,7 @@ Correlation correlate_pair(const std::string& of, const std::string& with,
       samples.push_back({{*rho}});
     }
   result.mean = samples.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(result.by_domain);
-  result.interval = bootstrap_interval(samples);
+  if (samples.size() >= kLeastDomains) result.interval = bootstrap_interval(samples);
   return result;
 }
 
@@ -127,10 +130,9 @@ Table correlation_table(const std::string& title, const std::vector<Correlation>
   for (const Correlation& c : correlations) {
     table.rows.push_back(row_of(c));
     if (c.by_domain.size() < c.domains)
-      table.notes.push_back(
-          fmt::format("{} with {}: {} of {} domains are left out, where one of them is the same in all runs, "
-                      "or of fewer than three runs",
-                      c.of, c.with, c.domains - c.by_domain.size(), c.domains));
+      table.notes.push_back(fmt::format(
+          "{} with {}: {} of {} domains are left out: one of the two is not defined or the same in all runs",
+          c.of, c.with, c.domains - c.by_domain.size(), c.domains));
   }
   table.notes.push_back(
       "rho: Spearman's coefficient over the words and seeds of each domain, the mean over domains; its 95 % "

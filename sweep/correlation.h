@@ -30,7 +30,7 @@ struct Correlation {
   std::size_t domains = 0;                ///< with and without
   std::size_t runs = 0;                   ///< in those where it is defined
   double mean = 0;                        ///< over domains; NaN of none
-  std::optional<Interval> interval = {};  ///< 95 %, as bootstrap_interval() draws domains
+  std::optional<Interval> interval = {};  ///< 95 %, as bootstrap_interval() draws domains; of six or more
 };
 
 /// Spearman's coefficients over the runs (words and seeds) of each variant of each domain (case), meaned over

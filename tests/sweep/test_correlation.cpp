@@ -60,6 +60,9 @@ TEST(Correlation, IsWithinDomains) {
   EXPECT_TRUE(found[1].by_domain.empty());
   EXPECT_TRUE(std::isnan(found[1].mean));
   EXPECT_FALSE(found[1].interval.has_value());
+  std::vector<CellRecord> five = offset_domains();
+  std::erase_if(five, [](const CellRecord& r) { return r.name > "domain4"; });
+  EXPECT_FALSE(correlate({{"y"}, {"x"}}, five)[0].interval.has_value());
   const Table table = correlation_table("t", found);
   EXPECT_NE(to_markdown(table).find("y with same: 8 of 8 domains are left out"), std::string::npos);
 }
