@@ -80,6 +80,7 @@ struct MeshArguments {
 int mesh_command(const MeshArguments& arguments);
 
 struct MetricsArguments {
+  std::vector<std::string> solvers = {};  ///< that are to measure it, too
   std::filesystem::path mesh, json;
   std::optional<std::string> size;
 };

@@ -20,6 +20,7 @@
 #include "console/progress.h"
 #include "delquad/error.h"
 #include "mesher/soundness.h"
+#include "metrics/solve/solver_metrics.h"
 
 namespace delquad {
 namespace {
@@ -255,6 +256,10 @@ void add_metrics(CLI::App& app, MetricsArguments& arguments, CommonArguments& co
   CLI::App* metrics = app.add_subcommand("metrics", "Measure a mesh");
   metrics->add_option("mesh", arguments.mesh, "mesh file")->required();
   add_size(*metrics, arguments.size, kSizeHelp);
+  metrics->add_option("--solve", arguments.solvers, "errors of finite elements, too: poisson, elasticity")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(solver_names()));
   metrics->add_option("--json", arguments.json, "record to write");
   add_time_limit(*metrics, common);
 }

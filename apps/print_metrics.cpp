@@ -9,13 +9,15 @@
 
 namespace delquad {
 
+void print_metric(const Metric& metric, const MeshMetrics& metrics) {
+  const auto at = metrics.values.find(metric.key);
+  const std::string value =
+      at == metrics.values.end() || std::isnan(at->second) ? "-" : fmt::format("{:.6g}", at->second);
+  fmt::print("  {:<10} {:>12} {}\n", metric.title, value, metric.unit);
+}
+
 void print_metrics(const MeshMetrics& metrics) {
-  for (const Metric& metric : metric_registry()) {
-    const auto at = metrics.values.find(metric.key);
-    const std::string value =
-        at == metrics.values.end() || std::isnan(at->second) ? "-" : fmt::format("{:.6g}", at->second);
-    fmt::print("  {:<10} {:>12} {}\n", metric.title, value, metric.unit);
-  }
+  for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
 }
 
 void print_seconds(const PreparedProblem& prepared, const StageLog& log) {

@@ -105,6 +105,7 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
   }
   for (const MetricCommand& metric : experiment.metrics)
     cell.metrics.push_back({&metric, metric_files(metric)});
+  cell.solvers = experiment.solvers;
   pipeline += metrics_by_command_record(cell);
   cell.key = digest(
       fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed, pipeline, cell.program_digest));

@@ -13,6 +13,7 @@
 #include "cases/case_file.h"
 #include "cases/toml_reader.h"
 #include "metrics/metrics.h"
+#include "metrics/solve/solver_metrics.h"
 #include "sweep/command_files.h"
 #include "sweep/digest.h"
 #include "sweep/schema.h"
@@ -23,10 +24,12 @@ namespace {
 
 const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
 
-std::vector<std::string> keys_of_metrics(const std::vector<MetricCommand>& commands) {
+std::vector<std::string> keys_of_metrics(const Experiment& experiment) {
   std::vector<std::string> keys;
   for (const Metric& m : metric_registry()) keys.push_back(m.key);
-  for (const MetricCommand& command : commands) keys.push_back(command.metric.key);
+  for (const std::string& solver : experiment.solvers)
+    for (const Metric& m : metrics_of_solver(solver)) keys.push_back(m.key);
+  for (const MetricCommand& command : experiment.metrics) keys.push_back(command.metric.key);
   return keys;
 }
 
@@ -42,6 +45,29 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
   const auto near = nearest_name(metric, known);
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" +
                    (near ? "; did you mean '" + *near + "'?" : ""));
+}
+
+/// Names of solvers, each once.
+std::vector<std::string> read_solvers(const TomlTable& table) {
+  if (!table.has("solver")) return {};
+  const std::vector<std::string> solvers = table.texts("solver");
+  for (const std::string& name : solvers) {
+    located(table.where("solver"), [&] { metrics_of_solver(name); });
+    if (std::ranges::count(solvers, name) > 1)
+      throw InputError(table.where("solver") + ": '" + name + "' twice among the solvers");
+  }
+  return solvers;
+}
+
+CorrelationRequest read_correlation(const TomlTable& table, const std::vector<std::string>& metrics) {
+  CorrelationRequest request{table.texts("of"), table.texts("with")};
+  for (const auto& [key, list] : {std::pair("of", &request.of), std::pair("with", &request.with)}) {
+    if (list->empty())
+      throw InputError(fmt::format("{}: '{}' is empty: expected keys of measures", table.where(key), key));
+    for (const std::string& metric : *list) check_known(table, key, metric, metrics);
+  }
+  table.finish(correlate_keys());
+  return request;
 }
 
 /// Keys of columns: measures and times.
@@ -418,7 +444,7 @@ void Experiment::read_metric(const TomlTable& table) {
       std::isalpha(static_cast<unsigned char>(metric.key[0])) == 0 || !std::ranges::all_of(metric.key, plain))
     throw InputError(table.where("name") + ": '" + metric.key +
                      "': the name of a metric is a letter, then letters, digits, '_' and '-'");
-  std::vector<std::string> taken = keys_of_metrics(metrics);
+  std::vector<std::string> taken = keys_of_metrics(*this);
   for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
   taken.push_back("seconds");
   if (std::ranges::find(taken, metric.key) != taken.end())
@@ -497,8 +523,11 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
   experiment.read_peers(table, words);
   experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
+  experiment.solvers = read_solvers(table);
   for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
-  const std::vector<std::string> metrics = keys_of_metrics(experiment.metrics);
+  const std::vector<std::string> metrics = keys_of_metrics(experiment);
+  if (const auto correlation = table.optional_table("correlate"))
+    experiment.correlation = read_correlation(*correlation, metrics);
   if (table.has("reference")) {
     experiment.reference = file.parent_path() / table.text("reference");
     experiment.published = read_published(experiment.reference, metrics);

@@ -10,6 +10,7 @@
 #include "cases/case.h"
 #include "cases/toml_reader.h"
 #include "mesher/stages.h"
+#include "sweep/correlation.h"
 #include "sweep/metric_command.h"
 #include "sweep/peer.h"
 
@@ -66,6 +67,8 @@ class Experiment {
   bool calibrate = false;                         ///< peers are compared at our number of quads
   std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
   std::vector<MetricCommand> metrics;
+  std::vector<std::string> solvers;               ///< that measure every mesh, by name
+  std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
   std::vector<Axis> axes;

@@ -5,6 +5,7 @@
 #include "base/activity.h"
 #include "base/stopwatch.h"
 #include "io/mesh_io.h"
+#include "metrics/solve/solver_metrics.h"
 
 namespace delquad {
 
@@ -25,6 +26,22 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
     result.metrics.failures[metric->metric.key] = outcome.failure;
   }
   result.log.add_seconds("metrics by command", watch.seconds());
+  return failures;
+}
+
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, RunResult& result) {
+  if (cell.solvers.empty()) return {};
+  const DoingStage measuring("solvers");
+  const Stopwatch watch;
+  std::vector<std::string> failures;
+  for (const std::string& solver : cell.solvers) {
+    SolverOutcome outcome = measure_by_solver(result.mesh, solver);
+    result.metrics.values.merge(outcome.values);
+    if (outcome.undefined.empty()) continue;
+    failures.push_back(fmt::format("no '{}': {}", solver, outcome.undefined));
+    result.metrics.failures[solver] = outcome.undefined;
+  }
+  result.log.add_seconds("solvers", watch.seconds());
   return failures;
 }
 

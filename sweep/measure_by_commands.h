@@ -15,4 +15,8 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
                                              const std::string& pipeline,
                                              const std::filesystem::path& scratch, RunResult& result);
 
+/// Solves on the mesh of a cell, as its experiment asks. Adds values, failures and the time to the result.
+/// Returns what failed, a line each.
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, RunResult& result);
+
 }  // namespace delquad

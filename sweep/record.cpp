@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "metrics/metrics.h"
+#include "metrics/solve/solver_metrics.h"
 #include "sweep/versions.h"
 
 namespace delquad {
@@ -163,6 +164,9 @@ Json own_metrics_json(const CellIdentity* cell) {
   for (const OwnMetric& own : own_metrics()) json.push_back(metric_json(*find_metric(own.key)));
   if (cell != nullptr)
     for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));
+  if (cell != nullptr)
+    for (const std::string& solver : cell->solvers)
+      for (const Metric& metric : metrics_of_solver(solver)) json.push_back(metric_json(metric));
   return json;
 }
 
@@ -308,6 +312,13 @@ Json files_json(const CellIdentity& cell) {
   return json;
 }
 
+/// A measure failed which another try might give: of a mesh that a solver refuses there is none, ever.
+bool may_come_out_otherwise(const MeshMetrics& metrics) {
+  return std::ranges::any_of(metrics.failures, [](const auto& failure) {
+    return std::ranges::find(solver_names(), failure.first) == solver_names().end();
+  });
+}
+
 /// `metrics`: "failed" where one of them has no value.
 Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell,
                   const std::string& metrics = "ok") {
@@ -345,7 +356,7 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 
 std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
                        const RunResult& result, const CellIdentity* cell) {
-  Json json = start_record(c, word, "ok", cell, result.metrics.failures.empty() ? "ok" : "failed");
+  Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
   if (const Json own = own_metrics_json(cell); !own.empty()) json["own_metrics"] = own;
   json["sound"] = result.soundness.sound();
   if (!result.soundness.sound()) json["unsound"] = result.soundness.reasons;
@@ -387,6 +398,7 @@ std::string peer_record(const CellIdentity& cell) { return peer_json(cell).dump(
 std::string metrics_by_command_record(const CellIdentity& cell) {
   Json json = Json::array();
   for (const auto& metric : cell.metrics) json.push_back(metric_json(metric));
+  for (const std::string& solver : cell.solvers) json.push_back("solver " + solver);
   return json.empty() ? "" : json.dump(-1, ' ', false, kReplace);
 }
 std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }

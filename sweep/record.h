@@ -28,6 +28,7 @@ struct CellIdentity {
     std::map<std::string, std::string> files;
   };
   std::vector<IdentifiedMetric> metrics = {};
+  std::vector<std::string> solvers = {};  ///< that measure the mesh
 };
 
 /// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
@@ -43,7 +44,7 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
 std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
 /// What determines the mesh of a peer's cell besides the case, in one line of JSON.
 std::string peer_record(const CellIdentity& cell);
-/// What determines the values of a cell's measures by command, in one line of JSON.
+/// What determines the values of a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
 /// Every option of a case in one line of JSON.
 std::string options_record(const Case& c);

@@ -124,6 +124,7 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   const PreparedProblem prepared = prepare_case(c);
   RunResult result =
       cell.peer != nullptr ? run_peer(*cell.peer, c, prepared, label, work) : run_word(prepared, word);
+  measure_by_solvers(cell, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);

@@ -21,6 +21,7 @@
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesher/runner.h"
+#include "metrics/solve/solver_metrics.h"
 #include "sweep/cell_folder.h"
 #include "sweep/cells.h"
 #include "sweep/digest.h"
@@ -104,6 +105,8 @@ struct Work {
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
     if (!result.soundness.sound())
       say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
+    for (const std::string& failure : measure_by_solvers(cell.identity, result))
+      say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
     // Before anything of the cell is in place: it may take long.
     if (cell.identity.peer == nullptr) fs::remove_all(scratch);
     for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))

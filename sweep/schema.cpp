@@ -24,6 +24,8 @@ const std::string kColumns =
 const std::string kFolder = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
+const std::string kSolvers =
+    R"({"type": "array", "items": {"enum": ["poisson", "elasticity"]}, "uniqueItems": true})";
 const std::string kCalibrate = one_of({"quads", "none"});
 /// What a model is made of, which does not vary.
 const std::vector<std::string> kModels = {"loop", "pattern", "curve", "example",
@@ -122,6 +124,12 @@ const TomlKeys& ratio_keys() {
   return keys;
 }
 
+const TomlKeys& correlate_keys() {
+  static const TomlKeys keys = {{"of", "keys of measures", kColumns, nullptr, false, true},
+                                {"with", "keys of others", kColumns, nullptr, false, true}};
+  return keys;
+}
+
 const TomlKeys& linf_study_keys() {
   static const TomlKeys keys = {{"points", "how many", kPoints, nullptr, false, true},
                                 {"seeds", "of the points", kSeeds, nullptr, false, true}};
@@ -142,6 +150,8 @@ TomlKeys experiment_keys() {
                    {"calibrate", "whether peers are compared at our number of quads", kCalibrate},
                    {"calibrate_to", "the word whose number that is", kText},
                    {"metric", "measures that other programs take", "", metric_keys, true},
+                   {"solver", "finite elements that measure every mesh", kSolvers},
+                   {"correlate", "measures with others, within domains", "", correlate_keys},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
                    {"columns", "of tables in Markdown and LaTeX, by key", kColumns},

@@ -13,6 +13,7 @@ const TomlKeys& peer_keys();
 const TomlKeys& peer_file_keys();
 const TomlKeys& metric_keys();
 const TomlKeys& ratio_keys();
+const TomlKeys& correlate_keys();
 const TomlKeys& linf_study_keys();
 
 /// Limits of what a metric by command may ask for: digits, and seconds (a week).

@@ -25,6 +25,8 @@ Json to_json(const StudyFile& study) {
                {"published", Json::array()}, {"ratio", Json()}};
   if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
   if (!study.columns.empty()) json["columns"] = study.columns;
+  if (study.correlation)
+    json["correlate"] = {{"of", study.correlation->of}, {"with", study.correlation->with}};
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
   if (const auto& ratio = study.ratio)
@@ -47,6 +49,8 @@ StudyFile from_json(const Json& json) {
   json.at("step_times").get_to(study.step_times);
   study.repeat_times = json.value("repeat_times", 0);
   study.columns = json.value("columns", study.columns);
+  if (json.contains("correlate"))
+    study.correlation = CorrelationRequest{json.at("correlate").at("of"), json.at("correlate").at("with")};
   json.at("compare").get_to(study.compare);
   for (const Json& row : json.at("published"))
     study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
@@ -70,6 +74,7 @@ StudyFile describe(const Experiment& experiment) {
   study.step_times = experiment.step_times;
   study.repeat_times = experiment.repeat_times;
   study.columns = experiment.columns;
+  study.correlation = experiment.correlation;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
     study.cases.push_back(c.name);

@@ -24,6 +24,7 @@ struct StudyFile {
   bool step_times = false;
   int repeat_times = 0;              ///< as in Experiment
   std::vector<std::string> columns;  ///< as in Experiment
+  std::optional<CorrelationRequest> correlation = {};
   /// case -> pipeline -> name of the published row beside it
   std::map<std::string, std::map<std::string, std::string>> compare;
 };

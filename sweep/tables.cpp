@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kCorrelations = "correlations";
+
 class Tabulation {
  public:
   Tabulation(const StudyFile& study, const std::vector<CellRecord>& records)
@@ -233,6 +235,9 @@ StudyResults read_results(const fs::path& folder) {
 
 Outcome make_tables(const StudyResults& results) {
   Outcome outcome = Tabulation(results.study, results.records).run();
+  if (results.study.correlation)
+    outcome.correlations =
+        correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
   outcome.figures = make_figures(results.records);
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
                              results.time_problems.end());
@@ -246,7 +251,8 @@ Outcome make_tables(const fs::path& folder) { return make_tables(read_results(fo
 
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
   std::vector<std::string> errors;
-  for (const auto& [name, table] : {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs)})
+  for (const auto& [name, table] : {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
+                                    std::pair(kCorrelations, &outcome.correlations)})
     for (const TableFormat& format : table_formats()) {
       const fs::path file = folder / (std::string(name) + format.extension);
       try {
@@ -262,7 +268,7 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
 
 std::vector<std::string> result_files() {
   std::vector<std::string> files = {"study.json", "experiment", kFigures};
-  for (const char* name : {"table", "pairs"})
+  for (const char* name : {"table", "pairs", kCorrelations})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;
 }

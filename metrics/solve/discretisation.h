@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/cancel.h"
+#include "delquad/mesh.h"
+#include "metrics/solve/element_points.h"
+
+namespace delquad {
+
+/// The nodes and elements of a mesh that is to be computed with. Nodes are the mesh's points; those on edges
+/// of a single element are fixed.
+class Discretisation {
+ public:
+  /// Throws InputError for a mesh with inverted or degenerate elements, with none, or without free nodes. The
+  /// mesh has to outlive it.
+  explicit Discretisation(const Mesh& mesh);
+
+  std::size_t n_nodes() const { return mesh_.points.size(); }
+  std::size_t n_free() const { return n_free_; }
+  const Vec3& point(std::size_t node) const { return mesh_.points[node]; }
+  /// Free nodes are numbered without gaps; -1: it is fixed, or of no element.
+  int row(std::size_t node) const { return row_[node]; }
+  bool is_fixed(std::size_t node) const { return fixed_[node] != 0; }
+  /// All points have the same z.
+  bool is_planar() const { return planar_; }
+  /// Rows of each part of the mesh that has no fixed node.
+  const std::vector<std::vector<int>>& floating() const { return floating_; }
+  /// Which of these a node is in; -1: none.
+  int floating_part(std::size_t node) const { return floating_part_[node]; }
+
+  /// Calls visit(nodes, point) for all points of Gauss's rule of `n` x `n` on all elements; triangles have
+  /// their third node twice.
+  template <class Visit>
+  void for_each_point(int n, Visit visit) const {
+    const auto on = [&](const std::array<int, 4>& v) {
+      check_cancelled();
+      const std::array corners = {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]],
+                                  mesh_.points[v[3]]};
+      for (const ElementPoint& p : element_points(corners, n)) visit(v, p);
+    };
+    for (const auto& v : mesh_.triangles) on({v[0], v[1], v[2], v[2]});
+    for (const auto& v : mesh_.quads) on(v);
+  }
+
+ private:
+  void number_nodes();
+  void find_floating();
+
+  const Mesh& mesh_;
+  bool planar_ = true;
+  std::size_t n_free_ = 0;
+  std::vector<char> fixed_;
+  std::vector<int> row_, floating_part_;
+  std::vector<std::vector<int>> floating_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace delquad {
+
+/// A symmetric matrix, positive definite but for a known kernel: for each set of unknowns in `floating`, the
+/// vector that is 1 on it and 0 elsewhere.
+struct LinearSystem {
+  Eigen::SparseMatrix<double> matrix;      ///< both triangles
+  Eigen::VectorXd scale;                   ///< of each row: Jacobi's scaling D, positive
+  Eigen::VectorXd right;                   ///< orthogonal to the kernel
+  std::vector<std::vector<int>> floating;  ///< none of them empty
+};
+
+/// Conjugate gradients with Jacobi's preconditioner D^-1, from zero, stop at this residual, relative to the
+/// right side.
+inline constexpr double kCgTolerance = 1e-8;
+/// How far off, at most, an eigenvalue of condition_number() may be, relative to itself.
+inline constexpr double kEigenvalueTolerance = 1e-3;
+
+/// By Cholesky's factorisation; on each floating set the first unknown is 0. Throws InputError where the
+/// matrix is not as it should be.
+Eigen::VectorXd solve_directly(const LinearSystem& system);
+
+/// Iterations of conjugate gradients until kCgTolerance. Throws InputError when they do not get there.
+int cg_iterations(const LinearSystem& system);
+
+/// Largest over least eigenvalue, the kernel aside, of D^-1/2 K D^-1/2: what governs those iterations. By
+/// Lanczos' method on it and on its inverse. Throws InputError when that does not converge.
+double condition_number(const LinearSystem& system);
+
+}  // namespace delquad

@@ -1,0 +1,90 @@
+#include "metrics/solve/solver_metrics.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/nearest_name.h"
+#include "delquad/error.h"
+#include "metrics/solve/solve.h"
+
+namespace delquad {
+namespace {
+
+struct Solver {
+  std::string name, title;
+  SolverErrors (*solve)(const Mesh&);
+};
+
+const std::vector<Solver>& solvers() {
+  static const std::vector<Solver> all = {
+      {"poisson", "Poisson", [](const Mesh& mesh) { return solve_poisson(mesh); }},
+      {"elasticity", "elasticity", [](const Mesh& mesh) { return solve_elasticity(mesh); }}};
+  return all;
+}
+
+/// One number of a solver.
+struct Part {
+  const char *key, *title, *source;
+  int digits;
+  double power;  ///< as power_of_vertices()
+  double (*of)(const SolverErrors&);
+};
+
+constexpr Part kParts[] = {
+    {"_l2", " L2", "error over solution in L2", 6, -1, [](const SolverErrors& e) { return e.l2; }},
+    {"_h1", " H1", "error over solution, of the gradients, in L2", 6, -0.5,
+     [](const SolverErrors& e) { return e.h1; }},
+    {"_condition", " condition", "of the stiffness matrix with Jacobi's scaling by node", 1, 1,
+     [](const SolverErrors& e) { return e.condition; }},
+    {"_cg_iterations", " CG", "iterations of conjugate gradients with Jacobi's preconditioner to 1e-8", 0,
+     0.5, [](const SolverErrors& e) { return static_cast<double>(e.cg_iterations); }}};
+
+const Solver& find_solver(const std::string& name) {
+  const auto at = std::ranges::find(solvers(), name, &Solver::name);
+  if (at != solvers().end()) return *at;
+  const auto near = nearest_name(name, solver_names());
+  throw InputError("unknown solver '" + name + "'" +
+                   (near ? "; did you mean '" + *near + "'?" : ": expected poisson or elasticity"));
+}
+
+}  // namespace
+
+const std::vector<std::string>& solver_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Solver& solver : solvers()) result.push_back(solver.name);
+    return result;
+  }();
+  return names;
+}
+
+std::vector<Metric> metrics_of_solver(const std::string& name) {
+  const Solver& solver = find_solver(name);
+  std::vector<Metric> metrics;
+  for (const Part& part : kParts)
+    metrics.push_back({name + part.key, solver.title + part.title, "", Better::kLower,
+                       std::numeric_limits<double>::infinity(), part.source, part.digits});
+  return metrics;
+}
+
+SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& name) {
+  const Solver& solver = find_solver(name);
+  SolverOutcome outcome;
+  for (const Part& part : kParts) outcome.values[name + part.key] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    const SolverErrors errors = solver.solve(mesh);
+    for (const Part& part : kParts) outcome.values[name + part.key] = part.of(errors);
+  } catch (const InputError& error) {
+    outcome.undefined = error.what();
+  }
+  return outcome;
+}
+
+double power_of_vertices(const std::string& key) {
+  for (const Solver& solver : solvers())
+    for (const Part& part : kParts)
+      if (key == solver.name + part.key) return part.power;
+  return 0;
+}
+
+}  // namespace delquad

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "delquad/metrics.h"
+
+namespace delquad {
+
+/// "poisson" and "elasticity": what measures may be asked for by.
+const std::vector<std::string>& solver_names();
+/// Its measures: "poisson_l2" and so on. They cost more than others and are not in metric_registry(): they
+/// are there for who asks.
+std::vector<Metric> metrics_of_solver(const std::string& solver);
+
+struct SolverOutcome {
+  std::map<std::string, double> values;  ///< by key; NaN where they are not defined
+  std::string undefined;                 ///< why they are not; empty: they are
+};
+/// Throws InputError for a solver that there is not.
+SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& solver);
+
+/// Finer meshes of the same kind have measures of solvers in proportion to this power of their number of
+/// vertices (h ~ N^-1/2): -1/2 of errors in H1, -1 of those in L2, 1 of conditions, 1/2 of iterations. 0: of
+/// other measures.
+double power_of_vertices(const std::string& key);
+
+}  // namespace delquad
