@@ -1,4 +1,5 @@
-// Errors of bilinear elements of deal.II for the planar solution of 'solver = ["poisson"]', as JSON: dealii_poisson MESH.msh
+// Errors of bilinear elements of deal.II for the planar solution of 'solver = ["poisson"]', as JSON:
+// dealii_poisson MESH.msh
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -65,7 +66,8 @@ int main(int, char** argv) {
     for (unsigned q = (two.reinit(cell), 0); q < 4; ++q)
       for (unsigned i = 0; i < 4; ++i) {
         load(i) += two.JxW(q) * (u.gradient(two.quadrature_point(q)) * two.shape_grad(i, q));
-        for (unsigned j = 0; j < 4; ++j) local(i, j) += two.JxW(q) * (two.shape_grad(i, q) * two.shape_grad(j, q));
+        for (unsigned j = 0; j < 4; ++j)
+          local(i, j) += two.JxW(q) * (two.shape_grad(i, q) * two.shape_grad(j, q));
       }
     cell->get_dof_indices(rows);
     fixed.distribute_local_to_global(local, load, rows, matrix, right);
@@ -79,6 +81,7 @@ int main(int, char** argv) {
   };
   const Vector<double> zero(dofs.n_dofs());
   std::cout.precision(15);
-  std::cout << "{\"l2\": " << norm(right, VectorTools::L2_norm) / norm(zero, VectorTools::L2_norm) << ", \"h1\": "
-            << norm(right, VectorTools::H1_seminorm) / norm(zero, VectorTools::H1_seminorm) << "}\n";
+  std::cout << "{\"l2\": " << norm(right, VectorTools::L2_norm) / norm(zero, VectorTools::L2_norm)
+            << ", \"h1\": " << norm(right, VectorTools::H1_seminorm) / norm(zero, VectorTools::H1_seminorm)
+            << "}\n";
 }
