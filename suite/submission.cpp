@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ostream>
-#include <regex>
 
 #include "base/located.h"
 #include "cases/problem.h"
@@ -133,6 +132,14 @@ class Adding {
   SubmissionCount count_;
 };
 
+/// Small letters, digits, - and _, a letter first.
+bool is_name(const std::string& text) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !text.empty() && is_letter(text[0]) && std::ranges::all_of(text, [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
 }  // namespace
 
 Submission read_submission(const fs::path& folder) {
@@ -140,8 +147,7 @@ Submission read_submission(const fs::path& folder) {
   Submission submission{folder, table.text("program"), table.text("version"), table.text("command"),
                         table.texts("authors")};
   table.finish();
-  static const std::regex kName("[a-z][a-z0-9_-]*");
-  if (!std::regex_match(submission.program, kName) || submission.program == kModelsFolder)
+  if (!is_name(submission.program) || submission.program == kModelsFolder)
     throw InputError(
         fmt::format("{}: program '{}': expected small letters, digits, - and _, such as 'mesher-2'",
                     table.where("program"), submission.program));
