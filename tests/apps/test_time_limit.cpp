@@ -58,7 +58,7 @@ TEST_P(Signals, EndTheRunWithoutAFile) {
   const TemporaryFolder folder;
   ProgramOptions options{mesh_words(folder, kLong), 0, {}, GetParam().signal_number};
   int asked = 0;
-  options.interrupt_when = [&] { return ++asked > 50; };  // half a second
+  options.interrupt_when = [&] { return ++asked > 150; };  // a second and a half
   const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
   EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
