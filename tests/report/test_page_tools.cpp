@@ -324,8 +324,12 @@ TEST_F(PageTools, FitsATelephone) {
   write_text(folder_ / "r.html", "<html data-drawn=\"all\"><iframe width=\"360\" height=\"800\" srcdoc=\"" +
                                      page + "\"></iframe></html>");
   const Json seen = ask(R"(
-    const page = document.querySelector("iframe").contentDocument, wide = document.querySelector("iframe").contentWindow.innerWidth;
-    for (let i = 0; i < 100 && all("table", page).length < 3; ++i) await wait(50);
+    const frame = document.querySelector("iframe");
+    for (let i = 0; i < 1000 && frame.contentDocument.querySelectorAll("table").length < 3; ++i) {
+      work();
+      await wait(20);
+    }
+    const page = frame.contentDocument, wide = frame.contentWindow.innerWidth;
     const over = all("main *", page).filter((n) => !n.closest(".scroll, .paper, .on-paper") && n.getBoundingClientRect().right > wide + 1);
     return { wide, tables: all("table", page).length, page: page.documentElement.scrollWidth, over: over.map((n) => n.outerHTML.slice(0, 200)) };
   )");
