@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/toml_reader.h"
+
+/// Keys that several tables of an experiment have.
+namespace delquad {
+
+/// Integers, at least one, each from `least` to `most`. Throws InputError with file and line.
+std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most);
+
+/// A program and its arguments. Throws InputError with file and line when there is no program.
+std::vector<std::string> read_command(const TomlTable& table, const char* key);
+
+/// Whether a word of the command holds `placeholder`, such as "{mesh}".
+bool has_placeholder(const std::vector<std::string>& command, const char* placeholder);
+
+/// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.
+/// Throws InputError with file and line for one that cannot, is that of a file of results, or one of
+/// `others`.
+void check_folder_name(const TomlTable& table, const std::string& name,
+                       const std::vector<std::string>& others);
+
+}  // namespace delquad
