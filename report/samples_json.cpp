@@ -7,17 +7,13 @@
 #include <cstdlib>
 #include <map>
 
+#include "sweep/samples.h"
 #include "sweep/statistics.h"
 
 namespace delquad {
 namespace {
 
 constexpr const char* kSeed = "seed";
-
-double value_of(const CellRecord& record, const std::string& key) {
-  const auto at = record.values.find(key);
-  return at == record.values.end() ? std::nan("") : at->second;
-}
 
 bool is_known(const std::vector<CellRecord>& records, const std::string& key) {
   return std::ranges::any_of(records,
@@ -40,13 +36,6 @@ class Names {
 };
 
 }  // namespace
-
-std::string sheet_name(const CellRecord& record) {
-  std::string name = record.name;
-  for (const auto& [title, value] : record.variant)
-    if (title != kSeed) name += fmt::format(", {}={}", title, value);
-  return name;
-}
 
 std::string seed_of(const CellRecord& record) {
   for (const auto& [title, value] : record.variant)
@@ -86,7 +75,7 @@ Json samples_json(const std::vector<CellRecord>& records, const std::vector<Tabl
   Names sheets, words;
   for (const CellRecord& record : records) {
     if (!record.reason.empty()) continue;
-    Json cell = {sheets.of(sheet_name(record)), words.of(record.pipeline)};
+    Json cell = {sheets.of(row_group(record)), words.of(record.pipeline)};
     for (const Json& key : keys)
       cell.push_back(brief_number(value_of(record, key["key"].get<std::string>())));
     cells.push_back(std::move(cell));

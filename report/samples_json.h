@@ -12,8 +12,6 @@ namespace delquad {
 
 using Json = nlohmann::ordered_json;
 
-/// The case and what varies, but for the seed: cells that agree in it are shown on one sheet.
-std::string sheet_name(const CellRecord& record);
 /// Empty where there is none.
 std::string seed_of(const CellRecord& record);
 

@@ -20,6 +20,7 @@
 #include "report/samples_json.h"
 #include "report/sheet_json.h"
 #include "sweep/record.h"
+#include "sweep/samples.h"
 #include "sweep/tables.h"
 
 namespace delquad {
@@ -185,13 +186,13 @@ class Page {
   /// A sheet for each variant, with its seeds; returns how many cells there was no room for.
   std::size_t add_sheets(const Study& study, const std::vector<TableColumn>& columns, Json& sheets) {
     std::map<std::string, std::vector<const CellRecord*>> of_sheet;
-    for (const CellRecord& record : study.results.records) of_sheet[sheet_name(record)].push_back(&record);
+    for (const CellRecord& record : study.results.records) of_sheet[row_group(record)].push_back(&record);
     std::map<std::string, std::size_t> places;
     std::size_t left_out = 0;
     for (const CellRecord& record : study.results.records) {
       if (cells_ >= kMostCells && ++left_out) continue;
       ++cells_;
-      const std::string name = sheet_name(record);
+      const std::string name = row_group(record);
       const auto [at, is_new] = places.try_emplace(name, sheets.size());
       if (is_new) sheets.push_back(sheet_json(study, record, means_json(of_sheet[name], columns)));
       add_cell(record, sheets[at->second]);
@@ -200,7 +201,7 @@ class Page {
   }
 
   static Json sheet_json(const Study& study, const CellRecord& record, Json means) {
-    Json json = {{"id", study.name + "/" + sheet_name(record)}, {"name", record.name}};
+    Json json = {{"id", study.name + "/" + row_group(record)}, {"name", record.name}};
     json["variant"] = Json::array();
     for (const auto& [title, value] : record.variant)
       if (title != "seed") json["variant"].push_back(title + " " + value);

@@ -11,6 +11,7 @@
 #include "delquad/error.h"
 #include "sweep/scratch_folder.h"
 #include "sweep/tables.h"
+#include "sweep/verify.h"
 
 namespace delquad {
 namespace {
@@ -66,9 +67,18 @@ std::array<std::string, 2> digests_of(const CellRecord& record) {
   }
 }
 
-/// Whether `other` takes the place of `known`. Throws where both were done and are not the same.
-bool is_better(const CellRecord& other, const CellRecord& known) {
+/// A cell of one of the folders.
+struct Candidate {
+  CellRecord record;
+  std::vector<std::string> damage;
+};
+
+/// Whether one takes the place of the one before. Throws where both were done and are not the same.
+bool is_better(const Candidate& one, const Candidate& before) {
+  const CellRecord &other = one.record, &known = before.record;
+  if (one.damage.empty() != before.damage.empty()) return one.damage.empty();
   if (other.reason.empty() != known.reason.empty()) return other.reason.empty();
+  if (!one.damage.empty()) return false;
   if (other.reason.empty() && digests_of(other) != digests_of(known))
     throw InputError(
         fmt::format("the cell {} {} is not the same in {} and {}: they have other models or meshes",
@@ -76,13 +86,24 @@ bool is_better(const CellRecord& other, const CellRecord& known) {
   return false;
 }
 
-using Cells = std::map<std::pair<std::string, std::string>, CellRecord>;
+using Cells = std::map<std::pair<std::string, std::string>, Candidate>;
 
 void add_cells(const StudyResults& results, Cells& cells) {
   for (const CellRecord& record : results.records) {
-    const auto [at, is_new] = cells.try_emplace({record.group, record.pipeline}, record);
-    if (!is_new && is_better(record, at->second)) at->second = record;
+    const Candidate candidate{record, damage_of_cell(record.folder / "record.json")};
+    const auto [at, is_new] = cells.try_emplace({record.group, record.pipeline}, candidate);
+    if (!is_new && is_better(candidate, at->second)) at->second = candidate;
   }
+}
+
+/// A cell that no folder has sound is not handed on.
+void check_sound(const Cells& cells) {
+  std::vector<std::string> damage;
+  for (const auto& [name, cell] : cells) unite(damage, cell.damage);
+  if (!damage.empty())
+    throw InputError(fmt::format(
+        "{}{}: remove the folder of the cell, and 'delquad run' makes it again", damage[0],
+        damage.size() > 1 ? fmt::format(" (and {} more, by 'delquad verify')", damage.size() - 1) : ""));
 }
 
 void copy_cell(const CellRecord& cell, const fs::path& output) {
@@ -108,7 +129,7 @@ void fill(const fs::path& target, const std::vector<fs::path>& folders, const St
     if (fs::exists(folder / "experiment"))
       fs::copy(folder / "experiment", target / "experiment",
                fs::copy_options::recursive | fs::copy_options::skip_existing);
-  for (const auto& [name, cell] : cells) copy_cell(cell, target);
+  for (const auto& [name, cell] : cells) copy_cell(cell.record, target);
   write_study(target, study);
   for (const std::string& error : write_tables(target, make_tables(target))) throw InputError(error);
 }
@@ -125,6 +146,7 @@ void merge_results(const std::vector<fs::path>& folders, const fs::path& output)
     if (i > 0) add_study(all[i].study, folders[i], study);
     add_cells(all[i], cells);
   }
+  check_sound(cells);
   count_cells(study);
   try {
     const ScratchFolder scratch(output);

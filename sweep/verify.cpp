@@ -185,6 +185,11 @@ void check_all(std::size_t n, Check check, Lines& findings) {
 
 }  // namespace
 
+Lines damage_of_cell(const fs::path& record) {
+  VerifiedCell cell{record, {}, false};
+  return check_record(cell);
+}
+
 Verification verify_results(const fs::path& folder, const fs::path& data) {
   Verification result;
   std::vector<VerifiedCell> cells;

@@ -11,6 +11,10 @@ struct Verification {
   std::vector<std::string> findings;    ///< what is not as it was written, a line each with the file
 };
 
+/// What is not as it was written in a cell, by its record.json: the record by the digest that it carries, and
+/// the files that it lists; a line each with the file.
+std::vector<std::string> damage_of_cell(const std::filesystem::path& record);
+
 /// Checks a folder of results: records and study.json by the digests that they carry, the files of cells by
 /// sizes and digests in the records, the copies of experiments, the measures in records by taking them again
 /// of the meshes (those by command excepted), and tables by making them again; names cells that are not

@@ -363,6 +363,28 @@ TEST_F(Records, MergingRefusesWhatDoesNotFit) {
   for (const std::string& name : folder_.names()) EXPECT_EQ(name.find(".all"), std::string::npos) << name;
 }
 
+/// What is not as it was written is never handed on.
+TEST_F(Records, MergingLeavesDamagedCells) {
+  run(kSizes);
+  fs::copy(out(), out("copy"), fs::copy_options::recursive);
+  const fs::path cell = "square@seed=1,size=0.25/DB";
+  const auto damage = [&](const fs::path& folder) {
+    fs::resize_file(folder / cell / "mesh.msh", fs::file_size(folder / cell / "mesh.msh") / 2);
+  };
+  damage(out());
+  for (const auto& [a, b, to] : {std::tuple("out", "copy", "all"), std::tuple("copy", "out", "more")}) {
+    merge_results({out(a), out(b)}, out(to));
+    EXPECT_TRUE(verify_results(out(to), "").findings.empty()) << a;
+  }
+  damage(out("copy"));
+  expect_input_error(
+      [&] {
+        merge_results({out(), out("copy")}, out("none"));
+      },
+      {"square@seed=1,size=0.25/DB/mesh.msh", "remove the folder of the cell"});
+  EXPECT_FALSE(fs::exists(out("none")));
+}
+
 /// What was done in one folder is taken before what failed in another.
 TEST_F(Records, MergingTakesWhatWasDone) {
   const std::string text =
