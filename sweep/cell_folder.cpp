@@ -2,8 +2,11 @@
 
 #include <unistd.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "console/interrupt.h"
 #include "delquad/error.h"
@@ -24,19 +27,16 @@ struct TemporaryFolder {
   }
 };
 
-/// What an earlier run left would pass for what this one made. The record first: it says that the rest is
-/// whole.
-void remove_results(const fs::path& folder) {
-  for (const char* name :
-       {kRecord,       "mesh.msh",   "mesh.vtu",   "picture.svg", "convergence.svg", "peer.log",  "input.geo",
-        "input.msh",   "input.obj",  "input.inp",  "input.mesh",  "size.pos",        "size.sol",  "size.mesh",
-        "size.points", "model.step", "output.msh", "output.obj",  "output.off",      "output.stl"}) {
-    std::error_code nothing_there;
-    fs::remove(folder / name, nothing_there);
-  }
-  std::error_code no_folder;
-  for (const auto& entry : fs::directory_iterator(folder, no_folder))
-    if (entry.path().filename().string().starts_with("metric-")) fs::remove(entry.path(), no_folder);
+/// The files of a cell by its record; none where that cannot be read.
+std::vector<fs::path> recorded_files(const fs::path& folder) {
+  std::ifstream in(folder / kRecord);
+  const auto record = nlohmann::json::parse(in, nullptr, false);
+  std::vector<fs::path> files;
+  if (!record.is_object() || !record.contains("files")) return files;
+  for (const auto& [name, mark] : record["files"].items())
+    if (const fs::path file = fs::path(name).lexically_normal(); *file.begin() != ".." && file.is_relative())
+      files.push_back(file);
+  return files;
 }
 
 /// Temporary folders of this cell whose processes were killed.
@@ -63,12 +63,28 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
+// The record first: it says that the rest is whole.
+void remove_cell(const fs::path& folder) {
+  const std::vector<fs::path> recorded = recorded_files(folder);
+  for (const char* name :
+       {kRecord,       "mesh.msh",   "mesh.vtu",   "picture.svg", "convergence.svg", "peer.log",  "input.geo",
+        "input.msh",   "input.obj",  "input.inp",  "input.mesh",  "size.pos",        "size.sol",  "size.mesh",
+        "size.points", "model.step", "output.msh", "output.obj",  "output.off",      "output.stl"}) {
+    std::error_code nothing_there;
+    fs::remove(folder / name, nothing_there);
+  }
+  std::error_code no_folder;
+  for (const fs::path& file : recorded) fs::remove(folder / file, no_folder);
+  for (const auto& entry : fs::directory_iterator(folder, no_folder))
+    if (entry.path().filename().string().starts_with("metric-")) fs::remove(entry.path(), no_folder);
+}
+
 void write_cell(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
   const Uninterrupted whole;
   const std::string name = "." + folder.filename().string() + "." + std::to_string(getpid()) + kTemporary;
   const TemporaryFolder temporary{folder.parent_path() / name};
   try {
-    remove_results(folder);
+    remove_cell(folder);
     remove_unfinished(folder);
     fs::create_directories(temporary.path);
     write(temporary.path);

@@ -5,6 +5,10 @@
 
 namespace delquad {
 
+/// Removes what an earlier run left in a cell's folder, which would pass for what this one made: files that
+/// its record lists, and those that runs without a record leave. Files of others stay.
+void remove_cell(const std::filesystem::path& folder);
+
 /// Makes a cell's folder anew: `write` fills a temporary folder beside it, which then takes its place, so
 /// that the files appear together or not at all (one by one where the folder holds files of others, which
 /// stay). What an earlier run left there is removed in any case. Ctrl-C waits meanwhile. Throws InputError

@@ -303,9 +303,7 @@ class Sweep {
         skip(*work);
         continue;
       }
-      // What an earlier run left would pass for what this one did not get to.
-      std::error_code nothing_there;
-      for (const Cell& cell : work->cells) fs::remove(cell.folder / "record.json", nothing_there);
+      for (const Cell& cell : work->cells) remove_cell(cell.folder);
       const auto tree = std::make_shared<const Branch>(make_tree(work->cells));
       Job job = job_of(work, *tree);
       job.work = [tree, run = std::move(job.work)] { run(); };  // keeps the tree alive

@@ -98,6 +98,20 @@ TEST_F(Peers, AnotherScriptIsAnotherCell) {
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
 }
 
+TEST_F(Peers, FilesOfAnEarlierRunAreRemoved) {
+  const std::string good = good_mesh();
+  const std::string text = peer("copy", "echo 1 > notes.txt; cp '" + good + "' $2") + kSquare;
+  const fs::path notes = fs::path(out()) / "square" / "copy" / "notes.txt",
+                 others = out() + "/square/copy/mine";
+  run_experiment(experiment("[\"copy\"]", text), out());
+  EXPECT_TRUE(fs::exists(notes));
+  write_text(others, "of others");
+  peer("copy", "cp '" + good + "' $2");
+  run_experiment(experiment("[\"copy\"]", text), out());
+  EXPECT_FALSE(fs::exists(notes));
+  EXPECT_TRUE(fs::exists(others));
+}
+
 /// Arguments that name files beside the experiment stand for them, and are part of the cell, too.
 TEST_F(Peers, ScriptsAreFoundBesideTheExperiment) {
   write_text(folder_ / "copy.sh", "cp '" + good_mesh() + "' $2\n");
