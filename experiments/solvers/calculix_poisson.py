@@ -45,11 +45,12 @@ def wave(xy, quads):
 
 def deck(xy, quads, flux, boundary, values):
     n = len(xy)
-    layers = [(1, 0.0), (n + 1, 1.0)]  # number of the first node, height
-    nodes = [f"{first + i}, {x!r}, {y!r}, {z}" for first, z in layers for i, (x, y) in enumerate(xy.tolist())]
+    layers = [(1, 0), (n + 1, 1)]  # number of the first node, height
+    # It reads twenty characters of a number.
+    nodes = [f"{first + i}, {x:.12e}, {y:.12e}, {z}" for first, z in layers for i, (x, y) in enumerate(xy)]
     bricks = [", ".join(map(str, [c + 1, *(q + 1), *(q + n + 1)])) for c, q in enumerate(quads)]
-    fixed = [f"{first + i}, 11, 11, {u!r}" for first, _ in layers for i, u in zip(boundary, values.tolist())]
-    sources = [f"{first + i}, 11, {f / 2!r}" for first, _ in layers for i, f in enumerate(flux.tolist())]
+    fixed = [f"{first + i}, 11, 11, {u:.12e}" for first, _ in layers for i, u in zip(boundary, values)]
+    sources = [f"{first + i}, 11, {f / 2:.12e}" for first, _ in layers for i, f in enumerate(flux)]
     return "\n".join(["*NODE, NSET=ALL", *nodes, "*NSET, NSET=PLANE, GENERATE", f"1, {n}", "*ELEMENT, TYPE=C3D8, ELSET=ALL", *bricks,
                       "*MATERIAL, NAME=M", "*CONDUCTIVITY", "1.", "*SOLID SECTION, ELSET=ALL, MATERIAL=M",
                       "*INITIAL CONDITIONS, TYPE=TEMPERATURE", "ALL, 0.", "*STEP", "*HEAT TRANSFER, STEADY STATE", "1., 1.",

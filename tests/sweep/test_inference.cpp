@@ -76,6 +76,11 @@ struct Trial {
   Shape shape;
   int studies, most;
 };
+
+void PrintTo(const Trial& trial, std::ostream* out) {
+  *out << trial.shape.words.size() << " words, " << trial.shape.domains << " domains, " << trial.shape.seeds
+       << " seeds";
+}
 class NoEffect : public testing::TestWithParam<Trial> {};
 
 /// Words that are alike on every domain: nothing at all may be claimed, anywhere.
