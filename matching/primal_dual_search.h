@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancel.h"
 #include "matching/primal_dual_state.h"
 #include "matching/radix_queue.h"
 #include "matching/tree_members.h"
@@ -111,6 +112,7 @@ class PrimalDualSearch {
   bool park_ = false;
   int waiting_ = 0;                                 ///< roots that have not started
   int growing_ = 0;                                 ///< trees
+  unsigned events_ = 0;                             ///< that have come, modulo 2^32
   std::vector<std::pair<int, long long>> stopped_;  ///< trees with their births
   std::vector<int> released_, missed_, loose_, parked_;
   std::vector<Step> path_a_, path_b_;
@@ -136,6 +138,7 @@ SearchOutcome PrimalDualSearch<Value, Cost>::run(int begin, int end, bool park, 
   }
   Event event;
   while (growing_ + waiting_ > 0) {
+    if (++events_ % kPerCheck == 0) check_cancelled();
     if (!queue_.pop(event)) {
       find_witness();
       return SearchOutcome::kStuck;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancel.h"
 #include "matching/matching.h"
 #include "matching/primal_dual_blossoms.h"
 #include "matching/primal_dual_search.h"
@@ -61,7 +62,8 @@ void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& cer
     certificate.node_dual[v] = state.nodes[v].value + state.nodes[state.nodes[v].container].offset;
     if (state.nodes[v].container == v && state.nodes[v].blossom >= 0) left.push_back({v, -1, 0});
   }
-  while (!left.empty()) {
+  for (unsigned opened = 0; !left.empty(); ++opened) {
+    if (opened % kPerCheck == 0) check_cancelled();
     const Open open = left.back();
     left.pop_back();
     const auto& node = state.nodes[open.container];
@@ -95,6 +97,7 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
   }
   PrimalDualState<Value, Cost> state = make_state<Value, Cost>(graph, first);
   first = {};
+  check_cancelled();
   raise_free_nodes(state);
   PrimalDualSearch<Value, Cost> search(state, time_limit);
   // Totals are even up to here, and costs multiples of four: two even nodes meet after a whole number of

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/cancel.h"
 #include "matching/matching.h"
 #include "matching/primal_dual_state.h"
 
@@ -61,7 +62,9 @@ FirstMatching<Value> first_matching(const MatchingGraph& graph) {
     ++first.degree[e.a];
     ++first.degree[e.b];
   }
+  check_cancelled();
   share_costs(graph, hub_degree(graph), first);
+  check_cancelled();
   for (const auto& e : graph.edges) {
     if (first.mate[e.a] >= 0 || first.mate[e.b] >= 0 || e.a == e.b) continue;
     if (4 * Value{e.cost} != first.dual[e.a] + first.dual[e.b]) continue;
@@ -93,6 +96,7 @@ PrimalDualState<Value, Cost> make_state(const MatchingGraph& graph, const FirstM
     }
   }
   state.arcs.resize(apart);
+  check_cancelled();
   const auto add = [&](int from, int to, Cost cost) {
     auto& node = state.nodes[from];
     const bool own = first.degree[from] <= State::kOwnArcs;
@@ -112,6 +116,7 @@ PrimalDualState<Value, Cost> make_state(const MatchingGraph& graph, const FirstM
 template <class Value, class Cost>
 void raise_free_nodes(PrimalDualState<Value, Cost>& state) {
   for (int v = 0; v < state.n_nodes; ++v) {
+    if (v % kPerCheck == 0) check_cancelled();
     if (state.nodes[v].mate >= 0) continue;
     Value least = 0;
     int best = -1;

@@ -6,6 +6,9 @@
 
 namespace delquad {
 
+/// Nodes or events after which a loop asks whether the run is cancelled: some milliseconds of work.
+inline constexpr unsigned kPerCheck = 1u << 14;
+
 /// What the primal-dual method knows of a graph between two searches (docs/matching.md): a matching, dual
 /// values and blossoms such that no edge has negative slack and all matched edges and all links of blossoms
 /// have none.

@@ -16,8 +16,8 @@ struct NamedSolver {
 
 std::deque<NamedSolver>& solvers() {
   static std::deque<NamedSolver> all = {
-      {"lemon", [](const Options&) { return make_lemon_solver(); }},
-      {"primal-dual", [](const Options&) { return make_primal_dual_solver(); }}};
+      {"primal-dual", [](const Options&) { return make_primal_dual_solver(); }},
+      {"lemon", [](const Options&) { return make_lemon_solver(); }}};
   return all;
 }
 

@@ -11,7 +11,7 @@ enum class Treatment { kNone, kPaper };
 
 /// What recombination can be told.
 struct RecombinationOptions {
-  std::string solver = "lemon";  ///< of matching_solver_names(); for the counts on curves, too
+  std::string solver = "primal-dual";  ///< of matching_solver_names(); for the counts on curves, too
   Treatment treatment = Treatment::kPaper;
   TreatmentOptions treatment_options;
 };

@@ -11,7 +11,7 @@ using namespace delquad;
 class Coarse final : public MatchingSolver {
  public:
   explicit Coarse(const Options& options)
-      : exact_(matching_solver("lemon")), levels_(options.integer("coarse.levels")) {}
+      : exact_(matching_solver("primal-dual")), levels_(options.integer("coarse.levels")) {}
   std::string name() const override { return "coarse"; }
 
   MatchingResult solve(const MatchingGraph& graph) const override {

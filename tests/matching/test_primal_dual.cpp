@@ -3,7 +3,10 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <stop_token>
 
+#include "base/context.h"
+#include "delquad/error.h"
 #include "matching/matching.h"
 #include "tests/matching/graph_kinds.h"
 
@@ -216,6 +219,28 @@ TEST(PrimalDual, TheSameGraphGivesTheSameMatching) {
   const MatchingResult first = make_primal_dual_solver()->solve(graph);
   ASSERT_EQ(first.status, MatchingStatus::kOptimal);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(make_primal_dual_solver()->solve(graph).mate, first.mate);
+}
+
+TEST(PrimalDual, IsCancelledAtAnyCheck) {
+  Random random(9);
+  MatchingGraph graph = cubic_graph(random, 200'000);
+  price(graph, random, 1'000'000);
+  long long all = 0;
+  {
+    const RunScope run({.threads = 1, .on_check = [&] { ++all; }});
+    make_primal_dual_solver()->solve(graph);
+  }
+  ASSERT_GT(all, 30);  // some milliseconds lie between two of them
+  for (long long at = 1; at <= all; at += all / 10) {
+    SCOPED_TRACE(at);
+    std::stop_source stop;
+    long long checks = 0;
+    const RunScope run({.threads = 1, .cancel = stop.get_token(), .on_check = [&] {
+                          if (++checks == at) stop.request_stop();
+                        }});
+    EXPECT_THROW(make_primal_dual_solver()->solve(graph), Cancelled);
+    EXPECT_EQ(checks, at);
+  }
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ struct Fake final : MatchingSolver {
       : spoil(std::move(spoil_)) {}
   std::string name() const override { return "fake"; }
   MatchingResult solve(const MatchingGraph& graph) const override {
-    MatchingResult result = matching_solver("lemon")->solve(graph);
+    MatchingResult result = matching_solver("primal-dual")->solve(graph);
     if (result.status == MatchingStatus::kOptimal) spoil(graph, result);
     return result;
   }
@@ -188,7 +188,8 @@ TEST_F(OwnSolver, ItsResultsAreChecked) {
 }
 
 TEST(Solvers, MistakesAreNamed) {
-  expect_input_error([] { matching_solver("lemom"); }, {"'lemom'", "known: lemon", "did you mean 'lemon'?"});
+  expect_input_error([] { matching_solver("lemom"); },
+                     {"'lemom'", "known: primal-dual, lemon", "did you mean 'lemon'?"});
   EXPECT_THROW(add_matching_solver("lemon", {}), std::invalid_argument);
   EXPECT_THROW(add_matching_solver("", {}), std::invalid_argument);
 }

@@ -18,7 +18,7 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
   EXPECT_EQ(options.number("insertion.rejection"), FrontalOptions{}.rejection);
   EXPECT_EQ(options.integer("smoothing.p"), SmoothingOptions{}.p);
   EXPECT_EQ(options.text("recombination.treatment"), "paper");
-  EXPECT_EQ(options.text("recombination.solver"), "lemon");
+  EXPECT_EQ(options.text("recombination.solver"), "primal-dual");
   EXPECT_TRUE(options.flag("repair.part_twins"));
   EXPECT_EQ(options.find("insertion.rejection"), nullptr);
   options.set("insertion.rejection", 0.5).set("smoothing.method", "lloyd").set("smoothing.rank", 3);
