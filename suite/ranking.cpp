@@ -12,6 +12,8 @@
 #include "suite/suite_list.h"
 #include "sweep/peer.h"
 #include "sweep/run_experiment.h"
+#include "sweep/samples.h"
+#include "sweep/statistics.h"
 #include "sweep/tables.h"
 
 namespace delquad {
@@ -67,11 +69,6 @@ bool is_sound(const CellRecord& record) {
   return record.reason.empty() && !record.skipped && record.unsound.empty();
 }
 
-double value_of(const CellRecord& record, const char* key) {
-  const auto at = record.values.find(key);
-  return at == record.values.end() ? std::nan("") : at->second;
-}
-
 /// What is added up over the cases of a family.
 class Sums {
  public:
@@ -81,8 +78,10 @@ class Sums {
     ++sound_;
     const double quads = value_of(*record, "percent_quads");
     solved_ += quads == 100;
-    score_ += value_of(*record, "eta_mean") * value_of(*record, "tau") / 100 * quads / 100;
-    for (const char* key : {"eta_mean", "d4", "tau"}) means_[key] += value_of(*record, key);
+    // Without any quad there is no eta.
+    if (quads > 0) score_ += value_of(*record, "eta_mean") * value_of(*record, "tau") / 100 * quads / 100;
+    for (const char* key : {"eta_mean", "d4", "tau"})
+      if (const double value = value_of(*record, key); !std::isnan(value)) values_[key].push_back(value);
     worst_ = std::min(worst_, value_of(*record, "eta_worst"));
     if (const double time = value_of(*record, "seconds_total"); time > 0) seconds_ += time;
   }
@@ -95,7 +94,7 @@ class Sums {
                                             {"failed", cases_ - sound_}};
     if (sound_ == 0) return values;
     values["eta_worst"] = worst_;
-    for (const auto& [key, sum] : means_) values[key] = sum / sound_;
+    for (const auto& [key, list] : values_) values[key] = mean(list);
     if (seconds_ > 0) values["seconds_total"] = seconds_;
     return values;
   }
@@ -103,7 +102,7 @@ class Sums {
  private:
   int cases_ = 0, sound_ = 0, solved_ = 0;
   double score_ = 0, worst_ = 1, seconds_ = 0;
-  std::map<std::string, double> means_;
+  std::map<std::string, std::vector<double>> values_;
 };
 
 /// `family`: null: all of them.

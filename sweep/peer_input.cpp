@@ -91,10 +91,30 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+bool is_triangulation(const fs::path& file) {
+  const std::string kind = kind_of_file(file);
+  return !is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off";
+}
+
+/// Every Gmsh reads MSH and STL; OBJ, OFF and packed files only some do.
+fs::path read_by_gmsh(const fs::path& file, const fs::path& folder) {
+  if (!is_triangulation(file) || file.extension() == ".stl" || file.extension() == ".msh") return file;
+  const Mesh read = read_mesh(file);
+  Mesh mesh;
+  mesh.points = read.points;
+  mesh.triangles = read.triangles;
+  for (const auto& [a, b, c, d] : read.quads)
+    for (const std::array<int, 3>& half : {std::array{a, b, c}, std::array{a, c, d}})
+      mesh.triangles.push_back(half);
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  mesh.regions = {{1, {}}};
+  write_msh(folder / "model.msh", mesh);
+  return folder / "model.msh";
+}
+
 void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
   out << "Merge " << quoted(file.string()) << ";\n";
-  const std::string kind = kind_of_file(file);
-  if (!is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off") {
+  if (is_triangulation(file)) {
     constexpr double kFeatureAngle = 40;  // degrees, as for our own
     out << "ClassifySurfaces{" << c.surface.feature_angle.value_or(kFeatureAngle) * std::numbers::pi / 180
         << ", 1, 1, Pi};\nCreateGeometry;\n";
@@ -105,7 +125,7 @@ void write_script(const PeerTask& task, const fs::path& script) {
   const PreparedProblem& prepared = task.prepared;
   const auto size = uniform_size(task.c);
   const fs::path folder = script.parent_path();
-  const fs::path model = prepared.surface ? surface_file(task, folder) : fs::path();
+  const fs::path model = prepared.surface ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
   if (!size) write_size_field(sample_sizes(task), "pos", folder);
   write_file_atomically(script, [&](std::ostream& stream) {
     TextWriter out(stream);

@@ -46,6 +46,9 @@ TEST(Ranking, CountsWhatIsMissingAsFailed) {
   write_study_of(folder / "a", "few", suite_title());
   write_cell(folder / "a", "gear_1", "few", metrics(1, 100, 100));
   write_cell(folder / "a", "gear_2", "few", metrics(1, 100, 50));
+  Json triangles_only = metrics(1, 70, 0);  // which have no eta of quads
+  triangles_only["metrics"]["eta_mean"] = triangles_only["metrics"]["eta_worst"] = nullptr;
+  write_cell(folder / "a", "gear_3", "few", triangles_only);
   write_cell(folder / "a", "bracket_1", "few", {{"status", "failed"}, {"reason", "it crashed"}});
   Json unsound = metrics(1, 100, 100);
   unsound["unsound"] = {"2 quads are inverted"};
@@ -63,10 +66,12 @@ TEST(Ranking, CountsWhatIsMissingAsFailed) {
   const auto& few = table.rows[1].values;
   EXPECT_EQ(few.at("cases"), 120);
   EXPECT_EQ(few.at("solved"), 1);
-  EXPECT_EQ(few.at("with_triangles"), 1);
-  EXPECT_EQ(few.at("failed"), 118);
+  EXPECT_EQ(few.at("with_triangles"), 2);
+  EXPECT_EQ(few.at("failed"), 117);
   EXPECT_NEAR(few.at("score"), 100 * 1.5 / 120, 1e-9);
   EXPECT_NEAR(few.at("eta_worst"), 0.5, 1e-9);
+  EXPECT_NEAR(few.at("eta_mean"), 1, 1e-9);
+  EXPECT_NEAR(few.at("tau"), 90, 1e-9);
   // By family: the CAD cases are all failed, and then there is nothing to take a mean of.
   EXPECT_EQ(table.rows[5].group, "CAD");
   EXPECT_EQ(table.rows[5].values.at("failed"), 42);

@@ -9,6 +9,10 @@
 #include "suite/triangle_models.h"
 
 namespace delquad {
+
+/// For names of tests.
+static void PrintTo(const SuiteModel& model, std::ostream* out) { *out << model.name; }
+
 namespace {
 
 TEST(Suite, HasFortyModelsOfThreeSizes) {

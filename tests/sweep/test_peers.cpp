@@ -292,7 +292,8 @@ TEST_F(Peers, BadEntriesAreNamed) {
                      {"'x'", "twice"});
 }
 
-/// Gmsh itself: keeps the boundary, and its size is ours, number or field.
+/// Gmsh itself: keeps the boundary, its size is ours, number or field, and it gets triangulations whose file
+/// it may not read.
 TEST_F(Peers, GmshMeshesWhatWeMesh) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
   const std::string text =
@@ -303,14 +304,16 @@ TEST_F(Peers, GmshMeshesWhatWeMesh) {
       "[[case.loop]]\nrectangle = [[0, 0], [1, 1]]\n[[case.loop]]\ncircle = { centre = [0.5, 0.5], radius = "
       "0.2 }\n"
       "region = \"disc\"\n"
-      "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n";
+      "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
+      "[[case]]\nname = \"lens\"\nsize = 0.1\nmodel = \"lens.obj\"\n";
+  write_obj(folder_ / "lens.obj", testing_support::lens(64, 12, 0.45));
   run_experiment(experiment("[\"DB\", \"gmsh\"]", text), out());
   std::map<std::string, double> quads;
   for (const CellRecord& record : read_records(out())) {
     EXPECT_EQ(record.reason, "") << record.group << " " << record.pipeline;
     quads[record.name + record.pipeline] = record.values.at("n_elements");
   }
-  for (const char* name : {"graded", "turned"})
+  for (const char* name : {"graded", "turned", "lens"})
     EXPECT_NEAR(quads.at(std::string(name) + "gmsh") / quads.at(std::string(name) + "DB"), 1.1, 0.3) << name;
 }
 
