@@ -17,7 +17,8 @@ namespace {
 
 /// Sweeps of local relocation within which an edit must settle.
 constexpr int kTrialSweeps = 4;
-/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more; in the end.
+/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more; in the
+/// end.
 constexpr int kSettlingSweeps = 3;
 constexpr double kSettled = 0.1, kSettledAtLast = 0.02;
 /// How much of the mean quality around an edit that lowers the valence sum may cost.

@@ -17,10 +17,10 @@ namespace delquad {
 /// + 0.12 * sum over its edges of  m^2 / (1 + m^2 / 2),  m = log(l/d),  l the length, d the mean of delta' at
 /// both ends (m by a Pade approximant, within 0.2 % from d/2 to 2 d), by a damped Newton step that goes
 /// 1.4 times as far as Newton's (with fixed neighbours that is too far; as they follow it takes half as many
-/// sweeps), at most a part of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that reflex and inverted
-/// corners are pulled straight. An edge's term is bounded, so that lengths which cannot be had (the
-/// boundary's edges are given) do not outweigh shapes. Only vertices near which something still moves are
-/// visited.
+/// sweeps), at most a part of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that
+/// reflex and inverted corners are pulled straight. An edge's term is bounded, so that lengths which cannot
+/// be had (the boundary's edges are given) do not outweigh shapes. Only vertices near which something still
+/// moves are visited.
 class QuadRelocation {
  public:
   /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part
