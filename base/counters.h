@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <tuple>
@@ -67,6 +68,19 @@ void for_each_counter(Visit&& visit) {
   static_assert(std::tuple_size_v<decltype(Counters<Summary>::all)> == counters_detail::n_members<Summary>(),
                 "a member of the summary is not in its list of counters");
   std::apply([&](const auto&... field) { (visit(field), ...); }, Counters<Summary>::all);
+}
+
+/// Adds what another call says to a summary. There may be no means.
+template <class Summary>
+void add_counters(Summary& total, const Summary& more) {
+  for_each_counter<Summary>([&](const auto& field) {
+    auto& value = total.*field.member;
+    const auto other = more.*field.member;
+    if (field.over == Over::kSum)
+      value += other;
+    else
+      value = field.over == Over::kMost ? std::max(value, other) : std::min(value, other);
+  });
 }
 
 /// What a summary says, for Summaries::add(Counters<Summary>::step, ...).

@@ -5,7 +5,8 @@
 
 namespace delquad {
 
-QuadTopology::QuadTopology(const QuadPatch& mesh) : n_boundary_(mesh.n_boundary), points_(mesh.points) {
+QuadTopology::QuadTopology(const QuadPatch& mesh, int first_held)
+    : n_boundary_(mesh.n_boundary), first_held_(first_held), points_(mesh.points) {
   corner_.reserve(4 * (mesh.quads.size() + mesh.triangles.size()));
   for (const auto& q : mesh.quads) corner_.insert(corner_.end(), q.begin(), q.end());
   for (const auto& t : mesh.triangles) corner_.insert(corner_.end(), {t[0], t[1], t[2], -1});

@@ -19,7 +19,9 @@ class QuadTopology {
  public:
   /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same
   /// direction, a boundary edge ends in an interior point, or a vertex index is out of range.
-  explicit QuadTopology(const QuadPatch& mesh);
+  explicit QuadTopology(const QuadPatch& mesh) : QuadTopology(mesh, mesh.n_boundary) {}
+  /// The boundary's points from `first_held` on are held, see QuadBlock.
+  QuadTopology(const QuadPatch& mesh, int first_held);
 
   /// Boundary points first, then live interior ones, each in the order of their creation; live elements
   /// likewise.
@@ -34,6 +36,15 @@ class QuadTopology {
   /// False for triangles and for dead slots.
   bool is_quad(int element) const { return corner_[4 * element + 3] >= 0; }
   bool on_boundary(int v) const { return v < n_boundary_; }
+  /// On the boundary, and other meshes have elements there.
+  bool held(int v) const { return v < n_boundary_ && v >= first_held_; }
+  bool any_held() const { return first_held_ < n_boundary_; }
+  /// Whether v or one of its neighbours is held.
+  bool near_held(int v) const {
+    bool near = held(v);
+    if (any_held()) for_each_out(v, [&](int h) { near |= held(target(h)) || held(origin(prev(h))); });
+    return near;
+  }
 
   static int element(int h) { return h >> 2; }
   /// -1 for the fourth of a triangle.
@@ -135,7 +146,7 @@ class QuadTopology {
   int add_vertex(Vec2 at);
   void build_twins();
 
-  int n_boundary_ = 0;
+  int n_boundary_ = 0, first_held_ = 0;
   std::vector<Vec2> points_;
   std::vector<int> corner_, twin_;  // by half-edge; corner -1: no such corner
   std::vector<int> out_, valence_;  // by vertex; out -1: dead

@@ -93,7 +93,7 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.quads = std::move(result);
   add_summary(log, DiscardSummary{.treatments = discarded});
   add_summary(log, treated);
-  log.add_seconds("treatment", treatment.seconds());
+  log.add_seconds("treatment", treatment.work_seconds());
 }
 
 void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& options) {
@@ -142,7 +142,7 @@ void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   }
   add_summary(log, summary);
   add_summary(log, DiscardSummary{.cleanups = discarded});
-  log.add_seconds("clean-up", watch.seconds());
+  log.add_seconds("clean-up", watch.work_seconds());
 }
 
 void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {

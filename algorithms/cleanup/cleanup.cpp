@@ -1,7 +1,9 @@
 #include "algorithms/cleanup/cleanup.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "algorithms/cleanup/cleanup_process.h"
 #include "base/cancel.h"
@@ -15,19 +17,52 @@ namespace {
 
 /// Sweeps of local relocation within which an edit must settle.
 constexpr int kTrialSweeps = 4;
-/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more.
+/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more; in the
+/// end.
 constexpr int kSettlingSweeps = 3;
-constexpr double kSettled = 0.03;
+constexpr double kSettled = 0.1, kSettledAtLast = 0.02;
 /// How much of the mean quality around an edit that lowers the valence sum may cost.
 constexpr double kGreedyLoss = 0.02;
+/// An edit is given up where a sweep leaves it so much farther away than it may be.
+constexpr double kHopeless = 0.03;
 /// Weight of the size deviation against eta: with 1 the annealing pays for regular vertices with tau.
 constexpr double kSizeWeight = 1.5;
 
+/// Vertices whose valence is not ideal, see ValenceEnergy.
+int count_irregular(const QuadPatch& mesh) {
+  std::vector<int> valence(mesh.points.size(), 0);
+  std::vector<double> angle(mesh.n_boundary, 0);
+  const auto add = [&](const auto& corners) {
+    const std::size_t n = corners.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const int v = corners[k];
+      ++valence[v];
+      if (v >= mesh.n_boundary) continue;
+      const Vec2 out = mesh.points[corners[(k + 1) % n]] - mesh.points[v];
+      const Vec2 in = mesh.points[corners[(k + n - 1) % n]] - mesh.points[v];
+      angle[v] += std::atan2(cross(out, in), dot(out, in));
+    }
+  };
+  for (const auto& quad : mesh.quads) add(quad);
+  for (const auto& triangle : mesh.triangles) add(triangle);
+  int irregular = 0;
+  for (std::size_t v = 0; v < valence.size(); ++v) {
+    int ideal = 4;
+    if (v < angle.size()) {
+      const double turns = angle[v] / (2 * std::numbers::pi);
+      ideal = std::max(1, static_cast<int>(std::lround(4 * (turns - std::ceil(turns) + 1))));
+    }
+    irregular += valence[v] > 0 && valence[v] != ideal;
+  }
+  return irregular;
+}
+
 }  // namespace
 
-CleanupProcess::CleanupProcess(const QuadPatch& mesh, const ParametricSize& size,
+CleanupProcess::CleanupProcess(const QuadBlock& block, const ParametricSize& size,
                                const CleanupOptions& options)
-    : mesh_(mesh),
+    : block_(block),
+      mesh_(block.mesh, block.first_held),
       energy_(mesh_),
       relocation_(mesh_, size),
       options_(options),
@@ -37,26 +72,19 @@ CleanupProcess::CleanupProcess(const QuadPatch& mesh, const ParametricSize& size
 }
 
 void CleanupProcess::run() {
-  summary_.irregular_before = count_irregular();
   relocation_.keep_convex_corners();
   relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
-  relocation_.activate_all();
+  relocation_.activate_all(block_);
   summary_.relocated += relocation_.relax(kSettled, 10);
   greedy();
-  for (int v = 0; v < mesh_.vertex_slots(); ++v) list_irregular(v);
+  for (int v = 0; v < mesh_.vertex_slots(); ++v)
+    if (block_.is_near(v)) list_irregular(v);
   for (int left = options_.rounds - 1; left >= 0 && !work_.empty(); --left)
     anneal(options_.tolerance * left / options_.rounds);
-  relocation_.activate_all();
-  summary_.relocated += relocation_.relax(0.01, 30);
+  relocation_.activate_all(block_);
+  summary_.relocated += relocation_.relax(kSettledAtLast, 30);
   summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
-  summary_.irregular_after = count_irregular();
   summary_.looks = relocation_.looks();
-}
-
-int CleanupProcess::count_irregular() const {
-  int irregular = 0;
-  for (int v = 0; v < mesh_.vertex_slots(); ++v) irregular += mesh_.vertex_alive(v) && energy_.of(v) > 0;
-  return irregular;
 }
 
 /// Edits of the elements around v, splits of v and of its neighbours.
@@ -92,7 +120,7 @@ void CleanupProcess::consider(std::span<const int> vertices) {
 void CleanupProcess::greedy() {
   std::vector<int> irregular;
   for (int v = 0; v < mesh_.vertex_slots(); ++v)
-    if (mesh_.vertex_alive(v) && energy_.of(v) > 0) irregular.push_back(v);
+    if (mesh_.vertex_alive(v) && energy_.of(v) > 0 && block_.is_near(v)) irregular.push_back(v);
   consider(irregular);
   drain();
 }
@@ -158,6 +186,7 @@ bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
       count(move);
       return true;
     }
+    if (after.mean < before.mean - loss - kHopeless) break;
   }
   mesh_.rollback(start);
   return false;
@@ -220,13 +249,18 @@ CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
 QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options,
                    CleanupSummary* summary) {
   const Stopwatch watch;
-  CleanupProcess process(mesh, size, options);
-  process.run();
-  QuadPatch result = process.result();
-  if (summary != nullptr) {
-    *summary = process.summary();
-    summary->seconds = watch.seconds();
-  }
+  CleanupSummary total;
+  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, CleanupSummary& part) {
+    CleanupProcess process(block, size, options);
+    process.run();
+    part = process.summary();
+    return process.result();
+  });
+  if (summary == nullptr) return result;
+  *summary = total;
+  summary->irregular_before = count_irregular(mesh);
+  summary->irregular_after = count_irregular(result);
+  summary->seconds = watch.work_seconds();
   return result;
 }
 

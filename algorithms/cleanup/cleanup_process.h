@@ -8,6 +8,7 @@
 #include "algorithms/treatment/move_queue.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"
+#include "mesh/quad_blocks.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
@@ -15,7 +16,8 @@ namespace delquad {
 /// The state and the steps of one clean-up; clean_up() is its public face.
 class CleanupProcess {
  public:
-  CleanupProcess(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options);
+  /// Block and size outlive this object.
+  CleanupProcess(const QuadBlock& block, const ParametricSize& size, const CleanupOptions& options);
 
   void run();
   QuadPatch result() const { return mesh_.to_patch(); }
@@ -28,7 +30,6 @@ class CleanupProcess {
     double least_sine = 1;  ///< of all corners
   };
 
-  int count_irregular() const;
   void greedy();
   template <class F>
   void for_each_edit_near(int v, F&& f);
@@ -44,6 +45,7 @@ class CleanupProcess {
   double deviation(int element) const;
   void list_irregular(int v);
 
+  const QuadBlock& block_;
   QuadTopology mesh_;
   ValenceEnergy energy_;
   QuadRelocation relocation_;

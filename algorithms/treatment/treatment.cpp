@@ -11,6 +11,8 @@ namespace {
 
 /// Sweeps of local relocation within which a move must settle; and for the few that may lift a poor element.
 constexpr int kTrialSweeps = 4, kRescueSweeps = 12;
+/// In the end vertices rest once they would move by less than this part of an edge.
+constexpr double kSettled = 0.03;
 /// A pair's first move may cost this much valence energy; of its second moves so many are tried.
 constexpr int kPairLoss = 2, kPairTries = 3;
 /// No pair of moves gains where the energy around is less: a dislocation alone (3-5) cannot vanish.
@@ -21,7 +23,8 @@ constexpr int kRemeshingPasses = 5;
 }  // namespace
 
 void TreatmentProcess::run(const TreatmentOptions& options) {
-  relocation_.activate_all();
+  for (int e = 0; e < mesh_.element_slots(); ++e) pending_.push_back(is_near(e));
+  relocation_.activate_all(block_);
   summary_.relocated += relocation_.relax(0.1, 6);
   // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
   // never negative; a rescue, at most one for each element that the round began with, may raise it by a few.
@@ -32,11 +35,11 @@ void TreatmentProcess::run(const TreatmentOptions& options) {
     changes += rescues();
   }
   relocation_.keep_convex_corners();
-  relocation_.activate_all();
-  summary_.relocated += relocation_.relax(0.01, 30);
+  relocation_.activate_all(block_);
+  summary_.relocated += relocation_.relax(kSettled, 30);
   if (options.max_rounds > 0) {
     for (int pass = 0; pass < kRemeshingPasses && remeshings() > 0;) ++pass;
-    summary_.relocated += relocation_.relax(0.01, 30);
+    summary_.relocated += relocation_.relax(kSettled, 30);
   }
   summary_.relocated += relocation_.lift_worst(0.5, 10);
   summary_.looks = relocation_.looks();
@@ -59,9 +62,15 @@ void TreatmentProcess::consider(int element) {
   for_each_opening(mesh_, element, push);
 }
 
+bool TreatmentProcess::is_near(int element) const {
+  for (int k = 0; k < 4; ++k)
+    if (const int v = mesh_.corner(element, k); v >= 0 && block_.is_near(v)) return true;
+  return false;
+}
+
 int TreatmentProcess::single_moves() {
   for (int e = 0; e < mesh_.element_slots(); ++e)
-    if (irregular(e)) consider(e);
+    if (irregular(e) && is_near(e)) consider(e);
   return drain();
 }
 
@@ -222,14 +231,16 @@ void TreatmentProcess::count(const TreatmentMove& move) {
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options,
                       TreatmentSummary* summary) {
   const Stopwatch watch;
-  TreatmentProcess treatment(mesh, size);
-  treatment.run(options);
-  QuadPatch result = treatment.result();
-  if (summary != nullptr) {
-    *summary = treatment.summary();
-    summary->seconds = watch.seconds();
-  }
-  return result;
+  TreatmentSummary total;
+  mesh = work_in_blocks(std::move(mesh), total, [&](const QuadBlock& block, TreatmentSummary& part) {
+    TreatmentProcess treatment(block, size);
+    treatment.run(options);
+    part = treatment.summary();
+    return treatment.result();
+  });
+  total.seconds = watch.work_seconds();
+  if (summary != nullptr) *summary = total;
+  return mesh;
 }
 
 }  // namespace delquad

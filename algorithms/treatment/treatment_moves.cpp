@@ -45,6 +45,10 @@ ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
   for (std::size_t valence = 0; valence < inside_.size(); ++valence)
     inside_[valence] = misfit(static_cast<int>(valence), kInside);
   for (int v = 0; v < mesh.vertex_slots() && mesh.on_boundary(v); ++v) {
+    if (mesh.held(v)) {
+      ideal_.push_back({static_cast<double>(mesh.valence(v)), mesh.valence(v)});
+      continue;
+    }
     double angle = 0;
     if (mesh.vertex_alive(v)) {
       int last = -1;
@@ -106,7 +110,10 @@ bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> qu
   });
 }
 
-bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
+namespace {
+
+/// As if no vertex were held.
+bool is_legal_alone(const QuadTopology& mesh, const TreatmentMove& move) {
   switch (move.kind) {
     case TreatmentMove::kCollapse:
       return mesh.can_collapse(move.at);
@@ -124,6 +131,21 @@ bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
     default:
       return mesh.can_rotate(move.at, move.kind == TreatmentMove::kRotateForward);
   }
+}
+
+/// Whether the move would change the valence of a held vertex, or give it an edge that another of its fans
+/// may have.
+bool disturbs_held(const QuadTopology& mesh, const TreatmentMove& move) {
+  if (!mesh.any_held() || move.kind == TreatmentMove::kInset) return false;
+  if (move.kind == TreatmentMove::kCollapse && mesh.near_held(mesh.target(mesh.next(move.at)))) return true;
+  if (move.kind == TreatmentMove::kDoublet) return mesh.near_held(move.at);
+  return std::ranges::any_of(touched_by(mesh, move), [&](int v) { return mesh.held(v); });
+}
+
+}  // namespace
+
+bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
+  return is_legal_alone(mesh, move) && !disturbs_held(mesh, move);
 }
 
 void apply(QuadTopology& mesh, const TreatmentMove& move) {

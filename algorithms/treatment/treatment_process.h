@@ -8,6 +8,7 @@
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"
+#include "mesh/quad_blocks.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
@@ -15,14 +16,15 @@ namespace delquad {
 /// The state and the steps of one treatment; treat_paper() is its public face.
 class TreatmentProcess {
  public:
-  TreatmentProcess(const QuadPatch& mesh, const ParametricSize& size)
-      : mesh_(mesh),
+  /// Both outlive this object.
+  TreatmentProcess(const QuadBlock& block, const ParametricSize& size)
+      : block_(block),
+        mesh_(block.mesh, block.first_held),
         energy_(mesh_),
         relocation_(mesh_, size),
         penalty_(mesh_),
         remeshing_(mesh_, relocation_, penalty_),
         queue_(mesh_, energy_),
-        pending_(mesh_.element_slots(), 1),
         most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()) {}
 
   void run(const TreatmentOptions& options);
@@ -55,7 +57,9 @@ class TreatmentProcess {
   void accept();
   void count(const TreatmentMove& move);
   bool irregular(int element) const;
+  bool is_near(int element) const;
 
+  const QuadBlock& block_;
   QuadTopology mesh_;
   ValenceEnergy energy_;
   QuadRelocation relocation_;

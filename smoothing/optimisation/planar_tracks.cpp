@@ -20,7 +20,6 @@ PlanarTracks::PlanarTracks(std::vector<Vec2> nodes, const std::vector<CurvePlace
       points_(std::move(nodes)),
       stays_(points_.size(), 0) {
   places_.resize(points_.size());
-  cross_hint_.assign(patches_.size(), -1);
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     const QuadPatch& mesh = *patches_[p].mesh;
     std::vector<int> vertex = patches_[p].point_node;
@@ -56,10 +55,10 @@ std::array<Vec2, 2> PlanarTracks::axes(int v) const {
   return {1 / (b - a) * (place.curve->point(b) - place.curve->point(a)), Vec2{}};
 }
 
-Vec2 PlanarTracks::arm(int quad, int side) const {
+Vec2 PlanarTracks::arm(int quad, int side, TrackHint& hint) const {
   const Vec2 a = points_[quads_[quad][side]], b = points_[quads_[quad][(side + 1) % 4]];
   const int patch = quad_patch_[quad];
-  const Cross c = patches_[patch].cross->at(0.5 * (a + b), cross_hint_[patch]);
+  const Cross c = patches_[patch].cross->at(0.5 * (a + b), hint.cross_of(patch));
   const double angle = c.angle();
   return c.c == 0 && c.s == 0 ? Vec2{} : Vec2{std::cos(angle), std::sin(angle)};
 }

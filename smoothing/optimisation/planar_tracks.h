@@ -32,8 +32,8 @@ class PlanarTracks final : public VertexTracks<Vec2> {
   Vec2 position(int v) const override { return is_node(v) ? Vec2{places_[v].t, 0} : points_[v]; }
   Vec2 put(int v, Vec2 position) override;
   std::array<Vec2, 2> axes(int v) const override;
-  double delta(const Vec2& place) const override { return size_.at(place, size_hint_); }
-  Vec2 arm(int quad, int side) const override;
+  double delta(const Vec2& place, TrackHint& hint) const override { return size_.at(place, hint.size); }
+  Vec2 arm(int quad, int side, TrackHint& hint) const override;
 
  private:
   bool is_node(int v) const { return v < static_cast<int>(places_.size()); }
@@ -45,8 +45,6 @@ class PlanarTracks final : public VertexTracks<Vec2> {
   std::vector<std::array<int, 4>> quads_;
   std::vector<int> quad_patch_;
   std::vector<char> stays_;
-  mutable int size_hint_ = -1;
-  mutable std::vector<int> cross_hint_;  ///< by patch
 };
 
 }  // namespace delquad

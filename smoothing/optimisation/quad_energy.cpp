@@ -33,6 +33,7 @@ QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& w
   find_slots_of_moving();
   for (const Slot& slot : slots_) at_.push_back(start_[slot.vertex]);
   slope_.resize(slots_.size());
+  states_.resize(sides_.size());
   energies_.resize(pieces_.size());
 }
 
@@ -65,8 +66,9 @@ void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
     for (int k = 0; k < 4; ++k) {
       const int a = v[k], b = v[(k + 1) % 4];
       if ((!moves(a) && !moves(b)) || !is_new(a, b)) continue;
-      edges_.push_back({a, b, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.least_lengths[q][k],
+      edges_.push_back({-1, 2 / (mesh.delta[a] + mesh.delta[b]), mesh.least_lengths[q][k],
                         mesh.arm(static_cast<int>(q), k)});
+      ends_.push_back({a, b});
     }
     if (quads_.size() - quads_begin < kPieceLength) continue;
     add_slots(quads_begin, edges_begin, moving);
@@ -80,17 +82,45 @@ void QuadEnergy<Vec>::add_slots(std::size_t quads_begin, std::size_t edges_begin
                                 const std::vector<int>& moving) {
   std::vector<int> vertices;
   for (std::size_t q = quads_begin; q < quads_.size(); ++q)
-    vertices.insert(vertices.end(), quads_[q].slots.begin(), quads_[q].slots.end());
+    vertices.insert(vertices.end(), quads_[q].sides.begin(), quads_[q].sides.end());
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const int first = static_cast<int>(slots_.size());
   const auto to_slot = [&](int& v) {
     v = first + static_cast<int>(std::ranges::lower_bound(vertices, v) - vertices.begin());
   };
-  for (std::size_t q = quads_begin; q < quads_.size(); ++q) std::ranges::for_each(quads_[q].slots, to_slot);
-  for (std::size_t e = edges_begin; e < edges_.size(); ++e) to_slot(edges_[e].a), to_slot(edges_[e].b);
+  for (std::size_t q = quads_begin; q < quads_.size(); ++q) std::ranges::for_each(quads_[q].sides, to_slot);
+  for (std::size_t e = edges_begin; e < edges_.size(); ++e) std::ranges::for_each(ends_[e], to_slot);
   for (const int v : vertices) slots_.push_back({v, moving[v]});
-  pieces_.push_back({quads_.size(), edges_.size(), slots_.size()});
+  add_sides(quads_begin, edges_begin, first);
+  pieces_.push_back({quads_.size(), edges_.size(), slots_.size(), sides_.size()});
+}
+
+/// Puts sides in the place of slots.
+template <class Vec>
+void QuadEnergy<Vec>::add_sides(std::size_t quads_begin, std::size_t edges_begin, std::size_t slots_begin) {
+  // Chained by their lesser end.
+  const int sides_begin = static_cast<int>(sides_.size());
+  std::vector<int> first(slots_.size() - slots_begin, -1), following;
+  const auto side_of = [&](int a, int b) {
+    int& chain = first[std::min(a, b) - slots_begin];
+    for (int s = chain; s >= 0; s = following[s - sides_begin]) {
+      if (sides_[s].a == a && sides_[s].b == b) return s;
+      if (sides_[s].a == b && sides_[s].b == a) return ~s;
+    }
+    following.push_back(chain);
+    chain = static_cast<int>(sides_.size());
+    sides_.push_back({a, b});
+    return chain;
+  };
+  for (std::size_t q = quads_begin; q < quads_.size(); ++q) {
+    const std::array<int, 4> v = quads_[q].sides;
+    for (int k = 0; k < 4; ++k) quads_[q].sides[k] = side_of(v[k], v[(k + 1) % 4]);
+  }
+  for (std::size_t e = edges_begin; e < edges_.size(); ++e) {
+    const int s = side_of(ends_[e][0], ends_[e][1]);
+    edges_[e].side = s < 0 ? ~s : s;
+  }
 }
 
 template <class Vec>
@@ -144,29 +174,42 @@ bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient
 template <class Vec>
 template <bool kSlope>
 bool QuadEnergy<Vec>::add_piece(std::size_t piece, const double* x, double& energy) const {
-  const Piece begin = piece == 0 ? Piece{0, 0, 0} : pieces_[piece - 1], end = pieces_[piece];
+  const Piece begin = piece == 0 ? Piece{0, 0, 0, 0} : pieces_[piece - 1], end = pieces_[piece];
   for (std::size_t s = begin.slots_end; s < end.slots_end; ++s) {
     if (slots_[s].moving >= 0) at_[s] = place(slots_[s].moving, x);
     slope_[s] = {};
+  }
+  for (std::size_t s = begin.sides_end; s < end.sides_end; ++s) {
+    const Vec along = at_[sides_[s].b] - at_[sides_[s].a];
+    const double length = norm(along), inverse = 1 / length;
+    states_[s] = {inverse * along, inverse, length, {}};
   }
   energy = 0;
   for (std::size_t q = begin.quads_end; q < end.quads_end; ++q)
     if (!add_quad<kSlope>(quads_[q], energy)) return false;
   for (std::size_t e = begin.edges_end; e < end.edges_end; ++e)
     if (!add_edge<kSlope>(edges_[e], energy)) return false;
+  if constexpr (!kSlope) return true;
+  for (std::size_t s = begin.sides_end; s < end.sides_end; ++s) {
+    const auto [a, b] = sides_[s];
+    slope_[a] = slope_[a] - states_[s].slope;
+    slope_[b] = slope_[b] + states_[s].slope;
+  }
   return true;
 }
 
 template <class Vec>
 template <bool kSlope>
 bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
-  const auto& v = quad.slots;
   Vec side[4];  // unit vectors
-  double inverse[4];
+  double inverse[4], sign[4];
+  SideState* states[4];
   for (int k = 0; k < 4; ++k) {
-    side[k] = at_[v[(k + 1) % 4]] - at_[v[k]];
-    inverse[k] = 1 / norm(side[k]);
-    side[k] = inverse[k] * side[k];
+    const int s = quad.sides[k];
+    states[k] = &states_[s < 0 ? ~s : s];
+    sign[k] = s < 0 ? -1 : 1;
+    side[k] = sign[k] * states[k]->u;
+    inverse[k] = states[k]->inverse;
   }
   const QuadCorner<Vec> corner[4] = {{side[3], side[0], quad.normal},
                                      {side[0], side[1], quad.normal},
@@ -196,20 +239,20 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
     by_side[before] = by_side[before] - by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
     by_side[k] = by_side[k] + by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
   }
-  for (int k = 0; k < 4; ++k) slope_[v[k]] = slope_[v[k]] + (by_side[(k + 3) % 4] - by_side[k]);
+  for (int k = 0; k < 4; ++k) states[k]->slope = states[k]->slope + sign[k] * by_side[k];
   return true;
 }
 
 template <class Vec>
 template <bool kSlope>
 bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
-  const Vec along = at_[edge.b] - at_[edge.a];
-  const double length = norm(along), inverse = 1 / length;
+  SideState& side = states_[edge.side];
+  const double length = side.length, inverse = side.inverse;
   if (!(length > edge.least_length)) return false;
   // Hyperbolic sine and cosine of log(l/d): their difference is min(l/d, d/l).
   const double ratio = length * edge.inverse_length, cosh = 0.5 * (ratio + 1 / ratio), sinh = ratio - cosh;
   const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), lack = cosh - rounded + kSizeKink;
-  const Vec u = inverse * along;
+  const Vec u = side.u;
   // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
   const double too_short = weights_.barrier * edge.least_length / (length - edge.least_length);
@@ -221,9 +264,7 @@ bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
       weights_.size * (sinh * (cosh / rounded - 1) - 2 * kShortWeight * far_off) * inverse -
       too_short / (length - edge.least_length);
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
-  const Vec by_end = by_length * u + by_cosine * (edge.arm - c * u);
-  slope_[edge.b] = slope_[edge.b] + by_end;
-  slope_[edge.a] = slope_[edge.a] - by_end;
+  side.slope = side.slope + (by_length * u + by_cosine * (edge.arm - c * u));
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -70,22 +71,31 @@ class QuadEnergy {
 
  private:
   struct Quad {
-    std::array<int, 4> slots;
-    unsigned movable;  ///< a bit for each corner
-    Vec normal;        ///< in space
+    std::array<int, 4> sides;  ///< their numbers, or the complements of these where they run the other way
+    std::uint32_t movable;     ///< a bit for each corner
+    Vec normal;                ///< in space
     double least_sine, weight;
     bool moves(int k) const { return (movable >> k & 1U) != 0; }
   };
+  /// A side of one quad or two of a piece, and what is known of it at each evaluation.
+  struct Side {
+    int a, b;  ///< slots
+  };
+  struct SideState {
+    Vec u;  ///< unit vector from a to b
+    double inverse, length;
+    Vec slope;  ///< of the energy, against the vector from a to b
+  };
   struct Edge {
-    int a, b;               ///< slots
+    int side;
     double inverse_length;  ///< wanted
     double least_length;
     Vec arm;
   };
-  /// Some quads that follow each other, the edges first seen on them, and a slot for each of their vertices:
-  /// one thread's work. It begins where the piece before ends.
+  /// Some quads that follow each other, their sides, the edges first seen on them, and a slot for each of
+  /// their vertices: one thread's work. It begins where the piece before ends.
   struct Piece {
-    std::size_t quads_end, edges_end, slots_end;
+    std::size_t quads_end, edges_end, slots_end, sides_end;
   };
   struct Slot {
     int vertex, moving;  ///< `moving`: its number among those that move, -1: it stays
@@ -93,6 +103,7 @@ class QuadEnergy {
 
   void add_pieces(const QuadEnergyMesh<Vec>& mesh);
   void add_slots(std::size_t quads_begin, std::size_t edges_begin, const std::vector<int>& moving);
+  void add_sides(std::size_t quads_begin, std::size_t edges_begin, std::size_t slots_begin);
   void find_slots_of_moving();
   Vec place(int moving, const double* x) const;
   template <bool kSlope>
@@ -107,12 +118,15 @@ class QuadEnergy {
   std::vector<MovingVertex<Vec>> moving_;
   std::vector<Quad> quads_;
   std::vector<Edge> edges_;
+  std::vector<std::array<int, 2>> ends_;  ///< vertices, then slots, of the edges until their sides are known
+  std::vector<Side> sides_;
   std::vector<Slot> slots_;
   std::vector<Piece> pieces_;
   std::vector<std::size_t> first_slot_;  ///< into slots_of_moving_, of each moving vertex
   std::vector<int> slots_of_moving_;
-  mutable std::vector<Vec> at_, slope_;   // by slot; where nothing moves, at_ never changes
-  mutable std::vector<double> energies_;  // by piece
+  mutable std::vector<Vec> at_, slope_;    // by slot; where nothing moves, at_ never changes
+  mutable std::vector<SideState> states_;  // by side
+  mutable std::vector<double> energies_;   // by piece
 };
 
 }  // namespace delquad

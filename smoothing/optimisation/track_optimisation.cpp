@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "mesh/element_blocks.h"
 #include "mesh/quad_corners.h"
+#include "smoothing/optimisation/block_tracks.h"
 #include "smoothing/optimisation/minimise_energy.h"
 
 namespace delquad {
@@ -46,14 +47,19 @@ class TrackOptimisation {
                     VertexTracks<Vec>& tracks, const OptimisationOptions& options)
       : points_(points), quads_(quads), tracks_(tracks), options_(options) {}
 
+  /// To be called once, before the others.
+  void find_free();
   OptimisationSummary run();
+  /// The least eta of quads that can move.
+  double worst() const { return std::max(0.0, eta_of_sine(least())); }
+  const OptimisationSummary& summary() const { return summary_; }
 
  private:
   std::array<double, 4> movable_sines(std::size_t quad) const;
   double movable_sine(std::size_t quad) const;
   std::vector<double> least_sines() const;
   double least() const;
-  void find_free();
+  void find_delta();
   std::vector<char> around_below(double eta) const;
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
@@ -68,6 +74,8 @@ class TrackOptimisation {
   VertexTracks<Vec>& tracks_;
   OptimisationOptions options_;
   std::vector<char> free_;                            ///< by vertex
+  std::vector<double> delta_;                         ///< by vertex
+  std::vector<Vec> delta_at_;                         ///< where it was found
   std::vector<std::array<double, 4>> least_lengths_;  ///< of each quad's sides
   std::vector<double> kept_;  ///< the least sine that each quad must keep in this pass
   OptimisationSummary summary_;
@@ -110,16 +118,39 @@ void TrackOptimisation<Vec>::find_free() {
   free_.assign(points_.size(), 0);
   for (const auto& quad : quads_)
     for (const int v : quad) free_[v] = 1;
-  for (std::size_t v = 0; v < points_.size(); ++v)
-    if (free_[v] && tracks_.axes(static_cast<int>(v)) == std::array<Vec, 2>{}) free_[v] = 0;
+  parallel_ranges(points_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      if (free_[v] && tracks_.axes(static_cast<int>(v)) == std::array<Vec, 2>{}) free_[v] = 0;
+  });
   const std::vector<char> all = free_;
-  for (std::size_t q = 0; q < quads_.size(); ++q) {
-    const auto& v = quads_[q];
-    const auto sines = corner_sines(std::array{points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]});
-    if (std::min({sines[0], sines[1], sines[2], sines[3]}) <= kHeldSine)
-      for (const int i : v) free_[i] = 0;
-  }
+  std::vector<char> flat(quads_.size());
+  parallel_ranges(flat.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      const auto& v = quads_[q];
+      const auto sines = corner_sines(std::array{points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]});
+      flat[q] = std::min({sines[0], sines[1], sines[2], sines[3]}) <= kHeldSine;
+    }
+  });
+  for (std::size_t q = 0; q < flat.size(); ++q)
+    if (flat[q])
+      for (const int i : quads_[q]) free_[i] = 0;
   for (std::size_t v = 0; v < free_.size(); ++v) summary_.held += all[v] && !free_[v];
+}
+
+/// At the vertices that moved since.
+template <class Vec>
+void TrackOptimisation<Vec>::find_delta() {
+  const bool first = delta_.empty();
+  delta_.resize(points_.size());
+  delta_at_.resize(points_.size());
+  parallel_ranges(points_.size(), [&](std::size_t begin, std::size_t end) {
+    TrackHint hint;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (!first && delta_at_[v] == points_[v]) continue;
+      delta_at_[v] = points_[v];
+      delta_[v] = tracks_.delta(points_[v], hint);
+    }
+  });
 }
 
 /// The vertices that can move around quads below this eta.
@@ -159,12 +190,7 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
   QuadEnergyMesh<Vec> mesh;
   mesh.points = points_;
   mesh.quads = quads_;
-  mesh.delta.assign(points_.size(), std::numeric_limits<double>::infinity());
-  for (const auto& quad : quads_) {
-    if (std::none_of(quad.begin(), quad.end(), [&](int v) { return free[v]; })) continue;
-    for (const int v : quad)
-      if (std::isinf(mesh.delta[v])) mesh.delta[v] = tracks_.delta(points_[v]);
-  }
+  mesh.delta = delta_;
   mesh.least_lengths = least_lengths_;
   const std::vector<double> reach = reaches(mesh.delta);
   for (std::size_t v = 0; v < points_.size(); ++v)
@@ -177,7 +203,7 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
         if (const double n = norm(axis); n > 0) axis = (reach[v] / n) * axis;
     }
   });
-  mesh.arm = [this](int quad, int side) { return tracks_.arm(quad, side); };
+  mesh.arm = [this, hint = TrackHint()](int quad, int side) mutable { return tracks_.arm(quad, side, hint); };
   return mesh;
 }
 
@@ -201,8 +227,9 @@ void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, Quad
 template <class Vec>
 EnergyDescent TrackOptimisation<Vec>::descend(const std::vector<char>& free,
                                               const QuadEnergyWeights& weights) {
+  if (std::ranges::find(free, 1) == free.end()) return {};
+  find_delta();
   QuadEnergyMesh<Vec> mesh = energy_mesh(free);
-  if (mesh.moving.empty()) return {};
   set_barriers(weights, mesh);
   const std::vector<MovingVertex<Vec>> moving = mesh.moving;
   const QuadEnergy<Vec> energy(std::move(mesh), weights);
@@ -278,15 +305,16 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
 
 template <class Vec>
 OptimisationSummary TrackOptimisation<Vec>::run() {
-  find_free();
-  for (const auto& quad : quads_) {
-    auto& least = least_lengths_.emplace_back();
-    for (int k = 0; k < 4; ++k) {
-      const Vec a = points_[quad[k]], b = points_[quad[(k + 1) % 4]];
-      least[k] = kShortest * std::min({norm(b - a), tracks_.delta(a), tracks_.delta(b)});
-    }
-  }
-  summary_.worst_before = std::max(0.0, eta_of_sine(least()));
+  find_delta();
+  least_lengths_.resize(quads_.size());
+  parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quads_[q][k], b = quads_[q][(k + 1) % 4];
+        least_lengths_[q][k] = kShortest * std::min({norm(points_[b] - points_[a]), delta_[a], delta_[b]});
+      }
+  });
+  summary_.worst_before = worst();
   QuadEnergyWeights weights;
   weights.size = options_.size;
   weights.alignment = options_.alignment;
@@ -302,8 +330,18 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
     }
     if (descent.energy_before - descent.energy_after <= kLeastGain * std::abs(descent.energy_before)) break;
   }
-  summary_.worst_after = std::max(0.0, eta_of_sine(least()));
+  summary_.worst_after = worst();
   return summary_;
+}
+
+std::vector<Vec2> in_a_plane(const std::vector<Vec2>& points) { return points; }
+
+/// Along a direction that faces hardly have.
+std::vector<Vec2> in_a_plane(const std::vector<Vec3>& points) {
+  std::vector<Vec2> places;
+  places.reserve(points.size());
+  for (const Vec3& p : points) places.push_back({p.x + 0.37 * p.z, p.y + 0.61 * p.z});
+  return places;
 }
 
 }  // namespace
@@ -311,7 +349,32 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
 template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options) {
-  return TrackOptimisation<Vec>(points, quads, tracks, options).run();
+  TrackOptimisation<Vec> all(points, quads, tracks, options);
+  all.find_free();
+  ElementBlocks blocks;
+  OptimisationSummary total;
+  for (int pass = 0; blocks.next({quads}, in_a_plane(points)); ++pass) {
+    if (blocks.is_whole()) return all.run();
+    if (pass == 0) total = all.summary(), total.worst_before = all.worst();
+    std::vector<OptimisationSummary> parts(blocks.size());
+    parallel_for(blocks.size(), [&](std::size_t b) {
+      BlockTracks<Vec> block(tracks, quads, blocks, b);
+      std::vector<Vec> own = block.points(points);
+      TrackOptimisation<Vec> part(own, block.quads(), block, options);
+      part.find_free();
+      parts[b] = part.run();
+      block.store(own, points);
+    });
+    for (const OptimisationSummary& part : parts) {
+      total.iterations += part.iterations;
+      total.evaluations += part.evaluations;
+      if (pass > 0) continue;
+      total.energy_before += part.energy_before;
+      total.energy_after += part.energy_after;
+    }
+  }
+  total.worst_after = all.worst();
+  return total;
 }
 
 template OptimisationSummary optimise_on_tracks(std::vector<Vec2>&, const std::vector<std::array<int, 4>>&,

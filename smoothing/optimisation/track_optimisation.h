@@ -8,8 +8,22 @@
 
 namespace delquad {
 
+/// Where the last size and the last cross were found. It never changes what is found: start with a new one
+/// and carry it along between nearby places.
+struct TrackHint {
+  int size = -1;
+  int patch = -1, cross = -1;  ///< `cross` is of that patch
+
+  /// That of a patch's cross.
+  int& cross_of(int p) {
+    if (patch != p) patch = p, cross = -1;
+    return cross;
+  }
+};
+
 /// Where the vertices of a quad mesh can go, in the plane (Vec2) or in space (Vec3): over surfaces, or along
-/// curves. position(), put() and axes() of different vertices may be called from several threads at a time.
+/// curves. position(), put() and axes() of different vertices may be called from several threads at a time,
+/// and so may delta() and arm() while the vertices around do not move.
 template <class Vec>
 class VertexTracks {
  public:
@@ -21,15 +35,16 @@ class VertexTracks {
   /// Derivatives of the place by the position, where v is; zero: it does not move that way.
   virtual std::array<Vec, 2> axes(int v) const = 0;
   /// The wanted edge length.
-  virtual double delta(const Vec& place) const = 0;
+  virtual double delta(const Vec& place, TrackHint& hint) const = 0;
   /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
-  virtual Vec arm(int quad, int side) const = 0;
+  virtual Vec arm(int quad, int side, TrackHint& hint) const = 0;
 };
 
 /// Moves the vertices of a quad mesh together to the least of QuadEnergy by L-BFGS (Ceres). In each pass
 /// those around the worst quads move first by themselves, with a weight on bad quads that lifts these; then
 /// all, from the second pass on those around quads that are not good yet. `points` are the places of the
-/// vertices on their tracks, and are updated. Works on several threads.
+/// vertices on their tracks, and are updated. Works on several threads: a large mesh block by block, see
+/// ElementBlocks, each with passes of its own.
 ///
 /// Vertices of flat or inverted quads stay. In each pass vertices move along their tangents and are then put
 /// on their tracks. No quad's least sine falls below both that of eta kOptimisedFloorEta and half a percent

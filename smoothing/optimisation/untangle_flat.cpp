@@ -1,7 +1,11 @@
 #include "smoothing/optimisation/untangle_flat.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 
+#include "base/parallel.h"
+#include "mesh/quad_corners.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/relocation/short_edges.h"
 #include "smoothing/relocation/untangling.h"
@@ -36,9 +40,22 @@ std::vector<char> flat_quads(const QuadTopology& topology) {
   return flat;
 }
 
+bool has_flat_quads(const QuadPatch& mesh) {
+  std::atomic<bool> found = false;
+  parallel_ranges(mesh.quads.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      const auto& v = mesh.quads[q];
+      const std::array at{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
+      if (std::ranges::min(corner_sines(at)) <= kFlatSine) found = true;
+    }
+  });
+  return found;
+}
+
 }  // namespace
 
 int untangle_flat(QuadPatch& mesh, const ParametricSize& size) {
+  if (!has_flat_quads(mesh) && !may_have_short_edges(mesh, size)) return 0;
   QuadTopology topology(mesh);
   if (lengthen_short_edges(topology, size) > 0) mesh = topology.to_patch();
   const auto flat = flat_quads(topology);

@@ -18,6 +18,8 @@ constexpr double kLengthWeight = 0.12;
 constexpr double kSteepSine = 0.05, kSteep = 40;
 /// Square of the misfit (logarithm of length / delta) past which the length term levels off.
 constexpr double kHopeless = 2;
+/// How far a step goes, in Newton's steps.
+constexpr double kOverRelaxation = 1.4;
 /// A step is at most this part of the shortest edge.
 constexpr double kLongestStep = 0.4;
 /// No step makes an edge shorter that is, or would be, shorter than this part of delta'. Angles alone do not
@@ -69,6 +71,11 @@ void QuadRelocation::activate(int v) {
 
 void QuadRelocation::activate_all() {
   for (int v = 0; v < mesh_.vertex_slots(); ++v) activate(v);
+}
+
+void QuadRelocation::activate_all(const QuadBlock& block) {
+  for (int v = 0; v < mesh_.vertex_slots(); ++v)
+    if (block.is_near(v)) activate(v);
 }
 
 void QuadRelocation::activate_ring(int v) {
@@ -189,7 +196,7 @@ double QuadRelocation::step(int v) {
   const Value before = evaluate<true>(at, &d);
   const double determinant = d.hxx * d.hyy - d.hxy * d.hxy;
   if (!(determinant > 0)) return 0;
-  Vec2 move = (-1 / determinant) *
+  Vec2 move = (-kOverRelaxation / determinant) *
               Vec2{d.hyy * d.gradient.x - d.hxy * d.gradient.y, d.hxx * d.gradient.y - d.hxy * d.gradient.x};
   const double length = norm(move), longest = kLongestStep * before.shortest;
   if (!(length > 1e-4 * before.shortest)) return 0;

@@ -1,7 +1,11 @@
 #include "smoothing/relocation/short_edges.h"
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
+#include <vector>
 
+#include "base/parallel.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
@@ -35,6 +39,26 @@ bool move_to_middle(QuadTopology& mesh, int v) {
 }
 
 }  // namespace
+
+bool may_have_short_edges(const QuadPatch& mesh, const ParametricSize& size) {
+  std::vector<double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
+  const auto add = [&](const auto& corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int a = corners[k], b = corners[(k + 1) % corners.size()];
+      const double length = norm(mesh.points[b] - mesh.points[a]);
+      shortest[a] = std::min(shortest[a], length), shortest[b] = std::min(shortest[b], length);
+    }
+  };
+  for (const auto& quad : mesh.quads) add(quad);
+  for (const auto& triangle : mesh.triangles) add(triangle);
+  std::atomic<bool> found = false;
+  parallel_ranges(shortest.size(), [&](std::size_t begin, std::size_t end) {
+    int hint = -1;
+    for (std::size_t v = begin; v < end; ++v)
+      if (shortest[v] < kShort * size.at(mesh.points[v], hint)) found = true;
+  });
+  return found;
+}
 
 int lengthen_short_edges(QuadTopology& mesh, const ParametricSize& size) {
   int moved = 0, hint = -1;

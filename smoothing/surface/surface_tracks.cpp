@@ -59,7 +59,6 @@ SurfaceTracks::SurfaceTracks(const SurfaceModel& model, const SizeField& size, c
       for (const int node : quad) on_curve_[node] = {};
   for (const Patch& patch : patches_) add_patch(patch);
   hint_.assign(points_.size(), -1);
-  cross_hint_.assign(patches_.size(), -1);
 }
 
 void SurfaceTracks::add_curves() {
@@ -182,7 +181,7 @@ std::array<Vec3, 2> SurfaceTracks::axes(int v) const {
   return {direction(on_curve_[v].chain, position_[v].x), Vec3{}};
 }
 
-Vec3 SurfaceTracks::arm(int quad, int side) const {
+Vec3 SurfaceTracks::arm(int quad, int side, TrackHint& hint) const {
   const Patch& patch = patches_[quad_patch_[quad]];
   const int a = quads_[quad][side], b = quads_[quad][(side + 1) % 4];
   // The parameters of nodes on curves may be old: the end inside says enough.
@@ -190,9 +189,10 @@ Vec3 SurfaceTracks::arm(int quad, int side) const {
   if (vertex_patch_[inside] < 0) return {};
   Vec2 u = position_[inside];
   if (vertex_patch_[a] >= 0 && vertex_patch_[b] >= 0) u = 0.5 * (position_[a] + position_[b]);
-  int hint = hint_[inside];
-  const auto axis = tangents(*patch.patch, model_.fine, patch.patch->background->locate(u, hint).triangle);
-  const Cross c = patch.cross->at(u, cross_hint_[quad_patch_[quad]]);
+  int map_hint = hint_[inside];
+  const auto axis =
+      tangents(*patch.patch, model_.fine, patch.patch->background->locate(u, map_hint).triangle);
+  const Cross c = patch.cross->at(u, hint.cross_of(quad_patch_[quad]));
   if (c.c == 0 && c.s == 0) return {};
   const double angle = c.angle();
   const Vec3 arm = std::cos(angle) * axis[0] + std::sin(angle) * axis[1];

@@ -35,8 +35,8 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   Vec2 position(int v) const override { return position_[v]; }
   Vec3 put(int v, Vec2 position) override;
   std::array<Vec3, 2> axes(int v) const override;
-  double delta(const Vec3& place) const override { return size_.at(place, size_hint_); }
-  Vec3 arm(int quad, int side) const override;
+  double delta(const Vec3& place, TrackHint& hint) const override { return size_.at(place, hint.size); }
+  Vec3 arm(int quad, int side, TrackHint& hint) const override;
 
   /// A place on a vertex's track.
   struct Spot {
@@ -80,10 +80,8 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   std::vector<int> first_quad_;             ///< of each patch
   std::vector<std::vector<Vec3>> normals_;  ///< at the vertices of each patch's map, by area
   std::vector<char> stays_;
-  std::vector<int> vertex_patch_;        ///< of the vertices inside patches; -1: a node
-  mutable std::vector<int> hint_;        ///< into the maps, by vertex
-  mutable std::vector<int> cross_hint_;  ///< into the fields, by patch
-  mutable int size_hint_ = -1;
+  std::vector<int> vertex_patch_;  ///< of the vertices inside patches; -1: a node
+  mutable std::vector<int> hint_;  ///< into the maps, by vertex
 };
 
 }  // namespace delquad

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/context.h"
 #include "delquad/model.h"
 #include "smoothing/optimisation/untangle_flat.h"
 #include "smoothing/relocation/quad_relocation.h"
@@ -36,6 +37,26 @@ QuadPatch optimise_vertices(QuadPatch mesh, const ParametricSize& size, const Cr
   done.untangled = untangled;
   if (summary != nullptr) *summary = done;
   return mesh;
+}
+
+TEST(PlanarTracks, SameMeshForEveryNumberOfThreads) {
+  // Some blocks, and what lies around their cuts.
+  const QuadPatch mesh = jittered(grid_patch(220, 210), 3, 0.3);
+  QuadPatch first;
+  for (const int threads : {1, 2, 3, 7}) {
+    const RunScope run({.threads = threads});
+    OptimisationSummary summary;
+    const QuadPatch result = optimise_vertices(mesh, FunctionSize(1), FunctionCross(0), &summary);
+    if (threads == 1) first = result;
+    EXPECT_EQ(result.points, first.points) << threads;
+    EXPECT_LT(summary.energy_after, summary.energy_before);
+    EXPECT_GT(summary.worst_after, summary.worst_before);
+  }
+  double farthest = 0;
+  const QuadPatch grid = grid_patch(220, 210);
+  for (std::size_t v = 0; v < grid.points.size(); ++v)
+    farthest = std::max(farthest, norm(first.points[v] - grid.points[v]));
+  EXPECT_LT(farthest, 0.3);
 }
 
 TEST(PlanarTracks, NodesSlideOnTheirCurves) {

@@ -34,8 +34,8 @@ class CylinderTracks final : public VertexTracks<Vec3> {
     if (u.y == 0 || u.y == height_) axes[1] = {};
     return axes;
   }
-  double delta(const Vec3& /*place*/) const override { return delta_; }
-  Vec3 arm(int /*quad*/, int /*side*/) const override { return {1, 0, 0}; }
+  double delta(const Vec3& /*place*/, TrackHint& /*hint*/) const override { return delta_; }
+  Vec3 arm(int /*quad*/, int /*side*/, TrackHint& /*hint*/) const override { return {1, 0, 0}; }
 
   const QuadPatch& grid() const { return grid_; }
 

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// Elements by one number: quads first, then triangles.
+struct Elements {
+  std::span<const std::array<int, 4>> quads;
+  std::span<const std::array<int, 3>> triangles = {};
+
+  std::size_t size() const { return quads.size() + triangles.size(); }
+  std::span<const int> corners(std::size_t element) const {
+    return element < quads.size() ? std::span<const int>(quads[element])
+                                  : std::span<const int>(triangles[element - quads.size()]);
+  }
+};
+
+/// Divides elements into blocks that threads work on independently, the same for every number of threads. Few
+/// elements, less than twice kBlockElements, are one block. Others are cut along a Hilbert curve; then what
+/// lies around its cuts is cut along another curve, which crosses the first cuts; what lies around the points
+/// where both cross is one block at last. Vertices at which several blocks, or a block and what is left out,
+/// have elements belong to none of them.
+class ElementBlocks {
+ public:
+  static constexpr int kBlockElements = 16384;
+
+  /// Cuts for the next pass. `places`: of the vertices, in some plane. False: every vertex has belonged to a
+  /// block.
+  bool next(const Elements& elements, std::span<const Vec2> places);
+
+  std::size_t size() const { return own_.size(); }
+  /// The elements of a block, near ones close to each other.
+  std::span<const int> operator[](std::size_t block) const { return own_[block]; }
+  /// Whether the one block is all elements, in their order.
+  bool is_whole() const { return pass_ == Pass::kWhole; }
+  bool has_element(std::size_t element) const { return taken_[element] != 0; }
+  /// The block that a vertex belongs to; negative: none.
+  int owner(std::size_t vertex) const { return owner_[vertex]; }
+  /// Whether there is still work to do at a vertex: in the first pass everywhere, then near its cuts.
+  bool is_near(std::size_t vertex) const { return near_.empty() || near_[vertex] != 0; }
+  /// Vertices get other numbers before the next pass (-1: gone); there are `n` then.
+  void renumber(std::span<const int> numbers, std::size_t n);
+
+ private:
+  enum class Pass { kNone, kWhole, kFirst, kAcross, kLast };
+  void find_owners(const Elements& elements, std::size_t n_vertices);
+
+  Pass pass_ = Pass::kNone;
+  std::vector<std::vector<int>> own_;
+  std::vector<char> taken_;  ///< by element
+  std::vector<int> owner_;   ///< by vertex
+  std::vector<char> left_;   ///< by vertex: of no block in every pass so far
+  std::vector<char> near_;   ///< by vertex
+};
+
+}  // namespace delquad
