@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include "base/parallel.h"
 
@@ -17,6 +19,18 @@ inline std::size_t n_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock; }
 template <class Work>
 void parallel_blocks(std::size_t n, Work work) {
   parallel_for(n_blocks(n), [&](std::size_t i) { work(i * kBlock, std::min(n, (i + 1) * kBlock)); });
+}
+
+/// The sum of term(i) over [0, n): of each block in its order, then of the blocks in theirs.
+template <class Term>
+double sum_of_blocks(std::size_t n, Term term) {
+  std::vector<double> sums(n_blocks(n));
+  parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    sums[begin / kBlock] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace delquad

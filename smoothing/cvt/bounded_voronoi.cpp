@@ -1,5 +1,6 @@
 #include "smoothing/cvt/bounded_voronoi.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "smoothing/cvt/blocks.h"
@@ -31,6 +32,8 @@ bool BoundedVoronoi::build(const MovingDelaunay& delaunay) {
   const TriPatch& tri = delaunay.patch();
   centres_.resize(tri.triangles.size());
   blind_.assign(tri.triangles.size(), -1);
+  cut_.assign(tri.points.size(), 0);
+  std::fill_n(cut_.begin(), tri.n_boundary, 1);
   clip_of_.clear();
   clips_.clear();
   pieces_.clear();
@@ -41,7 +44,7 @@ bool BoundedVoronoi::build(const MovingDelaunay& delaunay) {
     }
   });
   for (int i = 0; i < tri.n_boundary; ++i) {
-    const int t = delaunay.first_corner()[i] / 3, k = delaunay.first_corner()[i] % 3;
+    const int t = delaunay.corners(i).front() / 3, k = delaunay.corners(i).front() % 3;
     const auto& v = tri.triangles[t];
     const Vec2 a = tri.points[i], b = tri.points[v[kNext[k]]], apex = tri.points[v[kLast[k]]];
     if (dot(a - apex, b - apex) >= 0) continue;
@@ -59,6 +62,7 @@ bool BoundedVoronoi::grow(const TriPatch& tri, int triangle, int entered, Chain&
   clip_of_.push_back({kOutside, kOutside, kOutside});
   const Vec2 along = chain.b - chain.a;
   const auto& v = tri.triangles[triangle];
+  for (const int i : v) cut_[i] = 1;
   for (const int k : {kLast[entered], kNext[entered]}) {
     const int beyond = tri.neighbours[triangle][k];
     if (beyond >= 0) {

@@ -37,6 +37,8 @@ class BoundedVoronoi {
 
   /// Circumcentre of each triangle.
   const std::vector<Vec2>& centres() const { return centres_; }
+  /// Whether the cell of a seed has other corners than the circumcentres around the seed.
+  bool is_cut(int seed) const { return cut_[seed] != 0; }
   bool is_blind(int triangle) const { return blind_[triangle] >= 0; }
   /// Of a blind triangle, where the edge dual to its side k ends: a clip or kOutside.
   int clip_of(int triangle, int k) const { return clip_of_[blind_[triangle]][k]; }
@@ -49,6 +51,7 @@ class BoundedVoronoi {
 
   std::vector<Vec2> centres_;
   std::vector<int> blind_;  ///< of each triangle: index into clip_of_, -1: not blind
+  std::vector<char> cut_;   ///< of each point
   std::vector<std::array<int, 3>> clip_of_;
   std::vector<Clip> clips_;
   std::vector<Piece> pieces_;

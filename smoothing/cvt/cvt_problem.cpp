@@ -4,17 +4,20 @@
 #include <cmath>
 #include <utility>
 
+#include "smoothing/cvt/blocks.h"
+
 namespace delquad {
 namespace {
 
 /// The integral of 1/length^2, taken as linear on triangles.
 double squares_in(const TriPatch& tri, const std::vector<double>& length) {
-  double sum = 0;
-  for (const auto& v : tri.triangles) {
+  return sum_of_blocks(tri.triangles.size(), [&](std::size_t t) {
+    const auto& v = tri.triangles[t];
     const double area = cross(tri.points[v[1]] - tri.points[v[0]], tri.points[v[2]] - tri.points[v[0]]) / 2;
+    double sum = 0;
     for (const int i : v) sum += area / (3 * length[i] * length[i]);
-  }
-  return sum;
+    return sum;
+  });
 }
 
 /// The gradient of f around an inner point, f linear on triangles: the mean of the triangles by area.
@@ -43,18 +46,25 @@ void CvtProblem::hold_frames(const CrossField& cross, const ParametricSize& size
   frames_ = {std::vector<Vec2>(n), std::vector<double>(n), std::vector<Vec2>(n), points};
   length_.resize(n);
   std::vector<double> log_weight(n);
-  int cross_hint = -1, size_hint = -1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double theta = cross.at(points[i], cross_hint).angle();
-    frames_.axis[i] = {std::cos(theta), std::sin(theta)};
-    length_[i] = size.at(points[i], size_hint);
-    log_weight[i] = -(p_ + 2) * std::log(length_[i]);
-  }
+  parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
+    int cross_hint = -1, size_hint = -1;  // of each block its own, whatever the threads
+    for (std::size_t i = begin; i < end; ++i) {
+      const double theta = cross.at(points[i], cross_hint).angle();
+      frames_.axis[i] = {std::cos(theta), std::sin(theta)};
+      length_[i] = size.at(points[i], size_hint);
+      log_weight[i] = -(p_ + 2) * std::log(length_[i]);
+    }
+  });
   squares_ = squares_in(delaunay_.patch(), length_);
-  for (std::size_t i = 0; i < n; ++i)  // scaled here, not at the end, so that no power overflows
-    frames_.weight[i] = (p_ + 1) / (2 * squares_) * std::pow(2 / length_[i], p_) / (length_[i] * length_[i]);
-  for (int i = delaunay_.n_boundary(); i < delaunay_.n_points(); ++i)
-    frames_.slope[i] = gradient_at(delaunay_, i, log_weight);
+  const std::size_t n_boundary = static_cast<std::size_t>(delaunay_.n_boundary());
+  parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // Scaled here, not at the end, so that no power overflows.
+      frames_.weight[i] =
+          (p_ + 1) / (2 * squares_) * std::pow(2 / length_[i], p_) / (length_[i] * length_[i]);
+      if (i >= n_boundary) frames_.slope[i] = gradient_at(delaunay_, static_cast<int>(i), log_weight);
+    }
+  });
 }
 
 std::vector<Vec2> CvtProblem::seeds() const {

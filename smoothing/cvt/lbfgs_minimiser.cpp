@@ -7,6 +7,7 @@
 
 #include "base/cancel.h"
 #include "delquad/error.h"
+#include "smoothing/cvt/blocks.h"
 #include "smoothing/cvt/cell_minimiser.h"
 
 namespace delquad {
@@ -18,7 +19,7 @@ namespace {
 class ScaledEnergy final : public ceres::FirstOrderFunction {
  public:
   ScaledEnergy(CvtProblem& problem, std::vector<EnergySample>& samples)
-      : problem_(problem), samples_(samples), start_(problem.seeds()) {}
+      : problem_(problem), samples_(samples), start_(problem.seeds()), seeds_(start_) {}
 
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
     std::optional<double> energy;
@@ -35,20 +36,26 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
     if (gradient == nullptr) return true;
     const auto h = problem_.lengths();
     const auto g = problem_.gradient();
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      gradient[2 * i] = scale_ * h[i] * g[i].x;
-      gradient[2 * i + 1] = scale_ * h[i] * g[i].y;
-    }
+    parallel_blocks(g.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        gradient[2 * i] = scale_ * h[i] * g[i].x;
+        gradient[2 * i + 1] = scale_ * h[i] * g[i].y;
+      }
+    });
     return true;
   }
   /// Of the cost: after the first evaluation.
   double scale() const { return scale_; }
   int NumParameters() const override { return 2 * static_cast<int>(start_.size()); }
 
-  std::vector<Vec2> seeds(const double* parameters) const {
-    std::vector<Vec2> x = start_;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      x[i] += problem_.lengths()[i] * Vec2{parameters[2 * i], parameters[2 * i + 1]};
+  /// Until the next call.
+  std::span<const Vec2> seeds(const double* parameters) const {
+    std::vector<Vec2>& x = seeds_;
+    const auto h = problem_.lengths();
+    parallel_blocks(x.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        x[i] = start_[i] + h[i] * Vec2{parameters[2 * i], parameters[2 * i + 1]};
+    });
     return x;
   }
 
@@ -57,6 +64,7 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
   std::vector<EnergySample>& samples_;
   std::vector<Vec2> start_;
   mutable double scale_ = 0;
+  mutable std::vector<Vec2> seeds_;
 };
 
 /// Marks the evaluation that each accepted step went to.
@@ -104,8 +112,7 @@ class LbfgsMinimiser final : public CellMinimiser {
     check_cancelled();
     samples[first].accepted = true;  // not marked where the search converges at once
 
-    const std::vector<Vec2> best = energy->seeds(parameters.data());
-    problem.evaluate(best);
+    problem.evaluate(energy->seeds(parameters.data()));
     MinimiserOutcome outcome;
     outcome.termination = summary.termination_type == ceres::CONVERGENCE ? MinimiserTermination::kConverged
                           : summary.termination_type == ceres::NO_CONVERGENCE

@@ -26,17 +26,23 @@ class CellEnergy {
  public:
   CellEnergy(Vec2 seed, Turn turn, double weight) : seed_(seed), turn_(turn), weight_(weight) {}
 
-  Powers<P> corner(Vec2 x) const { return Powers<P>(turn_.in(x - seed_)); }
-  /// The triangle of the seed and two corners; their derivatives are added to `by_first` and `by_second`.
-  void add(const Powers<P>& first, const Powers<P>& second, Vec2* by_first, Vec2* by_second) {
-    const SimplexEnergy s = simplex_energy(first, second);
+  Vec2 corner(Vec2 x) const { return turn_.in(x - seed_); }
+  /// The triangle of the seed and two corners; its derivatives by them, in the seed's frame.
+  SimplexEnergy add(Vec2 first, Vec2 second) {
+    const SimplexEnergy s = simplex_energy<P>(first, second);
     energy_ += s.value;
     by_seed_ += -(s.by_first + s.by_second);
-    if (by_first != nullptr) *by_first += turn_.out(weight_ * s.by_first);
-    if (by_second != nullptr) *by_second += turn_.out(weight_ * s.by_second);
+    return s;
   }
+  /// The same; derivatives are added to `by_first` and `by_second`.
+  void add(Vec2 first, Vec2 second, Vec2* by_first, Vec2* by_second) {
+    const SimplexEnergy s = add(first, second);
+    if (by_first != nullptr) *by_first += out(s.by_first);
+    if (by_second != nullptr) *by_second += out(s.by_second);
+  }
+  Vec2 out(Vec2 derivative) const { return turn_.out(weight_ * derivative); }
   double energy() const { return weight_ * energy_; }
-  Vec2 by_seed() const { return turn_.out(weight_ * by_seed_); }
+  Vec2 by_seed() const { return out(by_seed_); }
 
  private:
   Vec2 seed_;
@@ -63,22 +69,54 @@ struct Arrays {
   }
 };
 
+/// A cell whose corners are the circumcentres around its seed.
+template <int P>
+void add_whole_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, CellEnergy<P>& cell) {
+  Vec2 first, last;        // corners
+  Vec2 by_first, by_last;  // derivatives by them, as far as they are known
+  int first_at = -1, last_at = -1;
+  const auto edge_to = [&](Vec2 corner) {
+    const SimplexEnergy s = cell.add(last, corner);
+    if (last_at == first_at)
+      by_first = s.by_first;
+    else
+      a.by_centre[last_at] = cell.out(by_last + s.by_first);
+    by_last = s.by_second;
+  };
+  for_each_corner(delaunay, seed, [&](int t, int k) {
+    const Vec2 here = cell.corner(a.cells.centres()[t]);
+    if (last_at >= 0)
+      edge_to(here);
+    else {
+      first = here;
+      first_at = 3 * t + k;
+    }
+    last = here;
+    last_at = 3 * t + k;
+  });
+  edge_to(first);
+  a.by_centre[first_at] = cell.out(by_last + by_first);
+}
+
+/// A cell that ends on the boundary somewhere.
+template <int P>
+void add_cut_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, CellEnergy<P>& cell) {
+  for_each_corner(delaunay, seed, [&](int t, int k) { a.by_centre[3 * t + k] = {}; });
+  walk_cell(delaunay, a.cells, seed, [&](const CellEnd& first, const CellEnd& second) {
+    cell.add(cell.corner(first.at), cell.corner(second.at), a.slot(seed, first), a.slot(seed, second));
+  });
+}
+
 /// All edges of the cells of seeds begin .. end - 1 that lie between cells.
 template <int P>
 void add_cells(const MovingDelaunay& delaunay, const Arrays& a, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const int seed = static_cast<int>(i);
     CellEnergy<P> cell(a.tri.points[i], {a.frames.axis[i]}, a.weight(i));
-    Powers<P> last;  // of the end before, which two edges often share
-    int last_centre = -1;
-    for_each_corner(delaunay, seed, [&](int t, int k) { a.by_centre[3 * t + k] = {}; });
-    walk_cell(delaunay, a.cells, seed, [&](const CellEnd& first, const CellEnd& second) {
-      if (first.kind != CellEnd::kCentre || first.index != last_centre) last = cell.corner(first.at);
-      const Powers<P> next = cell.corner(second.at);
-      cell.add(last, next, a.slot(seed, first), a.slot(seed, second));
-      last = next;
-      last_centre = second.kind == CellEnd::kCentre ? second.index : -1;
-    });
+    if (a.cells.is_cut(seed))
+      add_cut_cell(delaunay, a, seed, cell);
+    else
+      add_whole_cell(delaunay, a, seed, cell);
     a.energy[i] = cell.energy();
     a.gradient[i] = cell.by_seed();
   }
@@ -170,9 +208,7 @@ double LpEnergy::evaluate(const MovingDelaunay& delaunay, const BoundedVoronoi& 
   };
   evaluate_all(std::make_integer_sequence<int, 8>());
   for (int i = 0; i < tri.n_boundary; ++i) gradient[i] = {};
-  double sum = 0;  // in the order of the seeds, whatever the threads
-  for (const double e : energy_) sum += e;
-  return sum;
+  return sum_of_blocks(energy_.size(), [&](std::size_t i) { return energy_[i]; });
 }
 
 }  // namespace delquad

@@ -19,6 +19,8 @@ namespace {
 constexpr std::array<int, 3> kNext = {1, 2, 0}, kLast = {2, 0, 1};
 /// How often a way that turns a triangle over is cut in half before the triangulation is made anew.
 constexpr int kHalvings = 2;
+/// How many corners more than at first a point has room for.
+constexpr unsigned kSpare = 2;
 
 /// The boundary as the triangulation's own free sides give it.
 PatchBoundary boundary_of(const TriPatch& tri) {
@@ -42,25 +44,70 @@ MovingDelaunay::MovingDelaunay(TriPatch initial) : tri_(std::move(initial)), bou
                       "counterclockwise triangulation",
                       t, v[0], v[1], v[2], tri_.points[v[0]].x, tri_.points[v[0]].y));
   }
-  find_first_corners();
+  make_stars();
   make_delaunay();
 }
 
-void MovingDelaunay::find_first_corners() {
-  first_corner_.assign(tri_.points.size(), -1);
+void MovingDelaunay::make_stars() {
+  star_.assign(tri_.points.size(), {});
   for (std::size_t t = 0; t < tri_.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      const int v = tri_.triangles[t][k];
-      if (v >= tri_.n_boundary || tri_.neighbours[t][kLast[k]] < 0)
-        first_corner_[v] = 3 * static_cast<int>(t) + k;
+      Star& star = star_[tri_.triangles[t][k]];
+      ++star.room;
+      if (star.first < 0 || tri_.neighbours[t][kLast[k]] < 0) star.first = 3 * static_cast<int>(t) + k;
     }
+  std::size_t n = 0;
+  for (Star& star : star_) {
+    star.begin = n;
+    n += star.room += kSpare;
+  }
+  stars_.resize(n);
+  parallel_blocks(star_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) renew_star(static_cast<int>(i));
+  });
+}
+
+/// Walks around a point. False where its corners have no room.
+bool MovingDelaunay::renew_star(int i) {
+  Star& star = star_[i];
+  star.count = 0;
+  star.stale = false;
+  int t = star.first / 3;
+  do {
+    if (star.count == star.room) return false;
+    const auto& v = tri_.triangles[t];
+    const int k = v[0] == i ? 0 : v[1] == i ? 1 : 2;
+    stars_[star.begin + star.count++] = 3 * t + k;
+    t = tri_.neighbours[t][kNext[k]];
+  } while (t >= 0 && t != star.first / 3);
+  return true;
 }
 
 bool MovingDelaunay::move_to(std::span<const Vec2> inner) {
-  std::vector<Vec2> to(tri_.points.begin(), tri_.points.begin() + tri_.n_boundary);
-  to.insert(to.end(), inner.begin(), inner.end());
-  const std::vector<Vec2> from = tri_.points;
-  return follow(from, to, kHalvings) || rebuild(to);
+  to_.resize(tri_.points.size());
+  const std::size_t n_boundary = static_cast<std::size_t>(tri_.n_boundary);
+  parallel_blocks(to_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      to_[i] = i < n_boundary ? tri_.points[i] : inner[i - n_boundary];
+  });
+  std::swap(tri_.points, to_);
+  if (all_upright()) {
+    make_delaunay();
+    return true;
+  }
+  const std::vector<Vec2> to = tri_.points, from = to_;
+  return follow_in_halves(from, to, kHalvings) || rebuild(to);
+}
+
+bool MovingDelaunay::follow_in_halves(const std::vector<Vec2>& from, const std::vector<Vec2>& to,
+                                      int halvings) {
+  if (halvings > 0) {
+    std::vector<Vec2> middle(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) middle[i] = 0.5 * (from[i] + to[i]);
+    if (follow(from, middle, halvings - 1) && follow(middle, to, halvings - 1)) return true;
+  }
+  tri_.points = from;
+  return false;
 }
 
 bool MovingDelaunay::follow(const std::vector<Vec2>& from, const std::vector<Vec2>& to, int halvings) {
@@ -69,13 +116,7 @@ bool MovingDelaunay::follow(const std::vector<Vec2>& from, const std::vector<Vec
     make_delaunay();
     return true;
   }
-  if (halvings > 0) {
-    std::vector<Vec2> middle(from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) middle[i] = 0.5 * (from[i] + to[i]);
-    if (follow(from, middle, halvings - 1) && follow(middle, to, halvings - 1)) return true;
-  }
-  tri_.points = from;
-  return false;
+  return follow_in_halves(from, to, halvings);
 }
 
 bool MovingDelaunay::all_upright() const {
@@ -96,31 +137,37 @@ bool MovingDelaunay::rebuild(const std::vector<Vec2>& points) {
   } catch (const InputError&) {  // the points cannot be triangulated, which is what the caller asks
     return false;
   }
-  find_first_corners();
+  make_stars();
   return true;
 }
 
-/// Whether the side has a neighbour whose opposite point lies inside of its triangle's circumcircle.
+/// Whether the side, which has a neighbour, has that one's opposite point inside of its triangle's
+/// circumcircle.
 bool MovingDelaunay::illegal(int side) const {
-  const int t = side / 3, k = side % 3, u = tri_.neighbours[t][k];
-  if (u < 0) return false;
-  const auto &v = tri_.triangles[t], &n = tri_.neighbours[u];
-  const int j = n[0] == t ? 0 : n[1] == t ? 1 : 2;
-  return in_circle_or_unsure(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]],
-                             tri_.points[tri_.triangles[u][j]]) > 0;
+  const int t = side / 3, k = side % 3;
+  const auto &v = tri_.triangles[t], &n = tri_.triangles[tri_.neighbours[t][k]];
+  const int apex = n[0] ^ n[1] ^ n[2] ^ v[kNext[k]] ^ v[kLast[k]];  // the corner that is not the side's
+  return in_circle_or_unsure(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]], tri_.points[apex]) > 0;
+}
+
+/// Appends the illegal sides of triangles begin .. end - 1, each side by its triangle of smaller index.
+void MovingDelaunay::find_illegal(std::size_t begin, std::size_t end, std::vector<int>& found) const {
+  std::array<int, 3 * kBlock> sides;  // first all sides and then the tests: no branch that is hard to predict
+  std::size_t n = 0;
+  for (std::size_t t = begin; t < end; ++t)
+    for (int k = 0; k < 3; ++k) {
+      sides[n] = 3 * static_cast<int>(t) + k;
+      n += static_cast<std::size_t>(static_cast<int>(t) < tri_.neighbours[t][k]);
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    if (illegal(sides[i])) found.push_back(sides[i]);
 }
 
 void MovingDelaunay::make_delaunay() {
   const std::size_t n = tri_.triangles.size();
   std::vector<std::vector<int>> found(n_blocks(n));
-  parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (int k = 0; k < 3; ++k) {
-        const int side = 3 * static_cast<int>(t) + k;
-        if (static_cast<int>(t) < tri_.neighbours[t][k] && illegal(side))
-          found[begin / kBlock].push_back(side);
-      }
-  });
+  parallel_blocks(
+      n, [&](std::size_t begin, std::size_t end) { find_illegal(begin, end, found[begin / kBlock]); });
   stack_.clear();
   for (auto block = found.rbegin(); block != found.rend(); ++block)
     stack_.insert(stack_.end(), block->rbegin(), block->rend());
@@ -128,8 +175,11 @@ void MovingDelaunay::make_delaunay() {
     check_cancelled();
     const int side = stack_.back();
     stack_.pop_back();
-    if (illegal(side)) flip(side);
+    if (tri_.neighbours[side / 3][side % 3] >= 0 && illegal(side)) flip(side);
   }
+  const bool all_have_room = std::ranges::all_of(stale_, [&](int i) { return renew_star(i); });
+  stale_.clear();
+  if (!all_have_room) make_stars();
 }
 
 /// Turns the diagonal of the two triangles at a side; their outer sides go on the stack.
@@ -140,7 +190,10 @@ void MovingDelaunay::flip(int side) {
   for (const int changed : {t, u})
     for (int i = 0; i < 3; ++i) {
       const int v = tri_.triangles[changed][i];
-      if (v >= tri_.n_boundary || tri_.neighbours[changed][kLast[i]] < 0) first_corner_[v] = 3 * changed + i;
+      Star& star = star_[v];
+      if (v >= tri_.n_boundary || tri_.neighbours[changed][kLast[i]] < 0) star.first = 3 * changed + i;
+      if (!star.stale) stale_.push_back(v);
+      star.stale = true;
     }
   stack_.insert(stack_.end(), {3 * u + 1, 3 * u, 3 * t + 2, 3 * t});
 }

@@ -20,9 +20,9 @@ class MovingDelaunay {
   const TriPatch& patch() const { return tri_; }
   int n_points() const { return static_cast<int>(tri_.points.size()); }
   int n_boundary() const { return tri_.n_boundary; }
-  /// Of each point a corner 3 t + k of a triangle that has it: for boundary points, the first in
-  /// counterclockwise order around the point.
-  const std::vector<int>& first_corner() const { return first_corner_; }
+  /// Of each point, the corners 3 t + k that lie there, counterclockwise: those of boundary points from one
+  /// boundary edge to the other.
+  std::span<const int> corners(int i) const { return {&stars_[star_[i].begin], star_[i].count}; }
 
   /// Moves all points that are not the boundary's. False where that is not possible: a point outside of the
   /// patch, on its boundary or on another point; the points are then somewhere on their way.
@@ -34,35 +34,36 @@ class MovingDelaunay {
 
  private:
   bool follow(const std::vector<Vec2>& from, const std::vector<Vec2>& to, int halvings);
+  bool follow_in_halves(const std::vector<Vec2>& from, const std::vector<Vec2>& to, int halvings);
   bool all_upright() const;
   bool rebuild(const std::vector<Vec2>& points);
   void make_delaunay();
   bool illegal(int side) const;
+  void find_illegal(std::size_t begin, std::size_t end, std::vector<int>& found) const;
   void flip(int side);
-  void find_first_corners();
+  void make_stars();
+  bool renew_star(int i);
 
   TriPatch tri_;
   PatchBoundary boundary_;
-  std::vector<int> first_corner_;
+  struct Star {
+    std::size_t begin = 0;  ///< in stars_, with room for kSpare corners more than when it was made
+    unsigned count = 0, room = 0;
+    int first = -1;
+    bool stale = false;
+  };
+  std::vector<Star> star_;
+  std::vector<int> stars_, stale_;
+  std::vector<Vec2> to_;
   std::vector<int> stack_;
   long long flips_ = 0;
   int rebuilds_ = 0;
 };
 
-/// Calls visit(t, k) for the triangles t around point i, counterclockwise, which have it as corner k; for
-/// boundary points from one boundary edge to the other.
+/// Calls visit(t, k) for the triangles t around point i, which have it as corner k: see corners().
 template <class Visit>
 void for_each_corner(const MovingDelaunay& d, int i, Visit visit) {
-  constexpr int kNext[] = {1, 2, 0};
-  const TriPatch& tri = d.patch();
-  int t = d.first_corner()[i] / 3;
-  const int first = t;
-  do {
-    int k = 0;
-    while (tri.triangles[t][k] != i) ++k;
-    visit(t, k);
-    t = tri.neighbours[t][kNext[k]];
-  } while (t >= 0 && t != first);
+  for (const int corner : d.corners(i)) visit(corner / 3, corner % 3);
 }
 
 }  // namespace delquad

@@ -30,7 +30,7 @@ void expect_sound(const MovingDelaunay& d) {
       ++seen;
     });
     EXPECT_EQ(seen, corners[i]) << i;
-    const int t = d.first_corner()[i] / 3, k = d.first_corner()[i] % 3;
+    const int t = d.corners(i).front() / 3, k = d.corners(i).front() % 3;
     if (i < d.n_boundary()) {
       EXPECT_EQ(tri.neighbours[t][(k + 2) % 3], -1) << i;
     }
