@@ -40,7 +40,7 @@ CreateGeometry;
 
 
 def run(command):
-    """Wall and CPU seconds, both of everything that the command starts; none when it fails."""
+    """Wall and CPU seconds and the peak memory in bytes, of all that the command starts; none when it fails."""
     start = time.perf_counter()
     with open(os.devnull, "w") as nowhere:
         child = subprocess.Popen(command, stdout=nowhere, stderr=nowhere)
@@ -49,7 +49,7 @@ def run(command):
     if child.returncode != 0:
         print(f"failed with {child.returncode}: {' '.join(map(str, command))}", file=sys.stderr)
         return None
-    return time.perf_counter() - start, usage.ru_utime + usage.ru_stime
+    return time.perf_counter() - start, usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
 
 
 def mirrored(half, whole):

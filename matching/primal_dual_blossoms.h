@@ -11,10 +11,10 @@ namespace delquad {
 /// The edge between v and w, both even and in one tree, is tight: it closes an odd cycle.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::contract(int v, int w) {
-  ++s_.contractions;
+  ++range_->contractions;
   const int common = common_container(s_.nodes[v].container, s_.nodes[w].container);
   const int base = s_.nodes[common].base, tree = s_.nodes[common].tree;
-  const int b = s_.new_blossom();
+  const int b = s_.blossoms.make();
   list_children(v, w, common, s_.blossoms[b].children);
   join_lists(b);
 
@@ -56,7 +56,11 @@ void PrimalDualSearch<Value, Cost>::park_cycle(int container) {
 /// The first even container that the paths from a and b to their root share.
 template <class Value, class Cost>
 int PrimalDualSearch<Value, Cost>::common_container(int a, int b) {
-  const int mark = ++s_.last_mark;
+  if (mark_ == last_mark_) {
+    mark_ = s_.marks.fetch_add(kMarksAtOnce);
+    last_mark_ = mark_ + kMarksAtOnce;
+  }
+  const int mark = ++mark_;
   for (;;) {
     if (a >= 0) {
       if (s_.nodes[a].mark == mark) return a;
@@ -147,7 +151,7 @@ void PrimalDualSearch<Value, Cost>::relabel(int blossom, int container) {
 /// tree.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::expand_odd(int container) {
-  ++s_.expansions;
+  ++range_->expansions;
   const int tree = s_.nodes[container].tree, base = s_.nodes[container].base;
   int outer = s_.nodes[container].outer, inner = s_.nodes[container].inner;
   const bool missed = s_.nodes[container].missed;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,18 +18,43 @@ enum class SearchOutcome {
   kOverflow,  ///< times leave the range of the numbers
 };
 
+/// A node with neighbours outside its range, and how high its total may rise: of the slack of an edge between
+/// two ranges, each has half.
+template <class Value>
+struct BorderNode {
+  int node;
+  Value cap;
+};
+
+/// Consecutive nodes that are searched for themselves.
+template <class Value>
+struct SearchRange {
+  int begin = 0, end = 0;
+  /// A node in each container to start from, ascending; after the search, in each that is free.
+  std::vector<int> roots = {};
+  std::span<const BorderNode<Value>> border = {};  ///< ascending
+  SearchOutcome outcome = SearchOutcome::kDone;
+  Value time = 0;                 ///< at which the search ended
+  std::vector<int> witness = {};  ///< where it is stuck: a set that proves it
+  long long contractions = 0, expansions = 0;
+};
+
 /// Trees of alternating paths that grow from all free containers of a range of nodes at once and at one
 /// speed, until each has ended: at another tree or a free container (both are matched then), or at an odd
 /// cycle that is left as a free blossom (`park`), or where it would have to leave the range. docs/matching.md
 /// says more.
+///
+/// Searches of ranges that have no node in common may run at once: each changes containers that lie in its
+/// range only, and looks at others only where none changes them.
 template <class Value, class Cost>
 class PrimalDualSearch {
  public:
-  PrimalDualSearch(PrimalDualState<Value, Cost>& state, Value time_limit) : s_(state), limit_(time_limit) {}
+  explicit PrimalDualSearch(PrimalDualState<Value, Cost>& state) : s_(state) {}
 
-  /// `roots`: a node in each container to start from; `modulus`: such that totals of the nodes of roots that
-  /// agree in their remainders keep all times integral. Leaves those that are free in the end in `roots`.
-  SearchOutcome run(int begin, int end, bool park, int modulus, std::vector<int>& roots);
+  /// Searches `range`, and leaves there what came of it. No time is over `limit`. `park`: see above;
+  /// `modulus`: such that totals of the nodes of roots that agree in their remainders keep all times
+  /// integral.
+  void run(SearchRange<Value>& range, Value limit, bool park, int modulus);
 
  private:
   using State = PrimalDualState<Value, Cost>;
@@ -37,20 +64,11 @@ class PrimalDualSearch {
   struct Step {
     int container, end, next;  ///< on a path to the root, and the edge to the one after
   };
-  static constexpr std::size_t kFetchAhead = 12;   ///< entries of a list that are read one by one
-  static constexpr int kStart = -1, kVanish = -2;  ///< in place of an arc
+  static constexpr std::size_t kFetchAhead = 12;  ///< entries of a list that are read one by one
+  static constexpr int kMarksAtOnce = 1024;
+  static constexpr int kStart = -1, kVanish = -2, kBorder = -3;  ///< in place of an arc
 
-  bool in_range(int v) const { return v >= begin_ && v < end_; }
-  bool inside(int container) const {
-    const int b = s_.nodes[container].blossom;
-    return b < 0 || (s_.blossoms[b].lowest >= begin_ && s_.blossoms[b].highest < end_);
-  }
-  /// A container that this range may change, and so the one that it is matched with.
-  bool movable(int container) const {
-    if (!inside(container)) return false;
-    const int mate = s_.nodes[s_.nodes[container].base].mate;
-    return mate < 0 || (in_range(mate) && inside(s_.nodes[mate].container));
-  }
+  bool in_range(int v) const { return v >= range_->begin && v < range_->end; }
   Value offset(const Node& container) const { return container.offset + container.rate * time_; }
   Value total(int v) const { return s_.nodes[v].value + offset(s_.nodes[s_.nodes[v].container]); }
   Value slack(int v, const typename State::Arc& arc) const { return arc.cost - total(v) - total(arc.to); }
@@ -75,7 +93,10 @@ class PrimalDualSearch {
     __builtin_prefetch(&s_.nodes[v]);
     __builtin_prefetch(&s_.nodes[v].own_arcs);
   }
+  void handle(const Event& event);
   void start(int v);
+  Value room(int v) const;
+  void reach_border(int v);
   void scan(int v);
   void scan_missed(int v);
   void scan_all(int container) {
@@ -91,7 +112,7 @@ class PrimalDualSearch {
   void settle();
   void notice_missed();
   void release_all();
-  void leave_free_ones(std::vector<int>& roots);
+  void leave_free_ones();
   void find_witness();
 
   void contract(int v, int w);
@@ -104,11 +125,10 @@ class PrimalDualSearch {
   void expand_odd(int container);
 
   State& s_;
-  Value limit_;
+  SearchRange<Value>* range_ = nullptr;
   RadixQueue<Value> queue_;
   TreeMembers members_;
   Value time_ = 0;
-  int begin_ = 0, end_ = 0;
   bool park_ = false;
   int waiting_ = 0;                                 ///< roots that have not started
   int growing_ = 0;                                 ///< trees
@@ -117,21 +137,20 @@ class PrimalDualSearch {
   std::vector<int> released_, missed_, loose_, parked_;
   std::vector<Step> path_a_, path_b_;
   std::vector<std::pair<int, int>> were_odd_;  ///< first and last nodes of lists
+  int mark_ = 0, last_mark_ = 0;               ///< of those that are this search's own
 };
 
 template <class Value, class Cost>
-SearchOutcome PrimalDualSearch<Value, Cost>::run(int begin, int end, bool park, int modulus,
-                                                 std::vector<int>& roots) {
-  begin_ = begin;
-  end_ = end;
+void PrimalDualSearch<Value, Cost>::run(SearchRange<Value>& range, Value limit, bool park, int modulus) {
+  range_ = &range;
   park_ = park;
   time_ = 0;
   queue_.reset();
   waiting_ = growing_ = 0;
   parked_.clear();
-  for (const int v : roots) {
+  for (const int v : range.roots) {
     const int c = s_.nodes[v].container;
-    if (s_.matched(c) || !inside(c)) continue;
+    if (s_.matched(c) || !s_.inside(c, range.begin, range.end)) continue;
     const Value remainder = total(v) % modulus;
     queue_.push(remainder < 0 ? remainder + modulus : remainder, v, kStart);
     ++waiting_;
@@ -141,25 +160,45 @@ SearchOutcome PrimalDualSearch<Value, Cost>::run(int begin, int end, bool park, 
     if (++events_ % kPerCheck == 0) check_cancelled();
     if (!queue_.pop(event)) {
       find_witness();
-      return SearchOutcome::kStuck;
+      return;
     }
     time_ = event.time;
-    if (time_ > limit_) return SearchOutcome::kOverflow;
-    if (event.arc >= 0) {
-      follow(event.node, event.arc);
-    } else if (event.arc == kStart) {
-      start(event.node);
-    } else {
-      const Node& node = s_.nodes[event.node];
-      if (node.container == event.node && node.rate < 0 && node.blossom >= 0 && dual(event.node) == 0) {
-        expand_odd(event.node);
-      }
+    if (time_ > limit) {
+      range.outcome = SearchOutcome::kOverflow;
+      return;
     }
+    handle(event);
   }
   release_all();
-  leave_free_ones(roots);
-  limit_ -= time_;
-  return SearchOutcome::kDone;
+  leave_free_ones();
+  range.time = time_;
+}
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::handle(const Event& event) {
+  if (event.arc >= 0) return follow(event.node, event.arc);
+  if (event.arc == kStart) return start(event.node);
+  if (event.arc == kBorder) return reach_border(event.node);
+  const Node& node = s_.nodes[event.node];
+  if (node.container == event.node && node.rate < 0 && node.blossom >= 0 && dual(event.node) == 0) {
+    expand_odd(event.node);
+  }
+}
+
+/// By how much the total of a node at the border may rise.
+template <class Value, class Cost>
+Value PrimalDualSearch<Value, Cost>::room(int v) const {
+  const auto at = std::ranges::lower_bound(range_->border, v, {}, &BorderNode<Value>::node);
+  return at->cap - total(v);
+}
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::reach_border(int v) {
+  const Node& node = s_.nodes[s_.nodes[v].container];
+  if (node.rate <= 0) return;
+  const Value left = room(v);
+  if (left > 0) return queue_.push(time_ + left, v, kBorder);
+  stop(node.tree);
 }
 
 template <class Value, class Cost>
@@ -179,8 +218,14 @@ void PrimalDualSearch<Value, Cost>::scan(int v) {
   const int c = s_.nodes[v].container, tree = s_.nodes[c].tree;
   const auto* const arcs = s_.arcs_of(s_.nodes[v]);
   const int degree = s_.nodes[v].degree;
+  bool border = false;
   for (int a = 0; a < degree; ++a) {
-    const int w = arcs[a].to, d = s_.nodes[w].container;
+    const int w = arcs[a].to;
+    if (!in_range(w)) {
+      border = true;
+      continue;
+    }
+    const int d = s_.nodes[w].container;
     if (d == c) continue;
     Node& other = s_.nodes[d];
     if (other.rate < 0) {
@@ -192,6 +237,7 @@ void PrimalDualSearch<Value, Cost>::scan(int v) {
     const Value slack = arcs[a].cost - mine - (s_.nodes[w].value + offset(other));
     queue_.push(time_ + (other.rate > 0 ? slack / 2 : slack), v, a);
   }
+  if (border) queue_.push(time_ + room(v), v, kBorder);
 }
 
 /// Events for the edges of a node that is odd no more, or does not change any more, with nodes that are even.
@@ -220,7 +266,7 @@ void PrimalDualSearch<Value, Cost>::follow(int v, int arc) {
     if (other.tree != mine.tree || other.blossom >= 0) other.missed = true;
   } else if (left != 0) {
     queue_.push(time_ + (other.rate > 0 ? left / 2 : left), from, arc);
-  } else if (!in_range(w) || other.label < 0) {
+  } else if (other.label < 0) {
     stop(mine.tree);
   } else {
     meet(v, w);
@@ -233,9 +279,8 @@ void PrimalDualSearch<Value, Cost>::meet(int v, int w) {
   const int c = s_.nodes[v].container, d = s_.nodes[w].container;
   const int tree = s_.nodes[c].tree, other = s_.nodes[d].tree;
   if (s_.nodes[d].label == 0) {
-    if (!movable(d)) return stop(tree);
+    if (!s_.movable(d, range_->begin, range_->end)) return stop(tree);
     if (s_.matched(d)) return grow(v, w);
-    ++s_.augmentations;
     flip(v, w);
     s_.match(v, w);
     loose_.push_back(d);
@@ -243,7 +288,6 @@ void PrimalDualSearch<Value, Cost>::meet(int v, int w) {
     dissolve(tree);
   } else {
     if (tree == other) return contract(v, w);
-    ++s_.augmentations;
     growing_ -= s_.nodes[d].rate > 0 ? 2 : 1;
     flip(v, w);
     flip(w, v);
@@ -363,7 +407,8 @@ void PrimalDualSearch<Value, Cost>::release_all() {
 }
 
 template <class Value, class Cost>
-void PrimalDualSearch<Value, Cost>::leave_free_ones(std::vector<int>& roots) {
+void PrimalDualSearch<Value, Cost>::leave_free_ones() {
+  std::vector<int>& roots = range_->roots;
   roots.insert(roots.end(), parked_.begin(), parked_.end());
   for (int& v : roots) {
     const int c = s_.nodes[v].container;
@@ -377,8 +422,9 @@ void PrimalDualSearch<Value, Cost>::leave_free_ones(std::vector<int>& roots) {
 /// Trees that cannot grow: without their odd nodes, each of their even containers is a component for itself.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::find_witness() {
-  for (int v = begin_; v < end_; ++v) {
-    if (s_.nodes[s_.nodes[v].container].rate < 0) s_.witness.push_back(v);
+  range_->outcome = SearchOutcome::kStuck;
+  for (int v = range_->begin; v < range_->end; ++v) {
+    if (s_.nodes[s_.nodes[v].container].rate < 0) range_->witness.push_back(v);
   }
 }
 

@@ -8,8 +8,7 @@
 
 #include "base/cancel.h"
 #include "matching/matching.h"
-#include "matching/primal_dual_blossoms.h"
-#include "matching/primal_dual_search.h"
+#include "matching/primal_dual_levels.h"
 #include "matching/primal_dual_start.h"
 #include "matching/primal_dual_state.h"
 
@@ -17,38 +16,9 @@ namespace delquad {
 
 namespace {
 
-/// Nodes of the smallest ranges that are searched for themselves: their part of the graph stays in a fast
-/// cache.
-constexpr int kFirstRange = 4096;
-/// Ranges of one level that make one of the next.
-constexpr int kRangeFactor = 8;
 /// Times and dual values are, with all else that is added to them, at most this many times a bound on the sum
 /// of the costs of a matching (docs/matching.md).
 constexpr int kRoom = 16;
-
-/// Searches in ranges of nodes, each time in larger ones. Free nodes of one range are consecutive in
-/// `free_nodes`.
-template <class Value, class Cost>
-SearchOutcome search_levels(PrimalDualState<Value, Cost>& state, PrimalDualSearch<Value, Cost>& search,
-                            bool park, int modulus) {
-  const long long n = state.n_nodes;
-  for (long long range = std::min<long long>(kFirstRange, n);; range = std::min(range * kRangeFactor, n)) {
-    const std::vector<int> free_nodes = std::move(state.free_nodes);
-    state.free_nodes.clear();
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < free_nodes.size();) {
-      const long long begin = free_nodes[i] / range * range, end = std::min(begin + range, n);
-      roots.clear();
-      while (i < free_nodes.size() && free_nodes[i] < end) roots.push_back(free_nodes[i++]);
-      const SearchOutcome outcome =
-          search.run(static_cast<int>(begin), static_cast<int>(end), park, modulus, roots);
-      if (outcome != SearchOutcome::kDone) return outcome;
-      state.free_nodes.insert(state.free_nodes.end(), roots.begin(), roots.end());
-    }
-    std::sort(state.free_nodes.begin(), state.free_nodes.end());
-    if (range == n) return SearchOutcome::kDone;
-  }
-}
 
 /// Opens all blossoms from outside to inside, noting them down.
 template <class Value, class Cost>
@@ -95,21 +65,22 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
     certificate.node_dual.assign(first.dual.begin(), first.dual.end());
     return result;
   }
-  PrimalDualState<Value, Cost> state = make_state<Value, Cost>(graph, first);
+  PrimalDualState<Value, Cost> state(graph.n_nodes);
+  fill_state(graph, first, state);
   first = {};
   check_cancelled();
   raise_free_nodes(state);
-  PrimalDualSearch<Value, Cost> search(state, time_limit);
+  PrimalDualLevels<Value, Cost> levels(state, time_limit);
   // Totals are even up to here, and costs multiples of four: two even nodes meet after a whole number of
   // units.
-  SearchOutcome outcome = search_levels(state, search, true, 4);
-  if (outcome == SearchOutcome::kDone) outcome = search_levels(state, search, false, 2);
+  SearchOutcome outcome = levels.run(true, 4);
+  if (outcome == SearchOutcome::kDone) outcome = levels.run(false, 2);
   if (outcome == SearchOutcome::kOverflow) return std::nullopt;
-  result.contractions = state.contractions;
-  result.expansions = state.expansions;
+  result.contractions = levels.contractions;
+  result.expansions = levels.expansions;
   if (outcome == SearchOutcome::kStuck) {
     certificate = {};
-    certificate.witness = std::move(state.witness);
+    certificate.witness = std::move(levels.witness);
     return result;
   }
   certificate.node_dual.resize(graph.n_nodes);

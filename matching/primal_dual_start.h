@@ -19,6 +19,7 @@ struct FirstMatching {
   std::vector<Value> dual;
   std::vector<int> mate;  ///< -1: free
   int n_free = 0;
+  int hub = 0;  ///< the most edges of a node that is no hub
 };
 
 /// A node of a degree this many times as large as usual is a hub. Half of its cheapest edge says nothing of
@@ -32,7 +33,8 @@ inline int hub_degree(const MatchingGraph& graph) {
 
 /// Every edge that is no hub's leaves half of its cost to each end, so that none has negative slack.
 template <class Value>
-void share_costs(const MatchingGraph& graph, int hub, FirstMatching<Value>& first) {
+void share_costs(const MatchingGraph& graph, FirstMatching<Value>& first) {
+  const int hub = first.hub;
   constexpr long long kNone = std::numeric_limits<long long>::max();
   std::vector<long long> cheapest(graph.n_nodes, kNone);
   bool hubs = false;
@@ -63,7 +65,8 @@ FirstMatching<Value> first_matching(const MatchingGraph& graph) {
     ++first.degree[e.b];
   }
   check_cancelled();
-  share_costs(graph, hub_degree(graph), first);
+  first.hub = hub_degree(graph);
+  share_costs(graph, first);
   check_cancelled();
   for (const auto& e : graph.edges) {
     if (first.mate[e.a] >= 0 || first.mate[e.b] >= 0 || e.a == e.b) continue;
@@ -77,13 +80,11 @@ FirstMatching<Value> first_matching(const MatchingGraph& graph) {
 
 /// The graph in rows, with the first matching; the arcs of a node are in the order of the edges.
 template <class Value, class Cost>
-PrimalDualState<Value, Cost> make_state(const MatchingGraph& graph, const FirstMatching<Value>& first) {
+void fill_state(const MatchingGraph& graph, const FirstMatching<Value>& first,
+                PrimalDualState<Value, Cost>& state) {
   using State = PrimalDualState<Value, Cost>;
-  State state;
   const int n = graph.n_nodes;
-  state.n_nodes = n;
-  state.nodes.resize(n);
-  state.next.resize(n);
+  state.hub = first.hub;
   std::size_t apart = 0;
   for (int v = 0; v < n; ++v) {
     auto& node = state.nodes[v];
@@ -108,7 +109,6 @@ PrimalDualState<Value, Cost> make_state(const MatchingGraph& graph, const FirstM
     add(e.a, e.b, cost);
     add(e.b, e.a, cost);
   }
-  return state;
 }
 
 /// Raises the dual value of each free node as far as its edges let it, and matches it with a free node that

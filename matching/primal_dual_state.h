@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
+
+#include "matching/shared_pool.h"
 
 namespace delquad {
 
@@ -60,16 +63,17 @@ struct PrimalDualState {
     std::vector<Child> children;  ///< around the odd cycle
   };
 
-  int n_nodes = 0;
+  explicit PrimalDualState(int n) : n_nodes(n), nodes(n), next(n), blossoms(n / 2) {}
+
+  int n_nodes;
+  int hub = 0;  ///< nodes of more arcs than this are hubs: they are in no range but that of all nodes
   std::vector<Node> nodes;
   std::vector<int> next;  ///< in the lists of nodes of blossoms
   std::vector<Arc> arcs;  ///< of nodes that have many
-  std::vector<Blossom> blossoms;
-  std::vector<int> unused_blossoms;
+  SharedPool<Blossom> blossoms;
+  /// Marks that searches have taken, some at a time: each is in use once.
+  std::atomic<int> marks = 0;
   std::vector<int> free_nodes;  ///< one in each container that is not matched
-  std::vector<int> witness;     ///< where a search found that there is no perfect matching
-  int last_mark = 0;
-  long long augmentations = 0, contractions = 0, expansions = 0;
 
   const Arc* arcs_of(const Node& node) const {
     return node.degree <= kOwnArcs ? node.own_arcs : arcs.data() + node.own_arcs[0].to;
@@ -105,13 +109,28 @@ struct PrimalDualState {
     each_in_list(blossoms[b].first, blossoms[b].last, f);
   }
 
+  /// While no search runs.
+  Value total(int v) const { return nodes[v].value + nodes[nodes[v].container].offset; }
+
+  bool inside(int container, int begin, int end) const {
+    const int b = nodes[container].blossom;
+    if (b >= 0) return blossoms[b].lowest >= begin && blossoms[b].highest < end;
+    return nodes[container].degree <= hub || end - begin == n_nodes;
+  }
+  /// A container that a search of the range may change, and so the one that it is matched with.
+  bool movable(int container, int begin, int end) const {
+    if (!inside(container, begin, end)) return false;
+    const int mate = nodes[nodes[container].base].mate;
+    return mate < 0 || (mate >= begin && mate < end && inside(nodes[mate].container, begin, end));
+  }
+
   /// The outermost blossom of a container becomes its children, which are matched around the cycle and in no
   /// tree. `offset` is the container's at this time.
   std::vector<Child> expand(int container, Value offset) {
     const int b = nodes[container].blossom, base = nodes[container].base;
     std::vector<Child> children;
     children.swap(blossoms[b].children);
-    unused_blossoms.push_back(b);
+    blossoms.drop(b);
     for (const Child& child : children) {
       const int c = child.container;
       if (c != container)
@@ -137,16 +156,6 @@ struct PrimalDualState {
     int i = 0;
     while (children[i].container != container) ++i;
     return i;
-  }
-
-  int new_blossom() {
-    if (unused_blossoms.empty()) {
-      blossoms.emplace_back();
-      return static_cast<int>(blossoms.size()) - 1;
-    }
-    const int b = unused_blossoms.back();
-    unused_blossoms.pop_back();
-    return b;
   }
 };
 

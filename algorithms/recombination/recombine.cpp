@@ -6,6 +6,7 @@
 #include "algorithms/recombination/boundary_repair.h"
 #include "algorithms/recombination/dual_graph.h"
 #include "algorithms/recombination/spanning_sides.h"
+#include "base/parallel_collect.h"
 #include "mesh/tri_topology.h"
 
 namespace delquad {
@@ -26,23 +27,34 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The quads of all matched pairs that share a side, and the triangles matched with a spare.
+/// The quads of all matched pairs that share a side.
+std::vector<std::array<int, 4>> merged_pairs(const TriPatch& tri, const DualGraph& dual,
+                                             const std::vector<int>& mate) {
+  using Quads = std::vector<std::array<int, 4>>;
+  const int n = static_cast<int>(dual.triangle.size());
+  return parallel_collect<std::array<int, 4>>(
+      dual.triangle.size(), [&](std::size_t begin, std::size_t end, Quads& quads) {
+        quads.reserve(end - begin);
+        for (std::size_t i = begin; i < end; ++i) {
+          if (mate[i] >= n || mate[i] < static_cast<int>(i)) continue;
+          const int t = dual.triangle[i], u = dual.triangle[mate[i]];
+          const auto& v = tri.triangles[t];
+          const int side = facing_side(tri, t, u);
+          if (side < 0) continue;  // matched by an extra edge
+          const int opposite = tri.triangles[u][facing_side(tri, u, t)];
+          quads.push_back({v[side], v[(side + 1) % 3], opposite, v[(side + 2) % 3]});
+        }
+      });
+}
+
+/// Those quads, and the triangles matched with a spare.
 QuadPatch merge(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate) {
   QuadPatch mesh;
   mesh.points = tri.points;
   mesh.n_boundary = tri.n_boundary;
-  const int n = static_cast<int>(dual.triangle.size());
-  mesh.quads.reserve(tri.triangles.size() / 2 + 1);
-  for (int i = 0; i < n; ++i) {
-    const int t = dual.triangle[i];
-    const auto& v = tri.triangles[t];
-    if (mate[i] >= n) mesh.triangles.push_back(v);
-    if (mate[i] >= n || mate[i] < i) continue;
-    const int u = dual.triangle[mate[i]];
-    const int side = facing_side(tri, t, u);
-    if (side < 0) continue;  // matched by an extra edge
-    const int opposite = tri.triangles[u][facing_side(tri, u, t)];
-    mesh.quads.push_back({v[side], v[(side + 1) % 3], opposite, v[(side + 2) % 3]});
+  mesh.quads = merged_pairs(tri, dual, mate);
+  for (std::size_t spare = dual.triangle.size(); spare < mate.size(); ++spare) {
+    mesh.triangles.push_back(tri.triangles[dual.triangle[mate[spare]]]);
   }
   return mesh;
 }

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <stop_token>
 
@@ -186,6 +190,28 @@ TEST(PrimalDual, WitnessesWhereThereIsNoPerfectMatching) {
   EXPECT_EQ(tally.perfect, 2);
 }
 
+TEST(PrimalDual, WitnessesInGraphsOfManyRanges) {
+  // Four triangles hang at one node: at most one of them is matched with it.
+  Random random(12);
+  MatchingGraph graph = cubic_graph(random, 60'000);
+  for (int k = 0; k < 4; ++k) {
+    const int first = graph.n_nodes;
+    graph.n_nodes += 3;
+    for (int i = 0; i < 3; ++i) graph.edges.push_back({first + i, first + (i + 1) % 3, 0});
+    graph.edges.push_back({first, 30'000, 0});
+  }
+  price(graph, random, 1000);
+  const auto witness = [&](int threads) {
+    const RunScope run({.threads = threads});
+    const MatchingResult result = make_primal_dual_solver()->solve(graph);
+    EXPECT_EQ(result.status, MatchingStatus::kNotPerfect);
+    EXPECT_TRUE(proves_not_perfect(graph, result.certificate));
+    return result.certificate.witness;
+  };
+  const std::vector<int> first = witness(1);
+  for (const int threads : {2, 7}) EXPECT_EQ(witness(threads), first);
+}
+
 TEST(PrimalDual, BlossomsNestedDeeply) {
   // Two centres, each of which reaches pair after pair that close triangles with all that it has, before it
   // reaches the other one.
@@ -220,6 +246,66 @@ TEST(PrimalDual, TheSameGraphGivesTheSameMatching) {
   ASSERT_EQ(first.status, MatchingStatus::kOptimal);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(make_primal_dual_solver()->solve(graph).mate, first.mate);
 }
+
+/// Of many ranges on all levels; in the second all costs tie, and the third has an odd number of triangles,
+/// one of which is left to a node that all others know.
+TEST(PrimalDual, EveryNumberOfThreadsGivesTheSameMatching) {
+  Random random(10);
+  std::vector<MatchingGraph> graphs = {cubic_graph(random, 60'000), triangle_lattice(200, 7, 1000),
+                                       triangle_lattice(201, 7, 1000)};
+  price(graphs[0], random, 1000);
+  const int spare = graphs[2].n_nodes++;
+  for (int v = 0; v < spare; ++v) graphs[2].edges.push_back({v, spare, 0});
+  for (const MatchingGraph& graph : graphs) {
+    const auto solved = [&](int threads) {
+      const RunScope run({.threads = threads});
+      return make_primal_dual_solver()->solve(graph);
+    };
+    const MatchingResult first = solved(1);
+    std::string why;
+    ASSERT_TRUE(proves_optimal(graph, first.mate, first.certificate, &why)) << why;
+    for (const int threads : {2, 3, 7}) {
+      const MatchingResult result = solved(threads);
+      EXPECT_EQ(result.mate, first.mate);
+      EXPECT_EQ(result.certificate.node_dual, first.certificate.node_dual);
+      EXPECT_EQ(result.certificate.blossom_parent, first.certificate.blossom_parent);
+      EXPECT_EQ(result.contractions, first.contractions);
+    }
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they take terabytes of addresses
+long long address_space() {
+  long long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * sysconf(_SC_PAGESIZE);
+}
+
+/// Ends the process with 7 when memory runs out, as with 10^7 nodes on a small machine.
+[[noreturn]] void solve_within(const MatchingGraph& graph, long long bytes) {
+  const RunScope run({.threads = 1});
+  const rlim_t most = static_cast<rlim_t>(address_space() + bytes);
+  const rlimit limit = {most, most};
+  setrlimit(RLIMIT_AS, &limit);
+  try {
+    make_primal_dual_solver()->solve(graph);
+  } catch (const std::bad_alloc&) {
+    _exit(7);
+  }
+  _exit(0);
+}
+
+TEST(PrimalDual, TooLittleMemoryIsAnException) {
+  Random random(13);
+  MatchingGraph graph = cubic_graph(random, 1'000'000);
+  price(graph, random, 1'000'000);
+  for (const long long megabytes : {1, 10, 20, 40, 80, 100}) {
+    SCOPED_TRACE(megabytes);
+    EXPECT_EXIT(solve_within(graph, megabytes << 20), testing::ExitedWithCode(7), "");
+  }
+  EXPECT_EXIT(solve_within(graph, 4LL << 30), testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(PrimalDual, IsCancelledAtAnyCheck) {
   Random random(9);

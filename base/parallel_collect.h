@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace delquad {
+
+/// Calls make(begin, end, items) for ranges of a fixed length, the last one excepted, that make up [0, n), on
+/// all threads of the run: it appends what the range yields. Returns all of it in the ranges' order, so that
+/// it does not depend on the number of threads.
+template <class Item, class Make>
+std::vector<Item> parallel_collect(std::size_t n, const Make& make) {
+  constexpr std::size_t kLength = 8192;
+  std::vector<std::vector<Item>> parts((n + kLength - 1) / kLength);
+  parallel_for(parts.size(),
+               [&](std::size_t i) { make(i * kLength, std::min(n, (i + 1) * kLength), parts[i]); });
+  std::vector<std::size_t> first = {0};
+  for (const auto& part : parts) first.push_back(first.back() + part.size());
+  std::vector<Item> all(first.back());
+  parallel_for(parts.size(), [&](std::size_t i) {
+    std::ranges::copy(parts[i], all.begin() + static_cast<std::ptrdiff_t>(first[i]));
+    parts[i] = {};
+  });
+  return all;
+}
+
+}  // namespace delquad
