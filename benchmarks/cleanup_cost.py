@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Time of clean-up and optimisation (C, O) against insertion, over a range of sizes, and how it grows.
+"""Time a quad of every step of DBCO, how that of treatment, C and O grows, and what a second thread is worth.
 
-Runs `delquad mesh` with DBCO and one thread on a plane and on a CAD model. Times come from the same run, so that their
-ratio means something on a busy machine, too; the last line of each model has the power of the number of quads by which
-each grows. A model that is missing is skipped with a reason.
+Runs `delquad mesh` with DBCO on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the steps are
+microseconds a quad on one thread, and come from one run: their ratio to insertion's means something on a busy machine, too. The last line of
+each model has the power of the number of quads by which each grows. "meshing" is seconds on the clock from the boundary to the mesh. A model
+that is missing is skipped with a reason.
 """
 
 import argparse
@@ -13,19 +14,19 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-COUNTS = [5000, 10000, 20000, 40000, 80000]
+COUNTS = [5000, 10000, 20000, 40000, 80000, 250000]
+STEPS = ["insertion", "matching", "treatment", "clean-up", "optimisation", "lifting", "projection", "metrics", "soundness", "write"]
+GROWING = ["treatment", "clean-up", "optimisation"]
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def mesh(delquad, model, size):
-    """Number of quads, and seconds of insertion and of C and O."""
+def mesh(delquad, model, size, threads):
+    """The record of a run."""
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "record.json"
         subprocess.run([delquad, "mesh", model, "-o", Path(folder) / "mesh.msh", "--size", repr(size), "--pipeline", "DBCO",
-                        "--threads", "1", "--json", record], check=True, capture_output=True)
-        result = json.loads(record.read_text())
-    seconds = result["seconds"]
-    return result["metrics"]["n_quads"], seconds["insertion"], seconds["clean-up"], seconds["optimisation"]
+                        "--threads", str(threads), "--json", record], check=True, capture_output=True)
+        return json.loads(record.read_text())
 
 
 def power(rows, column):
@@ -35,34 +36,40 @@ def power(rows, column):
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
 
 
-def print_table(delquad, name, model, size):
+def print_table(delquad, name, model, size, counts):
     rows = []
-    for count in COUNTS:
+    for count in counts:
         size *= math.sqrt((rows[-1][0] if rows else count) / count)
         while True:  # sizes near features follow rules of their own
-            row = mesh(delquad, model, size)
-            if abs(row[0] / count - 1) < 0.1:
+            one = mesh(delquad, model, size, 1)
+            quads = one["metrics"]["n_quads"]
+            if abs(quads / count - 1) < 0.1:
                 break
-            size *= math.sqrt(row[0] / count)
-        rows.append(row)
-        quads, insertion, cleanup, optimisation = row
-        print(f"| {name} | {quads:.0f} | {insertion:.3f} | {cleanup:.2f} | {optimisation:.2f} | {(cleanup + optimisation) / insertion:.0f} |",
-              flush=True)
-    print(f"| {name}, power | | {power(rows, 1):.2f} | {power(rows, 2):.2f} | {power(rows, 3):.2f} | |", flush=True)
+            size *= math.sqrt(quads / count)
+        two = mesh(delquad, model, size, 2)
+        seconds = [one["seconds"].get(step, 0) for step in STEPS]
+        rows.append([quads] + [seconds[STEPS.index(step)] for step in GROWING])
+        clock = one["meshing_seconds"], two["meshing_seconds"]
+        print(f"| {name} | {quads:.0f} |" + "".join(f" {1e6 * s / quads:.2f} |" for s in seconds) +
+              f" {clock[0]:.2f} | {clock[1]:.2f} | {clock[0] / clock[1]:.2f} |", flush=True)
+    if len(rows) > 1:
+        print(f"{name}, power: " + ", ".join(f"{step} {power(rows, i + 1):.2f}" for i, step in enumerate(GROWING)), flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--delquad", type=Path, default=ROOT / "build/release/delquad")
     parser.add_argument("--data", type=Path, default=ROOT.parent / "shared/data")
+    parser.add_argument("--counts", type=int, nargs="+", default=COUNTS, help="numbers of quads")
     arguments = parser.parse_args()
     if not arguments.delquad.exists():
         return print(f"skipped: {arguments.delquad} is not built")
-    print("| model | quads | insertion, s | C, s | O, s | (C + O) / insertion |\n|---|---:|---:|---:|---:|---:|")
+    header = ["model", "quads", *STEPS, "meshing, s", "two threads", "ratio"]
+    print("| " + " | ".join(header) + " |\n|---|" + "---:|" * (len(header) - 1))
     for name, model, size in (("plate", ROOT / "experiments/models/plate_16_holes.toml", 0.0247),
                               ("part.step", arguments.data / "cad/part.step", 3.1)):
         if model.exists():
-            print_table(arguments.delquad, name, model, size)
+            print_table(arguments.delquad, name, model, size, arguments.counts)
         else:
             print(f"| {name} | skipped: {model} not found |")
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "base/box.h"
@@ -107,6 +108,41 @@ std::vector<int> ordered(const Elements& elements, std::span<const Vec2> places,
   return order;
 }
 
+using Blocks = std::vector<std::vector<int>>;
+
+/// Into parts of the same length, about kBlockElements each.
+Blocks cut(const std::vector<int>& order) {
+  const std::size_t n = std::max<std::size_t>(order.size() / ElementBlocks::kBlockElements, 1);
+  Blocks blocks;
+  for (std::size_t b = 0; b < n; ++b)
+    blocks.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(b * order.size() / n),
+                        order.begin() + static_cast<std::ptrdiff_t>((b + 1) * order.size() / n));
+  return blocks;
+}
+
+/// Without cuts: what hangs together is in one block.
+Blocks whole_pieces(const Elements& elements, const std::vector<int>& order, std::size_t n_vertices) {
+  std::vector<int> parent(n_vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const int e : order)
+    for (const int v : elements.corners(e)) parent[root(v)] = root(elements.corners(e)[0]);
+  std::vector<int> block_of(n_vertices, -1);
+  Blocks blocks;
+  for (const int e : order) {
+    int& block = block_of[root(elements.corners(e)[0])];
+    if (block < 0) {
+      if (blocks.empty() || blocks.back().size() >= ElementBlocks::kBlockElements) blocks.emplace_back();
+      block = static_cast<int>(blocks.size()) - 1;
+    }
+    blocks[block].push_back(e);
+  }
+  return blocks;
+}
+
 }  // namespace
 
 void ElementBlocks::find_owners(const Elements& elements, std::size_t n_vertices) {
@@ -139,11 +175,7 @@ bool ElementBlocks::next(const Elements& elements, std::span<const Vec2> places)
   if (!first) near_ = grown(elements, left_, kNearRings);
   const std::vector<int> order = ordered(
       elements, places, first ? std::vector<char>{} : grown(elements, near_, kBandRings - kNearRings));
-  const std::size_t n = pass_ == Pass::kLast ? 1 : std::max<std::size_t>(order.size() / kBlockElements, 1);
-  own_.clear();
-  for (std::size_t b = 0; b < n; ++b)
-    own_.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(b * order.size() / n),
-                      order.begin() + static_cast<std::ptrdiff_t>((b + 1) * order.size() / n));
+  own_ = pass_ == Pass::kLast ? whole_pieces(elements, order, places.size()) : cut(order);
   find_owners(elements, places.size());
   return true;
 }

@@ -23,7 +23,7 @@ struct Elements {
 /// Divides elements into blocks that threads work on independently, the same for every number of threads. Few
 /// elements, less than twice kBlockElements, are one block. Others are cut along a Hilbert curve; then what
 /// lies around its cuts is cut along another curve, which crosses the first cuts; what lies around the points
-/// where both cross is one block at last. Vertices at which several blocks, or a block and what is left out,
+/// where both cross is not cut at last. Vertices at which several blocks, or a block and what is left out,
 /// have elements belong to none of them.
 class ElementBlocks {
  public:

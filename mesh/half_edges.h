@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "delquad/mesh.h"
 
 namespace delquad {
@@ -42,12 +43,13 @@ inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
       sides[next[std::min(a, b)]++] = {std::min(a, b), std::max(a, b), element, a < b};
     }
   });
-  for (size_t i = 0; i + 1 < start.size(); ++i) {
-    std::sort(sides.begin() + start[i], sides.begin() + start[i + 1],
-              [](const HalfEdge& s, const HalfEdge& t) {
-                return std::tie(s.hi, s.element, s.forward) < std::tie(t.hi, t.element, t.forward);
-              });
-  }
+  parallel_ranges(mesh.points.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      std::sort(sides.begin() + start[i], sides.begin() + start[i + 1],
+                [](const HalfEdge& s, const HalfEdge& t) {
+                  return std::tie(s.hi, s.element, s.forward) < std::tie(t.hi, t.element, t.forward);
+                });
+  });
   return sides;
 }
 

@@ -291,10 +291,12 @@ void check_insertion(const PreparedProblem& prepared, const StageLog& log) {
         log.summaries.get<long long>("insertion", "inserted"), prepared.max_elements));
 }
 
-/// Metrics and, at the same time, the report of a surface; then what both say.
+/// Metrics and, at the same time, the report of a surface and what is sound.
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
   const DoingStage measuring("report");
-  double metrics_seconds = 0, report_seconds = 0;
+  double metrics_seconds = 0, report_seconds = 0, soundness_seconds = 0;
+  // A place that is not finite is nowhere near a surface.
+  const bool has_report = prepared.surface && has_finite_points(result.mesh);
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
@@ -304,19 +306,21 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
       },
       [&] {
         const Stopwatch watch;
-        const PreparedSurface& surface = *prepared.surface;
-        result.surface =
-            report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
-        report_seconds = watch.work_seconds();
+        if (has_report) {
+          const PreparedSurface& surface = *prepared.surface;
+          result.surface =
+              report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
+          report_seconds = watch.work_seconds();
+        }
+        const Stopwatch checking;
+        result.soundness =
+            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
+        soundness_seconds = checking.work_seconds();
       }};
-  // A place that is not finite is nowhere near a surface.
-  const bool has_report = prepared.surface && has_finite_points(result.mesh);
-  parallel_for(has_report ? 2 : 1, [&](std::size_t i) { parts[i](); });
+  parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
   result.log.add_seconds("metrics", metrics_seconds);
   if (has_report) result.log.add_seconds("surface report", report_seconds);
-  const Stopwatch checking;
-  result.soundness = check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
-  result.log.add_seconds("soundness", checking.work_seconds());
+  result.log.add_seconds("soundness", soundness_seconds);
 }
 
 }  // namespace

@@ -152,24 +152,28 @@ void CleanupProcess::anneal(double tolerance) {
       accept();
       drain();
     } else {
-      failed_[v].push_back(move);
+      failed_.push_back({move, last_failed_[v]});
+      last_failed_[v] = static_cast<int>(failed_.size()) - 1;
     }
     list_irregular(v);
   }
 }
 
 bool CleanupProcess::pick_neutral(int v, TreatmentMove& move) {
-  failed_.resize(mesh_.vertex_slots());
-  const auto failed = [&](const TreatmentMove& edit) {
-    return std::ranges::find(failed_[v], edit) != failed_[v].end();
-  };
+  last_failed_.resize(mesh_.vertex_slots(), -1);
   choices_.clear();
   for_each_edit_near(v, [&](const TreatmentMove& edit) {
-    if (energy_.gain(edit) == 0 && !failed(edit) && is_legal(mesh_, edit)) choices_.push_back(edit);
+    if (energy_.gain(edit) == 0 && !has_failed(v, edit) && is_legal(mesh_, edit)) choices_.push_back(edit);
   });
   if (choices_.empty()) return false;
   move = choices_[random_() % choices_.size()];
   return true;
+}
+
+bool CleanupProcess::has_failed(int v, const TreatmentMove& move) const {
+  for (int i = last_failed_[v]; i >= 0; i = failed_[i].before)
+    if (failed_[i].move == move) return true;
+  return false;
 }
 
 bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
@@ -194,7 +198,7 @@ bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
 
 void CleanupProcess::accept() {
   mesh_.commit();
-  failed_.resize(mesh_.vertex_slots());
+  last_failed_.resize(mesh_.vertex_slots(), -1);
   consider(touched_);
   for (const int v : touched_) {
     if (!mesh_.vertex_alive(v)) continue;
@@ -204,7 +208,7 @@ void CleanupProcess::accept() {
         const int w = mesh_.corner(e, k);
         if (w < 0) continue;
         relocation_.activate(w);
-        failed_[w].clear();
+        last_failed_[w] = -1;
         list_irregular(w);
       }
     });

@@ -44,6 +44,7 @@ class CleanupProcess {
   Quality quality(std::span<const int> vertices);
   double deviation(int element) const;
   void list_irregular(int v);
+  bool has_failed(int v, const TreatmentMove& move) const;
 
   const QuadBlock& block_;
   QuadTopology mesh_;
@@ -51,11 +52,18 @@ class CleanupProcess {
   QuadRelocation relocation_;
   CleanupOptions options_;
   std::mt19937_64 random_;
-  MoveQueue queue_;                                 ///< edits that lower the sum
-  std::vector<int> visiting_, work_;                ///< irregular vertices of this round and of the next
-  std::vector<char> listed_;                        ///< by vertex: in work_
-  std::vector<std::vector<TreatmentMove>> failed_;  ///< by vertex, since an edit changed what lies around
-  std::vector<int> touched_;                        ///< vertices of the edit on trial
+  MoveQueue queue_;                   ///< edits that lower the sum
+  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next
+  std::vector<char> listed_;          ///< by vertex: in work_
+  /// What failed at a vertex since an edit changed what lies around: the last one by vertex (-1: none), and
+  /// before it.
+  std::vector<int> last_failed_;
+  struct Failed {
+    TreatmentMove move;
+    int before;
+  };
+  std::vector<Failed> failed_;
+  std::vector<int> touched_;  ///< vertices of the edit on trial
   std::vector<TreatmentMove> choices_;
   Marks elements_met_, vertices_met_;
   CleanupSummary summary_;

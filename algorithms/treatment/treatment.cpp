@@ -12,7 +12,7 @@ namespace {
 /// Sweeps of local relocation within which a move must settle; and for the few that may lift a poor element.
 constexpr int kTrialSweeps = 4, kRescueSweeps = 12;
 /// In the end vertices rest once they would move by less than this part of an edge.
-constexpr double kSettled = 0.03;
+constexpr double kSettled = 0.02;
 /// A pair's first move may cost this much valence energy; of its second moves so many are tried.
 constexpr int kPairLoss = 2, kPairTries = 3;
 /// No pair of moves gains where the energy around is less: a dislocation alone (3-5) cannot vanish.

@@ -75,23 +75,6 @@ Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   return kept;
 }
 
-Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides) {
-  Topology topology;
-  std::vector<char> used(mesh.points.size(), 0);
-  for_each_element(mesh, [&](int, const auto& v) {
-    ++topology.euler_characteristic;
-    for (const int i : v)
-      if (!std::exchange(used[i], 1)) ++topology.euler_characteristic;
-  });
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    --topology.euler_characteristic;
-    topology.free_edges += edge.size() == 1;
-    topology.branching_edges += edge.size() > 2;
-    topology.disagreeing_edges += edge.size() == 2 && edge[0].forward == edge[1].forward;
-  });
-  return topology;
-}
-
 /// How many elements have each of the curves' edges as a side.
 std::vector<int> elements_on_curves(const Mesh& mesh) {
   std::vector<int> elements(mesh.curves.size(), 0);
@@ -333,6 +316,23 @@ void Distances::add(double distance, double size, const Place& place) {
   add(distance);
   max_in_sizes = std::max(max_in_sizes, distance / size);
   if (distance > kExplainedSizes * size) unexplained.add(place);
+}
+
+Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides) {
+  Topology topology;
+  std::vector<char> used(mesh.points.size(), 0);
+  for_each_element(mesh, [&](int, const auto& v) {
+    ++topology.euler_characteristic;
+    for (const int i : v)
+      if (!std::exchange(used[i], 1)) ++topology.euler_characteristic;
+  });
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    --topology.euler_characteristic;
+    topology.free_edges += edge.size() == 1;
+    topology.branching_edges += edge.size() > 2;
+    topology.disagreeing_edges += edge.size() == 2 && edge[0].forward == edge[1].forward;
+  });
+  return topology;
 }
 
 Topology topology_of(const Mesh& mesh) { return topology_of(mesh, sorted_half_edges(mesh)); }

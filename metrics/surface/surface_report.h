@@ -8,10 +8,13 @@
 #include "delquad/metrics.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
+#include "mesh/half_edges.h"
 
 namespace delquad {
 
 Topology topology_of(const Mesh& mesh);
+/// `sides`: of sorted_half_edges().
+Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides);
 
 /// By curve (index), whether more than two faces of a model meet there, or two that are turned against each
 /// other.

@@ -29,6 +29,7 @@ double power(double x, int n) {
 template <class Vec>
 QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights)
     : weights_(weights), start_(std::move(mesh.points)), moving_(std::move(mesh.moving)) {
+  slot_of_.assign(start_.size(), -1);
   add_pieces(mesh);
   find_slots_of_moving();
   for (const Slot& slot : slots_) at_.push_back(start_[slot.vertex]);
@@ -80,18 +81,17 @@ void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
 template <class Vec>
 void QuadEnergy<Vec>::add_slots(std::size_t quads_begin, std::size_t edges_begin,
                                 const std::vector<int>& moving) {
-  std::vector<int> vertices;
-  for (std::size_t q = quads_begin; q < quads_.size(); ++q)
-    vertices.insert(vertices.end(), quads_[q].sides.begin(), quads_[q].sides.end());
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const int first = static_cast<int>(slots_.size());
+  const std::size_t first = slots_.size();
   const auto to_slot = [&](int& v) {
-    v = first + static_cast<int>(std::ranges::lower_bound(vertices, v) - vertices.begin());
+    int& slot = slot_of_[v];
+    if (slot < static_cast<int>(first)) {
+      slot = static_cast<int>(slots_.size());
+      slots_.push_back({v, moving[v]});
+    }
+    v = slot;
   };
   for (std::size_t q = quads_begin; q < quads_.size(); ++q) std::ranges::for_each(quads_[q].sides, to_slot);
   for (std::size_t e = edges_begin; e < edges_.size(); ++e) std::ranges::for_each(ends_[e], to_slot);
-  for (const int v : vertices) slots_.push_back({v, moving[v]});
   add_sides(quads_begin, edges_begin, first);
   pieces_.push_back({quads_.size(), edges_.size(), slots_.size(), sides_.size()});
 }

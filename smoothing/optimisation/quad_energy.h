@@ -118,6 +118,7 @@ class QuadEnergy {
   std::vector<MovingVertex<Vec>> moving_;
   std::vector<Quad> quads_;
   std::vector<Edge> edges_;
+  std::vector<int> slot_of_;              ///< by vertex: its last one
   std::vector<std::array<int, 2>> ends_;  ///< vertices, then slots, of the edges until their sides are known
   std::vector<Side> sides_;
   std::vector<Slot> slots_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -30,10 +31,86 @@ constexpr double kDeltaReach = 0.15;
 /// Steps of the search that lifts a vertex's worst corner.
 constexpr int kLiftSteps = 10;
 
+/// Two numbers that are worked on at once.
+using Pair = double __attribute__((vector_size(16)));
+
+template <class Number>
+constexpr std::size_t kWidth = sizeof(Number) / sizeof(double);
+
+template <class Number>
+Number load(const double* from) {
+  Number all;
+  std::memcpy(&all, from, sizeof(Number));
+  return all;
+}
+
+template <class Number>
+void store(const Number& all, double* to) {
+  std::memcpy(to, &all, sizeof(Number));
+}
+
+double square_root(double x) { return std::sqrt(x); }
+Pair square_root(Pair x) { return Pair{std::sqrt(x[0]), std::sqrt(x[1])}; }
+double sum_of(double x) { return x; }
+double sum_of(Pair x) { return x[0] + x[1]; }
+double least_of(double x) { return x; }
+double least_of(Pair x) { return std::min(x[0], x[1]); }
+template <class Number>
+Number larger(Number a, Number b) {
+  return a > b ? a : b;
+}
+template <class Number>
+Number smaller(Number a, Number b) {
+  return a < b ? a : b;
+}
+
 /// log(x) within 0.2 % for x from 1/2 to 2, by its Pade approximant; bounded by 3.
-double misfit_of(double x) { return 3 * (x * x - 1) / (x * x + 4 * x + 1); }
+template <class Number>
+Number misfit_of(Number x) {
+  return 3 * (x * x - 1) / (x * x + 4 * x + 1);
+}
 
 Vec2 unit(Vec2 v) { return (1 / std::max(norm(v), kTinyLength)) * v; }
+
+/// What corners and edges add up to.
+template <class Number, bool kDerivatives>
+struct Sums {
+  Number cost{}, flat{}, least_sine = Number{} + 1;
+  Number gx{}, gy{}, hxx{}, hxy{}, hyy{};
+
+  /// `turn_x`, `turn_y`: gradient of the corner's angle.
+  void add_corner(Number sine, Number cosine, Number turn_x, Number turn_y) {
+    const Number zero{};
+    const Number excess = larger(zero, kSteepSine - sine);
+    cost += 1 - sine + kSteep * excess * excess;
+    least_sine = smaller(least_sine, sine);
+    flat += sine <= zero ? zero + 1 : zero;
+    if constexpr (kDerivatives) {
+      const Number slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
+      const Number first = -slope * cosine;
+      const Number steep = excess > zero ? 2 * kSteep * cosine * cosine : zero;
+      const Number second = larger(slope * sine + steep, zero + 0.1);
+      gx += first * turn_x;
+      gy += first * turn_y;
+      hxx += second * turn_x * turn_x;
+      hxy += second * turn_x * turn_y;
+      hyy += second * turn_y * turn_y;
+    }
+  }
+  void add_edge(Number ux, Number uy, Number inverse, Number misfit) {
+    const Number soft = 1 / (1 + misfit * misfit / kHopeless);
+    cost += kLengthWeight * misfit * misfit * soft;
+    if constexpr (kDerivatives) {
+      const Number first = -2 * kLengthWeight * misfit * soft * soft * inverse;
+      const Number second = 2 * kLengthWeight * soft * soft * soft * inverse * inverse;
+      gx += first * ux;
+      gy += first * uy;
+      hxx += second * ux * ux;
+      hxy += second * ux * uy;
+      hyy += second * uy * uy;
+    }
+  }
+};
 
 }  // namespace
 
@@ -87,79 +164,88 @@ void QuadRelocation::activate_ring(int v) {
   });
 }
 
+void QuadRelocation::Spokes::resize(std::size_t n) {
+  for (auto* values : {&end_x, &end_y, &left_x, &left_y, &right_x, &right_y, &inverse_delta})
+    values->resize(n);
+}
+
+void QuadRelocation::Rays::resize(std::size_t n) {
+  for (auto* values : {&x, &y, &inverse, &misfit}) values->resize(n);
+}
+
 void QuadRelocation::gather(int v) {
   const std::size_t n = mesh_.valence(v);
   looks_ += static_cast<long long>(n);
-  star_.resize(n);
-  rays_.resize(n);
+  if (n > spokes_.end_x.size()) {
+    spokes_.resize(n);
+    rays_.resize(n + 1);
+  }
+  n_spokes_ = n;
   std::size_t i = 0;
   mesh_.for_each_out(v, [&](int h) {
     const int across = mesh_.next(h), end = mesh_.origin(across), after = mesh_.target(across);
-    const int opposite = mesh_.is_quad(QuadTopology::element(h)) ? after : end;  // of the next spoke
-    star_[i] = {mesh_.point(end), mesh_.point(after), mesh_.point(opposite), 0.5 * (delta_[v] + delta_[end])};
+    const std::size_t following = i + 1 < n ? i + 1 : 0;
+    const Vec2 from = mesh_.point(end), corner = mesh_.point(after);
+    const bool is_quad = mesh_.is_quad(QuadTopology::element(h));
+    const Vec2 next = is_quad ? mesh_.point(mesh_.target(mesh_.next(across))) : corner;
+    const Vec2 left = unit(corner - from), right = unit((is_quad ? corner : from) - next);
+    spokes_.end_x[i] = from.x, spokes_.end_y[i] = from.y;
+    spokes_.left_x[i] = left.x, spokes_.left_y[i] = left.y;
+    spokes_.right_x[following] = right.x, spokes_.right_y[following] = right.y;
+    spokes_.inverse_delta[i] = 2 / (delta_[v] + delta_[end]);
     ++i;
   });
-  Vec2 opposite = star_[n - 1].right;
-  for (Spoke& spoke : star_) {
-    spoke.left = unit(spoke.left - spoke.end);
-    std::swap(opposite, spoke.right);
-    spoke.right = unit(spoke.right - spoke.end);
+}
+
+/// Fills the rays; returns the shortest length.
+template <class Number>
+double QuadRelocation::look_from(Vec2 at) const {
+  Number shortest = Number{} + 1e300;
+  for (std::size_t i = 0; i < n_spokes_; i += kWidth<Number>) {
+    const Number x = load<Number>(&spokes_.end_x[i]) - at.x, y = load<Number>(&spokes_.end_y[i]) - at.y;
+    const Number length = larger(square_root(x * x + y * y), Number{} + kTinyLength), inverse = 1 / length;
+    store(inverse * x, &rays_.x[i + 1]);
+    store(inverse * y, &rays_.y[i + 1]);
+    store(inverse, &rays_.inverse[i + 1]);
+    store(misfit_of(length * load<Number>(&spokes_.inverse_delta[i])), &rays_.misfit[i + 1]);
+    shortest = smaller(shortest, length);
   }
+  for (auto* values : {&rays_.x, &rays_.y, &rays_.inverse}) (*values)[0] = (*values)[n_spokes_];
+  return least_of(shortest);
+}
+
+template <class Number, bool kDerivatives>
+QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
+  Sums<Number, kDerivatives> sums;
+  for (std::size_t i = 0; i < n_spokes_; i += kWidth<Number>) {
+    const Number ux = load<Number>(&rays_.x[i + 1]), uy = load<Number>(&rays_.y[i + 1]);
+    const Number px = load<Number>(&rays_.x[i]), py = load<Number>(&rays_.y[i]);
+    const Number inverse = load<Number>(&rays_.inverse[i + 1]), before = load<Number>(&rays_.inverse[i]);
+    const Number lx = load<Number>(&spokes_.left_x[i]), ly = load<Number>(&spokes_.left_y[i]);
+    const Number rx = load<Number>(&spokes_.right_x[i]), ry = load<Number>(&spokes_.right_y[i]);
+    // Gradient of the direction angle of a spoke with respect to v: a quarter turn clockwise / length.
+    const Number turn_x = inverse * uy, turn_y = -inverse * ux;
+    sums.add_corner(px * uy - py * ux, px * ux + py * uy, turn_x - before * py, turn_y + before * px);
+    sums.add_corner(ux * ly - uy * lx, -(ux * lx + uy * ly), turn_x, turn_y);
+    sums.add_corner(rx * uy - ry * ux, -(rx * ux + ry * uy), -turn_x, -turn_y);
+    sums.add_edge(ux, uy, inverse, load<Number>(&rays_.misfit[i + 1]));
+  }
+  if constexpr (kDerivatives)
+    *derivatives = {{sum_of(sums.gx), sum_of(sums.gy)}, sum_of(sums.hxx), sum_of(sums.hxy), sum_of(sums.hyy)};
+  Value value;
+  value.cost = sum_of(sums.cost);
+  value.least_sine = least_of(sums.least_sine);
+  value.flat = static_cast<int>(sum_of(sums.flat));
+  return value;
 }
 
 /// Directions first, then sums: each loop keeps what it adds up in registers.
 template <bool kDerivatives>
 QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives) const {
-  const std::size_t n = star_.size();
-  Value value;
-  value.shortest = 1e300;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 along = star_[i].end - at;
-    const double length = std::max(norm(along), kTinyLength), inverse = 1 / length;
-    rays_[i] = {inverse * along, inverse, misfit_of(length / star_[i].delta)};
-    value.shortest = std::min(value.shortest, length);
-  }
-
-  double cost = 0, least_sine = 1, hxx = 0, hxy = 0, hyy = 0;
-  int flat = 0;
-  Vec2 gradient;
-  const auto corner = [&](double sine, double cosine, Vec2 turn) {
-    const double c = 1 - sine, excess = std::max(0.0, kSteepSine - sine);
-    cost += c + kSteep * excess * excess;
-    least_sine = std::min(least_sine, sine);
-    flat += sine <= 0;
-    if constexpr (kDerivatives) {
-      const double slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
-      const double first = -slope * cosine;
-      const double second = std::max(slope * sine + (excess > 0 ? 2 * kSteep * cosine * cosine : 0), 0.1);
-      gradient += first * turn;
-      hxx += second * turn.x * turn.x;
-      hxy += second * turn.x * turn.y;
-      hyy += second * turn.y * turn.y;
-    }
-  };
-  // Gradient of the direction angle of a spoke with respect to v: -perp(u) / length.
-  Vec2 previous = rays_[n - 1].u, previous_turn = (-rays_[n - 1].inverse) * perp(previous);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& [u, inverse, misfit] = rays_[i];
-    const Vec2 left = star_[i].left, right = star_[i].right, turn = (-inverse) * perp(u);
-    corner(cross(previous, u), dot(previous, u), turn - previous_turn);
-    corner(cross(u, left), -dot(u, left), turn);
-    corner(cross(right, u), -dot(right, u), -turn);
-    const double soft = 1 / (1 + misfit * misfit / kHopeless);
-    cost += kLengthWeight * misfit * misfit * soft;
-    if constexpr (kDerivatives) {
-      gradient += (-2 * kLengthWeight * misfit * soft * soft * inverse) * u;
-      const double second = 2 * kLengthWeight * soft * soft * soft * inverse * inverse;
-      hxx += second * u.x * u.x;
-      hxy += second * u.x * u.y;
-      hyy += second * u.y * u.y;
-    }
-    previous = u;
-    previous_turn = turn;
-  }
-  value.cost = cost, value.least_sine = least_sine, value.flat = flat;
-  if constexpr (kDerivatives) *derivatives = {gradient, hxx, hxy, hyy};
+  const bool even = n_spokes_ % 2 == 0;
+  const double shortest = even ? look_from<Pair>(at) : look_from<double>(at);
+  Value value = even ? add_up<Pair, kDerivatives>(derivatives) : add_up<double, kDerivatives>(derivatives);
+  value.shortest = shortest;
   return value;
 }
 
@@ -171,8 +257,9 @@ double QuadRelocation::cost(int v) {
 /// A convex star has its vertex in the box around the neighbours: no step may leave that. A vertex outside
 /// may go round in a box twice as large, and from farther out only come nearer.
 bool QuadRelocation::strays(Vec2 from, Vec2 to) const {
-  Box<Vec2> box{star_[0].end, star_[0].end};
-  for (const Spoke& spoke : star_) box.add(spoke.end);
+  const Vec2 first{spokes_.end_x[0], spokes_.end_y[0]};
+  Box<Vec2> box{first, first};
+  for (std::size_t i = 1; i < n_spokes_; ++i) box.add({spokes_.end_x[i], spokes_.end_y[i]});
   const Vec2 middle = 0.5 * (box.low + box.high), half = 0.5 * box.size();
   // Distance from the middle: 1 on the box.
   const auto distance = [&](Vec2 p) {

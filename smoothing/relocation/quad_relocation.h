@@ -61,18 +61,21 @@ class QuadRelocation {
   long long looks() const { return looks_; }
 
  private:
-  struct Spoke {
-    Vec2 end;      ///< the neighbour
-    Vec2 left;     ///< unit vector from it along the side of the element on the spoke's left that v does not
-                   ///< touch
-    Vec2 right;    ///< same on the right
-    double delta;  ///< wanted length
+  /// The neighbours of a vertex, one after the other counterclockwise, as seen from anywhere.
+  struct Spokes {
+    std::vector<double> end_x, end_y;    ///< the neighbour
+    std::vector<double> left_x, left_y;  ///< unit vector from it along the side of the element on the spoke's
+                                         ///< left that v does not touch
+    std::vector<double> right_x, right_y;  ///< same on the right
+    std::vector<double> inverse_delta;     ///< of the wanted length
+    void resize(std::size_t n);
   };
-  /// A spoke as seen from a place of the vertex.
-  struct Ray {
-    Vec2 u;          ///< unit vector
-    double inverse;  ///< of the length
-    double misfit;   ///< log(length / delta), nearly
+  /// The spokes as seen from a place of the vertex, the last one once more before the first.
+  struct Rays {
+    std::vector<double> x, y;     ///< unit vector
+    std::vector<double> inverse;  ///< of the length
+    std::vector<double> misfit;   ///< log(length / delta), nearly
+    void resize(std::size_t n);
   };
   struct Value {
     double cost = 0;
@@ -88,6 +91,10 @@ class QuadRelocation {
   void gather(int v);
   template <bool kDerivatives>
   Value evaluate(Vec2 at, Derivatives* derivatives) const;
+  template <class Number>
+  double look_from(Vec2 at) const;
+  template <class Number, bool kDerivatives>
+  Value add_up(Derivatives* derivatives) const;
   bool strays(Vec2 from, Vec2 to) const;
   bool shrinks(int v, const Value& before, const Value& after) const;
   void refresh_delta(int v);
@@ -100,8 +107,9 @@ class QuadRelocation {
   std::vector<int> hint_;
   std::vector<char> active_;
   std::vector<int> queue_, visiting_;
-  std::vector<Spoke> star_;
-  mutable std::vector<Ray> rays_;  ///< as many as spokes; evaluate() fills them
+  std::size_t n_spokes_ = 0;
+  Spokes spokes_;      ///< at least n_spokes_
+  mutable Rays rays_;  ///< evaluate() fills them
   long long looks_ = 0;
   bool keep_convex_corners_ = false;
   double kept_sine_ = -1;
