@@ -6,6 +6,7 @@
 
 #include "algorithms/insertion/vertex_fields.h"
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesh/delaunay_kernel.h"
@@ -15,6 +16,7 @@ namespace delquad {
 namespace {
 
 constexpr unsigned char kAllTried = 7;  // one bit a side
+constexpr std::size_t kBlock = 4096;    // triangles that are checked together, whatever the threads
 constexpr std::array<int, 3> kNext = {1, 2, 0}, kPrev = {2, 0, 1};
 
 struct TriangleState {
@@ -232,20 +234,30 @@ class FrontalMesher {
   /// Vertices may all miss a narrow minimum of the size field: asks once at each resolved triangle's
   /// centroid.
   bool recheck_resolved() {
-    for (int t = 0; t < static_cast<int>(states_.size()); ++t) {
-      TriangleState& s = states_[t];
-      if (s.checked || !resolved(t)) continue;
-      s.checked = true;
-      const auto c = corners(t);
-      int hint = vertices_[kernel_.triangles()[t].v[0]].size_hint;
-      const double delta = size_.at((1.0 / 3) * (c[0] + c[1] + c[2]), hint);
-      const double h = placement_.triangle_size(c, mean_cross(t), delta);
-      if (h <= h_max_) continue;
-      s.h = h;
-      s.delta = delta;
-      list_for_next_layer(t);
-    }
+    const std::size_t n = states_.size();
+    std::vector<std::vector<int>> too_large((n + kBlock - 1) / kBlock);
+    parallel_for(too_large.size(), [&](std::size_t block) {
+      for (std::size_t t = block * kBlock; t < std::min(n, (block + 1) * kBlock); ++t)
+        if (!recheck(static_cast<int>(t))) too_large[block].push_back(static_cast<int>(t));
+    });
+    for (const std::vector<int>& block : too_large)
+      for (const int t : block) list_for_next_layer(t);
     return !next_layer_.empty();
+  }
+
+  /// False where a triangle, resolved so far, is no more.
+  bool recheck(int t) {
+    TriangleState& s = states_[t];
+    if (s.checked || !resolved(t)) return true;
+    s.checked = true;
+    const auto c = corners(t);
+    int hint = vertices_[kernel_.triangles()[t].v[0]].size_hint;
+    const double delta = size_.at((1.0 / 3) * (c[0] + c[1] + c[2]), hint);
+    const double h = placement_.triangle_size(c, mean_cross(t), delta);
+    if (h <= h_max_) return true;
+    s.h = h;
+    s.delta = delta;
+    return false;
   }
 
   const PointPlacement& placement_;

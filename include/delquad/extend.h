@@ -69,7 +69,7 @@ struct Candidates {
 };
 
 /// Where the next point goes, in which norm triangles are measured: the strategy that the comparison
-/// exchanges.
+/// exchanges. Called in several threads at once.
 class PointPlacement {
  public:
   virtual ~PointPlacement() = default;

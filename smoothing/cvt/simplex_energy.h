@@ -16,17 +16,24 @@ struct SimplexEnergy {
 /// Numbers of the two axes, on which the same is done at once.
 using BothAxes = double __attribute__((vector_size(16)));
 
-/// The coefficients of S below: all positive, so that nothing cancels.
+/// S below and its derivatives by its two arguments: the coefficients, all positive, so that nothing cancels.
+/// Known when compiling, as rounding may not be taken for granted there in expressions (-frounding-math).
 template <int P>
-inline constexpr std::array<double, P / 2 + 1> kOddBinomials = [] {
-  std::array<double, P / 2 + 1> odd{};
-  double binomial = 1;
-  for (int k = 0; k <= P; ++k) {
-    binomial = binomial * (P + 1 - k) / (k + 1);  // P + 1 over k + 1
-    if (k % 2 == 0) odd[k / 2] = binomial;
+struct OddBinomials {
+  std::array<double, P / 2> by_ss{}, by_dd{};
+  double value_scale = 1.0 / (P / 2 * (P + 1) * (P + 2) * (2LL << P)), derivative_scale = P * value_scale;
+
+  constexpr OddBinomials() {
+    double binomial = 1;
+    for (int k = 0; k <= P; ++k) {
+      binomial = binomial * (P + 1 - k) / (k + 1);  // P + 1 over k + 1
+      if (k % 2 != 0) continue;
+      const int j = k / 2;
+      if (j < P / 2) by_ss[j] = (P / 2 - j) * binomial;
+      if (j > 0) by_dd[j - 1] = j * binomial;
+    }
   }
-  return odd;
-}();
+};
 
 /// Integral of x^P + y^P over the triangle (0, first, second), negative when it is clockwise:
 ///
@@ -41,21 +48,19 @@ inline constexpr std::array<double, P / 2 + 1> kOddBinomials = [] {
 template <int P>
 SimplexEnergy simplex_energy(Vec2 first, Vec2 second) {
   static_assert(P >= 2 && P % 2 == 0);
-  constexpr int kDegree = P / 2;  // of S, homogeneous
-  constexpr auto& kOdd = kOddBinomials<P>;
+  static constexpr OddBinomials<P> kOdd;
   const BothAxes s = {first.x + second.x, first.y + second.y}, d = {second.x - first.x, second.y - first.y};
   const BothAxes ss = s * s, dd = d * d;
-  // The derivatives of S by s^2 and d^2, by Horner's rule in s^2; S by Euler's formula.
-  BothAxes by_ss = BothAxes{} + kDegree * kOdd[0], by_dd = BothAxes{} + kOdd[1], power = dd;
-  for (int j = 1; j < kDegree; ++j) {
-    by_ss = by_ss * ss + (kDegree - j) * kOdd[j] * power;
-    by_dd = by_dd * ss + (j + 1) * kOdd[j + 1] * power;
+  // The derivatives of S, homogeneous, by Horner's rule in s^2; S by Euler's formula.
+  BothAxes by_ss = {kOdd.by_ss[0], kOdd.by_ss[0]}, by_dd = {kOdd.by_dd[0], kOdd.by_dd[0]}, power = dd;
+  for (std::size_t j = 1; j < P / 2; ++j) {
+    by_ss = by_ss * ss + kOdd.by_ss[j] * power;
+    by_dd = by_dd * ss + kOdd.by_dd[j] * power;
     power *= dd;
   }
   const BothAxes sums = ss * by_ss + dd * by_dd;
-  constexpr double kScale = 1.0 / ((P + 1) * (P + 2) * (2LL << P));
   const double twice_j = s[0] * d[1] - s[1] * d[0];
-  const double sum = kScale / kDegree * (sums[0] + sums[1]), factor = 2 * kScale * twice_j;
+  const double sum = kOdd.value_scale * (sums[0] + sums[1]), factor = kOdd.derivative_scale * twice_j;
   const BothAxes by_s = sum * BothAxes{d[1], -d[0]} + factor * s * by_ss;
   const BothAxes by_d = sum * BothAxes{-s[1], s[0]} + factor * d * by_dd;
   const BothAxes by_first = by_s - by_d, by_second = by_s + by_d;

@@ -239,7 +239,7 @@ TEST(Smoothing, IsTheSameBytesOnAnyNumberOfThreads) {
   const std::vector<Vec2> seeds = inner_points(frontal(boundary, cross, size));
   ASSERT_GT(seeds.size(), 5000u);  // several blocks
   std::vector<TriPatch> results;
-  for (const int threads : {1, 2, 3}) {
+  for (const int threads : {1, 2, 3, 7}) {
     const RunScope run({.threads = threads});
     results.push_back(smooth(boundary, seeds, cross, size).patch);
   }
