@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "algorithms/insertion/frontal_mesher.h"
+#include "base/context.h"
 #include "benchmarks/square_case.h"
 
 // F and D insertion, and CGAL's spatially sorted Delaunay triangulation of the points that each inserted.
@@ -14,7 +15,8 @@ std::unique_ptr<PointPlacement> strategy(char letter) {
   return letter == 'F' ? make_l2_frontal() : make_linf_delquad();
 }
 
-void insertion(benchmark::State& state, char letter, Grading grading) {
+void insertion(benchmark::State& state, char letter, Grading grading, int threads) {
+  const RunScope run({.threads = threads});
   const SquareCase domain(grading, static_cast<double>(state.range(0)));
   const auto placement = strategy(letter);
   size_t triangles = 0;
@@ -43,14 +45,19 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->RangeMultiplier(10)->Range(1000, 1000000)->Arg(2000000)->Unit(benchmark::kMillisecond)->Complexity();
 }
 
-BENCHMARK_CAPTURE(insertion, D_uniform, 'D', Grading::kUniform)->Apply(sizes);
+BENCHMARK_CAPTURE(insertion, D_uniform, 'D', Grading::kUniform, 1)->Apply(sizes);
 BENCHMARK_CAPTURE(cgal_same_points, D_uniform, 'D', Grading::kUniform)->Apply(sizes);
-BENCHMARK_CAPTURE(insertion, D_graded, 'D', Grading::kGraded)->Apply(sizes);
+BENCHMARK_CAPTURE(insertion, D_graded, 'D', Grading::kGraded, 1)->Apply(sizes);
 BENCHMARK_CAPTURE(cgal_same_points, D_graded, 'D', Grading::kGraded)->Apply(sizes);
-BENCHMARK_CAPTURE(insertion, F_uniform, 'F', Grading::kUniform)->Apply(sizes);
+BENCHMARK_CAPTURE(insertion, F_uniform, 'F', Grading::kUniform, 1)->Apply(sizes);
 BENCHMARK_CAPTURE(cgal_same_points, F_uniform, 'F', Grading::kUniform)->Apply(sizes);
-BENCHMARK_CAPTURE(insertion, F_graded, 'F', Grading::kGraded)->Apply(sizes);
+BENCHMARK_CAPTURE(insertion, F_graded, 'F', Grading::kGraded, 1)->Apply(sizes);
 BENCHMARK_CAPTURE(cgal_same_points, F_graded, 'F', Grading::kGraded)->Apply(sizes);
+
+BENCHMARK_CAPTURE(insertion, D_uniform_2_threads, 'D', Grading::kUniform, 2)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace delquad::benchmarks

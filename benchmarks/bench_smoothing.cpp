@@ -68,9 +68,10 @@ void report(benchmark::State& state, const SmoothingSummary& s) {
   state.counters["rebuilds"] = s.rebuilds;
 }
 
-/// As L does it, with its defaults.
+/// As L does it, with its defaults, on as many threads as the second argument says.
 void solve(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
+  const RunScope run({.threads = static_cast<int>(state.range(1))});
   SmoothingSummary summary;
   for (auto _ : state)
     smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, *make_lbfgs_minimiser(), {}, &summary);
@@ -81,6 +82,7 @@ void solve(benchmark::State& state) {
 /// reached.
 void to_energy_of_lloyd(benchmark::State& state, bool lloyd) {
   const Seeds seeds(static_cast<double>(state.range(0)));
+  const RunScope one_thread({.threads = 1});
   constexpr int kSteps = 60;
   SmoothingOptions options;
   options.outer_iterations = 1;
@@ -114,7 +116,7 @@ BENCHMARK(evaluate)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(cgal_same_points)->Apply(sizes);
-BENCHMARK(solve)->Arg(1000)->Arg(10000)->Arg(50000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(solve)->ArgsProduct({{1000, 10000, 50000}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(to_energy_of_lloyd, lloyd, true)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(to_energy_of_lloyd, lbfgs, false)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 

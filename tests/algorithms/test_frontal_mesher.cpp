@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "base/context.h"
 #include "mesh/constrained_delaunay.h"
 #include "tests/algorithms/expect_resolved.h"
 #include "tests/support/analytic_fields.h"
@@ -91,6 +92,27 @@ TEST(FrontalMesher, SameBytesTwice) {
     const auto twice = mesh_frontal(boundary, *strategy, FunctionCross(0.3), FunctionSize(0.03));
     ASSERT_EQ(once.points, twice.points);
     ASSERT_EQ(once.triangles, twice.triangles);
+  }
+}
+
+// With many places that only the second look at resolved triangles finds, in several blocks of them.
+TEST(FrontalMesher, IsTheSameBytesOnAnyNumberOfThreads) {
+  constexpr double kStep = 0.17;
+  const FunctionSize size([](Vec2 u) {
+    const Vec2 off{std::remainder(u.x - 0.031, kStep), std::remainder(u.y - 0.029, kStep)};
+    return std::min(0.01, 0.001 + 0.5 * norm(off));
+  });
+  const auto boundary = shapes::rectangle(1, 1, 100, 100);
+  const auto without = mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0.3), FunctionSize(0.01));
+  std::vector<TriPatch> results;
+  for (const int threads : {1, 2, 3, 7}) {
+    const RunScope run({.threads = threads});
+    results.push_back(mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0.3), size));
+  }
+  ASSERT_GT(results[0].triangles.size(), without.triangles.size() + 2000);
+  for (const TriPatch& other : results) {
+    EXPECT_EQ(other.points, results[0].points);
+    EXPECT_EQ(other.triangles, results[0].triangles);
   }
 }
 
