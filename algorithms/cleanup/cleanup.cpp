@@ -1,6 +1,7 @@
 #include "algorithms/cleanup/cleanup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -20,11 +21,11 @@ constexpr int kTrialSweeps = 4;
 /// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more; in the
 /// end.
 constexpr int kSettlingSweeps = 3;
-constexpr double kSettled = 0.1, kSettledAtLast = 0.02;
+constexpr double kSettled = 0.08, kSettledAtLast = 0.02;
 /// How much of the mean quality around an edit that lowers the valence sum may cost.
 constexpr double kGreedyLoss = 0.02;
 /// An edit is given up where a sweep leaves it so much farther away than it may be.
-constexpr double kHopeless = 0.03;
+constexpr double kHopeless = 0.05;
 /// Weight of the size deviation against eta: with 1 the annealing pays for regular vertices with tau.
 constexpr double kSizeWeight = 1.5;
 
@@ -224,16 +225,26 @@ void CleanupProcess::count(const TreatmentMove& move) {
   ++(summary_.*kCounters[move.kind]);
 }
 
-double CleanupProcess::deviation(int element) const {
+/// eta - weighted size deviation, and the least sine, of one element.
+CleanupProcess::Quality CleanupProcess::quality_of(int element) const {
   const int n = mesh_.is_quad(element) ? 4 : 3;
-  double sum = 0;
-  for (int h = 4 * element; h < 4 * element + n; ++h) {
-    const int a = mesh_.origin(h), b = mesh_.target(h);
-    const double l =
-        norm(mesh_.point(b) - mesh_.point(a)) / (0.5 * (relocation_.delta(a) + relocation_.delta(b)));
-    sum += 1 - std::min(l, 1 / l);
+  std::array<Vec2, 4> at, side;
+  std::array<double, 4> delta;
+  for (int k = 0; k < n; ++k) {
+    const int v = mesh_.corner(element, k);
+    at[k] = mesh_.point(v), delta[k] = relocation_.delta(v);
   }
-  return sum / n;
+  double deviation = 0;
+  for (int k = 0; k < n; ++k) {
+    const int next = k + 1 < n ? k + 1 : 0;
+    const Vec2 along = at[next] - at[k];
+    const double length = norm(along), l = length / (0.5 * (delta[k] + delta[next]));
+    deviation += 1 - std::min(l, 1 / l);
+    side[k] = (1 / std::max(length, kTinyLength)) * along;
+  }
+  double least = std::min(1.0, cross(side[n - 1], side[0]));
+  for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
+  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least};
 }
 
 CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
@@ -241,9 +252,9 @@ CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
   int n = 0;
   elements_met_.begin(mesh_.element_slots());
   for_each_element_around(mesh_, vertices, elements_met_, [&](int e) {
-    const double sine = least_sine(mesh_, e);
-    total.least_sine = std::min(total.least_sine, sine);
-    total.mean += eta_of_sine(sine) - kSizeWeight * deviation(e);
+    const Quality own = quality_of(e);
+    total.least_sine = std::min(total.least_sine, own.least_sine);
+    total.mean += own.mean;
     ++n;
   });
   total.mean /= std::max(n, 1);

@@ -42,7 +42,7 @@ class CleanupProcess {
   void accept();
   void count(const TreatmentMove& move);
   Quality quality(std::span<const int> vertices);
-  double deviation(int element) const;
+  Quality quality_of(int element) const;
   void list_irregular(int v);
   bool has_failed(int v, const TreatmentMove& move) const;
 

@@ -58,7 +58,12 @@ class ValenceEnergy {
   };
   static constexpr Ideal kInside{4, 4};
   static int misfit(int valence, const Ideal& ideal);
-  int change(int v, int by) const { return of(v) - of(v, mesh_.valence(v) + by); }
+  int change(int v, int by) const {
+    const int valence = mesh_.valence(v);
+    if (!mesh_.on_boundary(v) && static_cast<std::size_t>(valence) + 1 < inside_.size() && valence + by >= 0)
+      return inside_[valence] - inside_[valence + by];
+    return of(v) - of(v, valence + by);
+  }
 
   const QuadTopology& mesh_;
   std::vector<Ideal> ideal_;    ///< of boundary vertices

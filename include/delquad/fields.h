@@ -24,7 +24,7 @@ class SizeField {
   virtual double at(const Vec3& x, int& hint) const = 0;
 };
 
-/// The wanted edge length delta' in the parameter plane of a patch.
+/// The wanted edge length delta' in the parameter plane of a patch. Safe to call from several threads.
 class ParametricSize {
  public:
   virtual ~ParametricSize() = default;
