@@ -13,6 +13,7 @@
 #include "cases/case.h"
 #include "delquad/error.h"
 #include "sweep/calibration.h"
+#include "sweep/digest.h"
 #include "sweep/experiment.h"
 #include "sweep/study_file.h"
 
@@ -129,7 +130,11 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
   CellRecord record;
   try {
     std::ifstream in(file);
-    record = parse(Json::parse(in));
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const Json json = Json::parse(text);
+    record = json.contains("digest") && !is_sealed(text)
+                 ? damaged_record(file, "was changed: its digest is not that of its text", study)
+                 : parse(json);
   } catch (const Json::exception& error) {
     record = damaged_record(file, error.what(), study);
   }

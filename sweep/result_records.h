@@ -51,8 +51,8 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
 
 /// The records of an experiment below a folder, in the order of its study.json, if there is one, and by path.
-/// What is no record is a cell that failed, "damaged record: " with file and reason. Throws InputError naming
-/// the cell that is there twice, or the folder that has none.
+/// What is no record, or was changed since its digest was taken, is a cell that failed, "damaged record: "
+/// with file and reason. Throws InputError naming the cell that is there twice, or the folder that has none.
 std::vector<CellRecord> read_records(const std::filesystem::path& folder);
 
 }  // namespace delquad
