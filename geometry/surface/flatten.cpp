@@ -33,9 +33,10 @@ constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
 constexpr double kShortDivision = 0.5;
 /// Below this a cut to a tip is not worth it.
 constexpr double kMinTipRatio = 2;
-/// After so many rounds of cuts a map is taken when it is one-to-one: first whatever its angles, which cuts
-/// seldom improve, then with areas up to kMostAreas: beyond, parts of the face would be lost between the
-/// vertices of the mesh. After the last number charts are parted along their triangles' edges.
+/// After so many cuts through charts that had a map, it is taken when it is one-to-one: first whatever its
+/// angles, which cuts seldom improve, then with areas up to kMostAreas: beyond, parts of the face would be
+/// lost between the vertices of the mesh. After the last number charts are parted along their triangles'
+/// edges.
 constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 40;
 constexpr double kMostAreas = 300;
 /// Charts with more loops are divided before any map is tried: one seam after the other would take too long.
@@ -73,14 +74,14 @@ struct Outcome {
 class ChartWork {
  public:
   ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
-            double tolerance, int round, bool stuck)
-      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), round_(round), stuck_(stuck) {}
+            double tolerance, int tries, bool stuck)
+      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), tries_(tries), stuck_(stuck) {}
 
   Outcome run() const {
     Outcome outcome = plan();
     const bool wanted =
         outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
-    if (wanted && (!outcome.cut || stuck_ || round_ >= kMaxRounds))
+    if (wanted && (!outcome.cut || stuck_))
       return {std::move(outcome.map), std::nullopt, true, plan_parting(chart_)};
     return outcome;
   }
@@ -94,8 +95,8 @@ class ChartWork {
   }
 
   bool acceptable(const FlatQuality& q, double max_area_ratio) const {
-    return q.extreme_ratio <= kMostAreas && (q.area_ratio <= max_area_ratio || round_ >= kAnyAreas) &&
-           (q.sigma_95 <= options_.max_sigma || round_ >= kAnyAngles);
+    return q.extreme_ratio <= kMostAreas && (q.area_ratio <= max_area_ratio || tries_ >= kAnyAreas) &&
+           (q.sigma_95 <= options_.max_sigma || tries_ >= kAnyAngles);
   }
 
   Outcome flatten_with_holes() const {
@@ -142,7 +143,7 @@ class ChartWork {
   const std::vector<CutEnd>& ends_;
   const FlattenOptions& options_;
   double tolerance_;
-  int round_;
+  int tries_;   ///< cuts that were made because its map distorted
   bool stuck_;  ///< its last cut could not be made
 };
 
@@ -199,6 +200,7 @@ class Flattener {
         options_(options),
         tolerance_(kPlane * diagonal(mesh_)),
         open_(mesh_.triangles.size(), 1),
+        tries_(mesh_.triangles.size(), 0),
         stuck_(mesh_.triangles.size(), 0),
         failed_(mesh_.regions.size(), 0) {}
 
@@ -231,9 +233,13 @@ class Flattener {
         charts.size(),
         [&](std::size_t i) {
           const DoingFace face(mesh_.regions[charts[i].face].tag);
-          const bool stuck =
-              std::ranges::any_of(charts[i].fine_triangle, [&](int t) { return stuck_[t] != 0; });
-          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, round, stuck).run();
+          int tries = 0;
+          bool stuck = round >= kMaxRounds;
+          for (const int t : charts[i].fine_triangle) {
+            tries = std::max(tries, tries_[t]);
+            stuck = stuck || stuck_[t] != 0;
+          }
+          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, tries, stuck).run();
         },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
@@ -268,9 +274,12 @@ class Flattener {
       check_cancelled();
       const bool made = outcome.cut ? apply(editor, chart, outcome) : part(editor, chart, outcome.parts);
       stuck_[chart.fine_triangle.front()] = made ? 0 : 1;
+      if (outcome.map)
+        for (const int t : chart.fine_triangle) ++tries_[t];
     }
     editor.finish();
     stuck_.resize(mesh_.triangles.size(), 0);
+    tries_.resize(mesh_.triangles.size(), 0);
     // Triangles that cuts of neighbours split are no longer those of their patch.
     open_.resize(mesh_.triangles.size(), 0);
     std::set<int> stale;
@@ -315,11 +324,11 @@ class Flattener {
     double length = 0;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       length += norm(mesh_.points[chain[i + 1]] - mesh_.points[chain[i]]);
+    const bool closed = chain.front() == chain.back();
+    for (const int v : chain)
+      if (editor.is_on_line(v) || (!closed && (v == chain.front() || v == chain.back())))
+        model_.corners.push_back(v);
     cuts_.push_back({editor.add_curve(chain), chart.face, length, divides});
-    if (chain.front() != chain.back()) {
-      model_.corners.push_back(chain.front());
-      model_.corners.push_back(chain.back());
-    }
   }
 
   /// Makes the edges between both parts cuts.
@@ -376,6 +385,7 @@ class Flattener {
   const FlattenOptions& options_;
   double tolerance_;
   std::vector<char> open_;   ///< triangles that are in no finished patch
+  std::vector<int> tries_;   ///< of each triangle, cuts through its chart although it had a map
   std::vector<char> stuck_;  ///< first triangles of charts whose last cut could not be made
   std::vector<char> failed_;
   std::vector<FlatPatch> patches_;
