@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "base/box.h"
 #include "geometry/surface/curve_chains.h"
@@ -134,8 +136,10 @@ void make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::v
   Mesh& mesh = model.fine;
   mesh.lines.clear();
   std::vector<int> given;
+  std::set<std::pair<int, int>> seen;  // where the surface branches, no side has a twin
   for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
     if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
+    if (twin[s] < 0 && !seen.insert(std::minmax({side_start(mesh, s), side_end(mesh, s)})).second) continue;
     mesh.lines.push_back({side_start(mesh, s), side_end(mesh, s)});
     given.push_back(cut[s]);
   }
