@@ -150,14 +150,21 @@ void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
                                  counted(dropped.count, "triangle"), show_point(dropped.first)));
 }
 
-/// Edges in more than two triangles: shells with ribs, bodies that touch.
-void tell_branches(const Mesh& mesh, std::vector<Warning>& warnings) {
-  int count = 0;
+/// Edges in more than two triangles: shells with ribs, bodies that touch. Where most are, these are the sides
+/// of cells that fill a volume.
+void tell_branches(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
+  int count = 0, n_edges = 0;
   Vec3 first;
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    ++n_edges;
     if (edge.size() > 2 && count++ == 0) first = mesh.points[edge[0].lo];
   });
   if (count == 0) return;
+  if (2 * count > n_edges)
+    throw InputError(fmt::format(
+        "{}: {} of {} edges have three triangles or more (the first at {}): expected a surface, not "
+        "the sides of cells in a volume",
+        source, count, n_edges, show_point(first)));
   warnings.push_back(fmt::format("the surface branches at {} with three triangles or more (the first at {})",
                                  counted(count, "edge"), show_point(first)));
 }
@@ -300,7 +307,7 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
   take_out_flat_triangles(mesh, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   take_out_twins(mesh, warnings);
-  tell_branches(mesh, warnings);
+  tell_branches(mesh, source, warnings);
   orient_triangles(mesh, source, warnings);
   const std::vector<int> side_of_line = settle_lines(mesh, warnings);
   split_vertices(mesh, warnings);

@@ -25,7 +25,7 @@ namespace delquad {
 /// - a vertex where fans touch becomes one vertex a fan;
 /// - lines that are not edges go.
 /// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles,
-/// a surface that cannot be oriented.
+/// more branches than edges between two triangles, a surface that cannot be oriented.
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 
