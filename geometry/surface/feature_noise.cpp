@@ -48,14 +48,17 @@ class NoiseFilter {
   bool stands_for_edge(int side) const { return twin_[side] < side; }
   int face_of(int side) const { return face_[side / 3]; }
 
-  /// Each edge is told by one of its sides.
+  /// Free edges, given lines and borders of regions stay.
+  bool stays(int side) const {
+    const int t = twin_[side];
+    return t < 0 || cut_[side] != kNewCut || mesh_.triangle_region[side / 3] != mesh_.triangle_region[t / 3];
+  }
+
+  /// Each edge is told by one of its sides; none of them stays.
   bool is_noise(const std::vector<int>& edges) const {
     double length = 0, sharpness = 0, beside = 0;
     std::size_t n_beside = 0;
     for (int s : edges) {
-      const int t = twin_[s];
-      if (t < 0 || cut_[s] != kNewCut || mesh_.triangle_region[s / 3] != mesh_.triangle_region[t / 3])
-        return false;
       const int a = side_start(mesh_, s), b = side_end(mesh_, s);
       length += norm(mesh_.points[b] - mesh_.points[a]);
       if (length > longest_) return false;
@@ -92,7 +95,7 @@ class NoiseFilter {
               seen[s] = 1;
               edges.push_back(s);
             }
-      if (is_noise(edges)) drop(edges);
+      if (std::ranges::none_of(edges, [&](int s) { return stays(s); }) && is_noise(edges)) drop(edges);
     }
   }
 
@@ -122,8 +125,7 @@ class NoiseFilter {
     number_faces();
     std::vector<std::vector<int>> borders(n_faces_);  // edges, by the side that lies in the face
     for (int s = 0; s < static_cast<int>(cut_.size()); ++s)
-      if (cut_[s] != kNoCut && (twin_[s] < 0 || face_of(s) != face_of(twin_[s])))
-        borders[face_of(s)].push_back(s);
+      if (cut_[s] != kNoCut && !stays(s) && face_of(s) != face_of(twin_[s])) borders[face_of(s)].push_back(s);
     std::vector<char> changed(n_faces_, 0);
     bool any = false;
     for (int f = 0; f < n_faces_; ++f) {
