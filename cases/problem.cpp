@@ -33,8 +33,7 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
   try {
     return read();
   } catch (const InputError& error) {
-    const auto near = nearest_name(text, words);
-    throw InputError(error.what() + (near ? "; did you mean '" + *near + "'?" : ""));
+    throw InputError(error.what() + suggestion(text, words));
   }
 }
 
