@@ -110,6 +110,7 @@ class Experiment {
   void read_peer(const TomlTable& table);
   void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
   void read_metric(const TomlTable& table);
+  std::vector<std::string> keys_of_metrics() const;
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 

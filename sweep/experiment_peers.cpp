@@ -83,9 +83,7 @@ void Experiment::read_peer(const TomlTable& table) {
     extension = "." + format;
   };
   peer.command = read_command(table, "command");
-  for (const char* placeholder : {"{input}", "{output}"})
-    if (!has_placeholder(peer.command, placeholder))
-      throw InputError(fmt::format("{}: 'command' lacks {}", table.where("command"), placeholder));
+  check_placeholders(table, peer.command, peer_placeholders(), {{"{input}"}, {"{output}"}});
   peer.version = read_command(table, "version");
   read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);

@@ -320,6 +320,12 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
   return words;
 }
 
+const std::vector<std::string>& peer_placeholders() {
+  static const std::vector<std::string> all = {"{input}",      "{output}", "{size}",
+                                               "{size_field}", "{quads}",  "{seed}"};
+  return all;
+}
+
 std::string peer_version(const Peer& peer) {
   std::string pattern = (fs::temp_directory_path() / "delquad-XXXXXX").string();
   const int file = mkstemp(pattern.data());

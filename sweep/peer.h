@@ -59,6 +59,9 @@ class PeerError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What stands for something in the words of its command.
+const std::vector<std::string>& peer_placeholders();
+
 /// What the peer says of its version, in one line. Throws PeerError.
 std::string peer_version(const Peer& peer);
 

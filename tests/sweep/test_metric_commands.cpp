@@ -196,6 +196,8 @@ TEST_F(MetricCommands, MistakesAreNamed) {
   refused("[[metric]]\ncommand = [\"x\", \"{mesh}\"]\n", {"e.toml:2", "'metric.name'"});
   refused("[[metric]]\nname = \"m\"\n", {"e.toml:2", "'metric.command'"});
   refused("[[metric]]\nname = \"m\"\ncommand = [\"x\"]\n", {"e.toml:4", "lacks {mesh}"});
+  refused("[[metric]]\nname = \"m\"\ncommand = [\"x\", \"{msh}\"]\n",
+          {"e.toml:4", "the unknown {msh}", "did you mean '{mesh}'?"});
   refused("[[metric]]\nname = \"m\"\ncommand = []\n", {"e.toml:4", "is empty"});
   refused(good + good, {"e.toml:6", "there is a metric 'm' already"});
   for (const char* name : {"", "1m", "a b", "a.b", "../a"})

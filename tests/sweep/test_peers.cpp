@@ -281,6 +281,16 @@ TEST_F(Peers, BadEntriesAreNamed) {
   };
   const std::string version = "version = [\"true\"]\n", name = "name = \"x\"\n";
   expect(name + version + "command = [\"x\", \"{input}\"]\n", {"{output}", "command"});
+  expect(name + version + "command = [\"x\", \"{imput}\", \"{output}\"]\n",
+         {"peers.toml:5: 'command' has the unknown {imput}", "did you mean '{input}'?"});
+  expect(name + version + "command = [\"x\", \"{input}\", \"{output}\", \"--h={mesh}\"]\n",
+         {"peers.toml:5", "the unknown {mesh}; known: {input}, {output}"});
+  expect(name + version + "command = [\"sh\", \"-c\", \"x {imput} {output}\"]\n",
+         {"peers.toml:5", "the unknown {imput}; did you mean '{input}'?"});
+  EXPECT_NO_THROW(experiment("[\"DB\"]", "[[peer]]\n" + name + version +
+                                             "command = [\"sh\", \"-c\", \"awk '{print}' {input} > ${x} "
+                                             "{output}\", \"${y}\", \"{ 1 }\"]\n" +
+                                             kSquare));
   expect(name + version + "command = []\n", {"command", "empty"});
   expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
   const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";
