@@ -68,6 +68,7 @@ int run_command(const RunArguments& arguments) {
   Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
   experiment.max_elements = arguments.max_elements;
   choose_pipelines(arguments, experiment);
+  experiment.check_calibration();
   if (arguments.dry_run) {
     fmt::print("{}", list_cells(experiment, arguments.folder));
     return kDone;
