@@ -100,6 +100,8 @@ struct Work {
     RunResult result = cell.identity.peer != nullptr
                            ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
                            : finish_meshing(*prepared, name, std::move(state));
+    if (const std::string& why = cell.identity.no_peer_version; !why.empty())
+      result.warnings.push_back(name + ": its version is unknown: " + why);
     for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
     // What others make is shown as it is.
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
