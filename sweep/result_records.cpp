@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,6 +13,7 @@
 #include "delquad/error.h"
 #include "sweep/calibration.h"
 #include "sweep/experiment.h"
+#include "sweep/json_problem.h"
 #include "sweep/study_file.h"
 
 namespace delquad {
@@ -106,7 +106,7 @@ std::optional<StudyFile> readable_study(const fs::path& folder) {
 }
 
 /// Which cell it is tells its folder.
-CellRecord damaged_record(const fs::path& file, const std::string& what,
+CellRecord damaged_record(const fs::path& file, const std::exception& error,
                           const std::optional<StudyFile>& study) {
   CellRecord record;
   record.pipeline = file.parent_path().filename().string();
@@ -117,11 +117,8 @@ CellRecord damaged_record(const fs::path& file, const std::string& what,
     record.variant = cell->variant;
     record.group += text_of_variant(record.variant);
   }
-  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
-  std::string plain = what;  // which may quote any bytes
-  std::ranges::replace_if(plain, std::not_fn(is_plain), '?');
   record.kind = "damaged";
-  record.reason = fmt::format("damaged record: {}: {}", file.string(), plain);
+  record.reason = "damaged record: " + json_problem(file, "", error);
   return record;
 }
 
@@ -131,7 +128,7 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
     std::ifstream in(file);
     record = parse(Json::parse(in));
   } catch (const Json::exception& error) {
-    record = damaged_record(file, error.what(), study);
+    record = damaged_record(file, error, study);
   }
   record.folder = file.parent_path();
   return record;
