@@ -33,7 +33,8 @@ constexpr const char* kTimeLimitHelp =
     "seconds after which the program ends with exit code 1, saying at what, and without a file";
 constexpr const char* kExitCodes =
     "Exit codes: 0: done. 1: internal error, or time is up (--time-limit), or something got worse (compare,\n"
-    "rerun). 2: bad input. 3: triangles are left among the quads, and written. 4: faces were left out "
+    "rerun), or cells or measures failed (run). 2: bad input. 3: triangles are left among the quads, and "
+    "written. 4: faces were left out "
     "(--keep-going).\n"
     "5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: terminated.";
 constexpr int kMostThreads = 1024;

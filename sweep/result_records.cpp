@@ -81,6 +81,7 @@ CellRecord parse(const Json& json) {
   for (const Json& metric : json.value("own_metrics", Json::array()))
     record.own_metrics.push_back(parse_metric(metric));
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
+  record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);

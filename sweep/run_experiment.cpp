@@ -112,7 +112,7 @@ struct Work {
     // Before anything of the cell is in place: it may take long.
     if (cell.identity.peer == nullptr) fs::remove_all(scratch);
     for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
-      say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
+      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
     write_cell(cell.folder, [&](const fs::path& at) {
       move_files(scratch, at);
       const Stopwatch writing;
