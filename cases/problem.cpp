@@ -141,6 +141,11 @@ MeshProblem make_problem(const Case& c) {
   return problem;
 }
 
+void check_formulas(const Case& c) {
+  make_size(c);
+  make_cross(c.cross);
+}
+
 PreparedProblem prepare_case(const Case& c) {
   const Stopwatch reading;
   const MeshProblem problem = make_problem(c);

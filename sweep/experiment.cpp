@@ -11,6 +11,7 @@
 
 #include "base/located.h"
 #include "cases/case_file.h"
+#include "cases/problem.h"
 #include "cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
@@ -325,7 +326,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     const std::string name = experiment.cases_[i].text("name");
     check_folder_name(experiment.cases_[i], name, names);
     names.push_back(name);
-    for (std::size_t v = 0; v < experiment.n_variants(); ++v) experiment.read_variant(i, v);
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) check_formulas(experiment.read_variant(i, v));
   }
   return experiment;
 }
