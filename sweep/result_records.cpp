@@ -108,7 +108,7 @@ std::optional<StudyFile> readable_study(const fs::path& folder) {
 }
 
 /// Which cell it is tells its folder.
-CellRecord damaged_record(const fs::path& file, const std::exception& error,
+CellRecord damaged_record(const fs::path& file, const std::string& problem,
                           const std::optional<StudyFile>& study) {
   CellRecord record;
   record.pipeline = file.parent_path().filename().string();
@@ -120,7 +120,7 @@ CellRecord damaged_record(const fs::path& file, const std::exception& error,
     record.group += text_of_variant(record.variant);
   }
   record.kind = "damaged";
-  record.reason = "damaged record: " + json_problem(file, "", error);
+  record.reason = "damaged record: " + problem;
   return record;
 }
 
@@ -130,11 +130,12 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
     std::ifstream in(file);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     const Json json = Json::parse(text);
-    record = json.contains("digest") && !is_sealed(text)
-                 ? damaged_record(file, "was changed: its digest is not that of its text", study)
-                 : parse(json);
+    record =
+        json.contains("digest") && !is_sealed(text)
+            ? damaged_record(file, file.string() + ": was changed: its digest is not that of its text", study)
+            : parse(json);
   } catch (const Json::exception& error) {
-    record = damaged_record(file, error, study);
+    record = damaged_record(file, json_problem(file, "", error), study);
   }
   record.folder = file.parent_path();
   return record;
