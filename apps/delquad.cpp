@@ -33,9 +33,10 @@ constexpr const char* kTimeLimitHelp =
     "seconds after which the program ends with exit code 1, saying at what, and without a file";
 constexpr const char* kExitCodes =
     "Exit codes: 0: done. 1: internal error, or time is up (--time-limit), or something got worse (compare,\n"
-    "rerun). 2: bad input. 3: triangles are left among the quads, and written. 4: faces were left out "
-    "(--keep-going).\n"
-    "5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: terminated.";
+    "rerun), or cells or measures failed (run). 2: bad input. 3: triangles are left among the quads, and "
+    "written.\n"
+    "4: faces were left out (--keep-going). 5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: "
+    "terminated.";
 constexpr int kMostThreads = 1024;
 constexpr const char* kUnsoundHelp =
     "write meshes that are not sound (inverted or folded quads, lost parts, ...), marked in the record";

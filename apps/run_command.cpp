@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& list) {
 }
 
 int exit_code(const Outcome& outcome, bool allow_triangles) {
-  if (outcome.others_failed > 0) return kInternalError;
+  if (outcome.others_failed > 0 || outcome.metrics_failed > 0) return kInternalError;
   if (outcome.bad_inputs > 0) return kBadInput;
   if (outcome.unsound > 0) return kUnsound;
   if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
@@ -68,6 +68,7 @@ int run_command(const RunArguments& arguments) {
   Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
   experiment.max_elements = arguments.max_elements;
   choose_pipelines(arguments, experiment);
+  experiment.check_calibration();
   if (arguments.dry_run) {
     fmt::print("{}", list_cells(experiment, arguments.folder));
     return kDone;

@@ -39,4 +39,9 @@ std::optional<std::string> nearest_name(const std::string& given, const std::vec
   return best;
 }
 
+std::string suggestion(const std::string& given, const std::vector<std::string>& known) {
+  const auto near = nearest_name(given, known);
+  return near ? "; did you mean '" + *near + "'?" : "";
+}
+
 }  // namespace delquad

@@ -10,4 +10,7 @@ namespace delquad {
 /// slip.
 std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known);
 
+/// What messages add to tell it: "; did you mean 'size'?"; empty where there is none.
+std::string suggestion(const std::string& given, const std::vector<std::string>& known);
+
 }  // namespace delquad

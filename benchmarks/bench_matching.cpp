@@ -11,13 +11,14 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
 #include "algorithms/recombination/hilbert.h"
+#include "base/context.h"
 #include "benchmarks/square_case.h"
 #include "matching/matching.h"
 #include "tests/matching/graph_kinds.h"
 
-// Matching alone, by our solver and by LEMON's, the baseline: graphs of the meshes of F and D, random cubic
-// planar graphs, and the exact equilateral lattice. Each result of ours is proven by its certificate,
-// untimed. LEMON works in a thread of its own: only wall and process time count.
+// Matching alone, by our solver on one thread and on two, and by LEMON's, the baseline: graphs of the meshes
+// of F and D, random cubic planar graphs, and the exact equilateral lattice. Each result of ours is proven by
+// its certificate, untimed. LEMON works in a thread of its own: only wall and process time count.
 
 namespace delquad::benchmarks {
 namespace {
@@ -88,8 +89,11 @@ const MatchingGraph& kept_graph(const std::string& family, int n) {
   return graph;
 }
 
-void matching(benchmark::State& state, const std::string& family, bool lemon) {
+void matching(benchmark::State& state, const std::string& family, bool lemon, int threads) {
   const MatchingGraph& graph = kept_graph(family, static_cast<int>(state.range(0)));
+  RunSettings settings;
+  settings.threads = threads;
+  const RunScope scope(settings);
   const auto solver = lemon ? make_lemon_solver() : make_primal_dual_solver();
   MatchingResult result;
   for (auto _ : state) result = solver->solve(graph);
@@ -104,16 +108,19 @@ void matching(benchmark::State& state, const std::string& family, bool lemon) {
 /// The largest meshes take LEMON minutes.
 constexpr int kSmallest = 1000, kLargest = 1'000'000, kLargestOfOurs = 3'000'000;
 
+void add_rows(const std::string& name, const std::string& family, bool lemon, int threads) {
+  auto* const row = benchmark::RegisterBenchmark(name.c_str(), matching, family, lemon, threads);
+  for (int n = kSmallest; n <= kLargest; n *= 10) row->Arg(n);
+  if (!lemon) row->Arg(kLargestOfOurs);
+  row->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Complexity();
+}
+
 void register_all() {
   for (const std::string family :
        {"D_uniform", "D_graded", "F_uniform", "F_graded", "cubic_planar", "lattice"}) {
-    for (const bool lemon : {false, true}) {
-      auto* const row = benchmark::RegisterBenchmark(
-          (std::string(lemon ? "lemon/" : "ours/") + family).c_str(), matching, family, lemon);
-      for (int n = kSmallest; n <= kLargest; n *= 10) row->Arg(n);
-      if (!lemon) row->Arg(kLargestOfOurs);
-      row->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Complexity();
-    }
+    add_rows("ours/" + family, family, false, 1);
+    add_rows("ours_two_threads/" + family, family, false, 2);
+    add_rows("lemon/" + family, family, true, 1);
   }
 }
 

@@ -1,12 +1,16 @@
 #include <benchmark/benchmark.h>
 
+#include <string>
+
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
+#include "base/context.h"
 #include "benchmarks/square_case.h"
+#include "matching/matching.h"
 
-// Recombination (dual graph, matching, merge) and treatment of the meshes of F and D, with the insertion of
-// the same mesh as the yardstick.
+// Recombination and treatment of the meshes of F and D, with the insertion of the same mesh as the yardstick.
+// Recombination says what its dual graph, the matching and merging take, and has a row with LEMON's matching.
 
 namespace delquad::benchmarks {
 namespace {
@@ -22,14 +26,28 @@ void insertion(benchmark::State& state, char letter, Grading grading) {
   state.SetComplexityN(state.range(0));
 }
 
-void recombination(benchmark::State& state, char letter, Grading grading) {
+void recombination(benchmark::State& state, char letter, Grading grading, bool lemon, int threads) {
   const SquareCase domain(grading, static_cast<double>(state.range(0)));
   const TriPatch tri = triangles(letter, domain);
-  const auto solver = make_primal_dual_solver();
+  const auto solver = lemon ? make_lemon_solver() : make_primal_dual_solver();
+  RunSettings settings;
+  settings.threads = threads;
+  const RunScope scope(settings);
   RecombineSummary summary;
-  for (auto _ : state) benchmark::DoNotOptimize(recombine(tri, *solver, &summary).quads.data());
-  state.counters["matching_share"] =
-      summary.matching_seconds / (summary.graph_seconds + summary.matching_seconds + summary.merge_seconds);
+  double graph = 0, matching = 0, merging = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(recombine(tri, *solver, &summary).quads.data());
+    graph += summary.graph_seconds;
+    matching += summary.matching_seconds;
+    merging += summary.merge_seconds;
+  }
+  constexpr double kPerSecond = 1000;
+  const auto mean = [&](double seconds) {
+    return benchmark::Counter(kPerSecond * seconds, benchmark::Counter::kAvgIterations);
+  };
+  state.counters["graph_ms"] = mean(graph);
+  state.counters["matching_ms"] = mean(matching);
+  state.counters["merging_ms"] = mean(merging);
   state.SetComplexityN(static_cast<benchmark::IterationCount>(tri.triangles.size()));
 }
 
@@ -44,14 +62,37 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond)->Complexity();
 }
 
+/// LEMON works in a thread of its own: only wall and process time count.
+void wall_sizes(benchmark::internal::Benchmark* b) {
+  sizes(b);
+  b->MeasureProcessCPUTime()->UseRealTime();
+}
+
+void add_recombination(const std::string& family, char letter, Grading grading) {
+  const auto add = [&](const std::string& name, bool lemon, int threads) {
+    benchmark::RegisterBenchmark((name + "/" + family).c_str(), recombination, letter, grading, lemon,
+                                 threads)
+        ->Apply(wall_sizes);
+  };
+  add("recombination", false, 1);
+  add("recombination_two_threads", false, 2);
+  add("recombination_by_lemon", true, 1);
+}
+
+bool register_recombination() {
+  add_recombination("D_graded", 'D', Grading::kGraded);
+  add_recombination("F_graded", 'F', Grading::kGraded);
+  add_recombination("D_uniform", 'D', Grading::kUniform);
+  add_recombination("F_uniform", 'F', Grading::kUniform);
+  return true;
+}
+
+const bool kRegistered = register_recombination();
+
 BENCHMARK_CAPTURE(insertion, D_graded, 'D', Grading::kGraded)->Apply(sizes);
-BENCHMARK_CAPTURE(recombination, D_graded, 'D', Grading::kGraded)->Apply(sizes);
 BENCHMARK_CAPTURE(treatment, D_graded, 'D', Grading::kGraded)->Apply(sizes);
 BENCHMARK_CAPTURE(insertion, F_graded, 'F', Grading::kGraded)->Apply(sizes);
-BENCHMARK_CAPTURE(recombination, F_graded, 'F', Grading::kGraded)->Apply(sizes);
 BENCHMARK_CAPTURE(treatment, F_graded, 'F', Grading::kGraded)->Apply(sizes);
-BENCHMARK_CAPTURE(recombination, D_uniform, 'D', Grading::kUniform)->Apply(sizes);
-BENCHMARK_CAPTURE(recombination, F_uniform, 'F', Grading::kUniform)->Apply(sizes);
 
 }  // namespace
 }  // namespace delquad::benchmarks

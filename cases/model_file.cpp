@@ -186,9 +186,7 @@ class ModelReader {
       if (at == named_.end()) {
         std::vector<std::string> known;
         for (const auto& [other, index] : named_) known.push_back(other);
-        const auto near = nearest_name(name, known);
-        throw InputError(table.where("curves") + ": unknown curve '" + name + "'" +
-                         (near ? "; did you mean '" + *near + "'?" : ""));
+        throw InputError(table.where("curves") + ": unknown curve '" + name + "'" + suggestion(name, known));
       }
       used_[at->second] = true;
       loop.curves.push_back(static_cast<int>(at->second));

@@ -33,8 +33,7 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
   try {
     return read();
   } catch (const InputError& error) {
-    const auto near = nearest_name(text, words);
-    throw InputError(error.what() + (near ? "; did you mean '" + *near + "'?" : ""));
+    throw InputError(error.what() + suggestion(text, words));
   }
 }
 
@@ -140,6 +139,11 @@ MeshProblem make_problem(const Case& c) {
   problem.max_elements = c.max_elements;
   problem.keep_going = c.keep_going;
   return problem;
+}
+
+void check_formulas(const Case& c) {
+  make_size(c);
+  make_cross(c.cross);
 }
 
 PreparedProblem prepare_case(const Case& c) {

@@ -21,6 +21,10 @@ std::string text_of(CrossKind kind);
 /// line.
 MeshProblem make_problem(const Case& c);
 
+/// Throws InputError with file and line where formulas of a case's size or crosses cannot be read, without
+/// its model.
+void check_formulas(const Case& c);
+
 /// Boundary, background mesh and fields of a case: prepare(make_problem(c)), with the time of reading.
 PreparedProblem prepare_case(const Case& c);
 

@@ -19,7 +19,8 @@ namespace {
 
 /// What stands in for the values at dotted keys, seen from the table that they were chosen for.
 struct Choices {
-  TomlTable lists;  // keeps the nodes alive
+  TomlTable lists;   // keeps the nodes alive
+  std::string path;  // of them, for messages
   std::map<std::string, const toml::node*> values;
   toml::table empty;  // for tables that hold nothing but choices
 };
@@ -54,7 +55,18 @@ struct TomlTable::Data {
   std::string place(const toml::node& node) const {
     return file.string() + ":" + std::to_string(node.source().begin.line);
   }
-  std::string name(const std::string& key) const { return path.empty() ? key : path + "." + key; }
+  /// As the file has it: what was chosen stands in another table.
+  std::string name(const std::string& key) const {
+    return is_chosen(below + key) ? choices->path + "." + below + key : own_name(key);
+  }
+  std::string own_name(const std::string& key) const { return path.empty() ? key : path + "." + key; }
+  /// Whether the value at a dotted path from the table with choices was chosen, or one below it.
+  bool is_chosen(const std::string& path_to) const {
+    if (!choices) return false;
+    const auto inside = choices->values.lower_bound(path_to + ".");
+    return choices->values.contains(path_to) ||
+           (inside != choices->values.end() && inside->first.starts_with(path_to + "."));
+  }
 
   const toml::node* find(const std::string& key) {
     asked.insert(key);
@@ -260,7 +272,7 @@ TomlTable TomlTable::table(const std::string& key) const {
   const std::string what = "a table of keys and values";
   const toml::node& node = data_->need(key, what);
   if (!node.is_table()) data_->expected(node, key, what);
-  auto inner = data_->child(*node.as_table(), data_->name(key));
+  auto inner = data_->child(*node.as_table(), data_->own_name(key));
   inner->choices = data_->choices;
   inner->below = data_->below + key + ".";
   return TomlTable(std::move(inner));
@@ -278,7 +290,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   std::vector<TomlTable> result;
   for (const toml::node& item : data_->array(*node, key, what)) {
     if (!item.is_table()) data_->expected(item, key, what);
-    result.push_back(TomlTable(data_->child(*item.as_table(), data_->name(key))));
+    result.push_back(TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
   }
   return result;
 }
@@ -334,7 +346,7 @@ std::string TomlTable::element_text(const std::string& leaf, std::size_t i) cons
 
 TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                                  const std::vector<std::size_t>& choice) const {
-  auto choices = std::make_shared<Choices>(Choices{lists, {}, {}});
+  auto choices = std::make_shared<Choices>(Choices{lists, lists.data_->path, {}, {}});
   for (std::size_t k = 0; k < leaves.size(); ++k)
     choices->values[leaves[k]] = &element(*lists.data_->table, leaves[k], choice[k]);
   auto data = std::make_shared<Data>(*data_);
@@ -355,12 +367,9 @@ void TomlTable::finish() const {
     else
       place = data_->place(*data_->choices->values.lower_bound(data_->below + name)->second);
     std::string message = place + ": unknown key '" + data_->name(name) + "'";
-    if (const auto near = nearest_name(name, known)) {
-      message += "; did you mean '" + *near + "'?";
-    } else {
-      message += "; known here:";
-      for (const std::string& other : known) message += " " + other;
-    }
+    if (const std::string near = suggestion(name, known); !near.empty()) throw InputError(message + near);
+    message += "; known here:";
+    for (const std::string& other : known) message += " " + other;
     throw InputError(message);
   }
 }

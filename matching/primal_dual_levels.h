@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -8,9 +9,11 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/parallel_collect.h"
 #include "matching/primal_dual_blossoms.h"
 #include "matching/primal_dual_search.h"
 #include "matching/primal_dual_state.h"
+#include "matching/primal_dual_trees.h"
 
 namespace delquad {
 
@@ -72,16 +75,20 @@ SearchOutcome PrimalDualLevels<Value, Cost>::run(bool park, int modulus) {
 template <class Value, class Cost>
 bool PrimalDualLevels<Value, Cost>::has_arc_out(int v, long long range) const {
   const auto* const arcs = s_.arcs_of(s_.nodes[v]);
+  const long long begin = v / range * range;
   return std::any_of(arcs, arcs + s_.nodes[v].degree,
-                     [&](const auto& arc) { return arc.to / range != v / range; });
+                     [&](const auto& arc) { return arc.to < begin || arc.to >= begin + range; });
 }
 
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::note_border() {
-  for (int v = 0; v < s_.n_nodes; ++v) {
-    if (v % kPerCheck == 0) check_cancelled();
-    if (has_arc_out(v, kFirstRange)) border_.push_back(v);
-  }
+  border_ = parallel_collect<int>(s_.nodes.size(),
+                                  [&](std::size_t begin, std::size_t end, std::vector<int>& border) {
+                                    for (std::size_t v = begin; v < end; ++v) {
+                                      if (has_arc_out(static_cast<int>(v), kFirstRange))
+                                        border.push_back(static_cast<int>(v));
+                                    }
+                                  });
 }
 
 template <class Value, class Cost>

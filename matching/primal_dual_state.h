@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "matching/shared_pool.h"
 
 namespace delquad {
@@ -67,7 +68,7 @@ struct PrimalDualState {
 
   int n_nodes;
   int hub = 0;  ///< nodes of more arcs than this are hubs: they are in no range but that of all nodes
-  std::vector<Node> nodes;
+  std::vector<Node, HugePageAllocator<Node>> nodes;
   std::vector<int> next;  ///< in the lists of nodes of blossoms
   std::vector<Arc> arcs;  ///< of nodes that have many
   SharedPool<Blossom> blossoms;

@@ -75,9 +75,8 @@ std::unique_ptr<MatchingSolver> matching_solver(const std::string& name, const O
     if (solver.name == name) return std::make_unique<CheckedSolver>(name, solver.make(options));
   std::string known;
   for (const std::string& other : matching_solver_names()) known += (known.empty() ? "" : ", ") + other;
-  const auto near = nearest_name(name, matching_solver_names());
   throw InputError("unknown matching solver '" + name + "'; known: " + known +
-                   (near ? "; did you mean '" + *near + "'?" : ""));
+                   suggestion(name, matching_solver_names()));
 }
 
 std::vector<std::string> matching_solver_names() {

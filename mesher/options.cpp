@@ -40,8 +40,7 @@ const OptionKey& require_key(const std::string& name) {
   std::vector<std::string> known;
   for (const OptionGroup& group : groups())
     for (const OptionKey& key : group.keys) known.push_back(group.name + "." + key.name);
-  const auto near = nearest_name(name, known);
-  throw InputError("unknown option '" + name + "'" + (near ? "; did you mean '" + *near + "'?" : ""));
+  throw InputError("unknown option '" + name + "'" + suggestion(name, known));
 }
 
 std::optional<double> number_in(const OptionValue& value) {

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "delquad/mesher.h"
 
 namespace delquad {
@@ -17,9 +21,10 @@ const Quality& quality_named(const std::string& name) {
   const auto& all = quality_registry();
   const auto it = std::ranges::find(all, name, &Quality::name);
   if (it != all.end()) return *it;
-  std::string known;
-  for (const Quality& q : all) known += (known.empty() ? "" : ", ") + q.name;
-  throw InputError("quality '" + name.substr(0, 40) + "': expected one of " + known);
+  std::vector<std::string> names;
+  for (const Quality& q : all) names.push_back(q.name);
+  throw InputError(fmt::format("quality '{}': expected one of {}{}", name.substr(0, 40),
+                               fmt::join(names, ", "), suggestion(name, names)));
 }
 
 }  // namespace delquad

@@ -1,6 +1,7 @@
 #include "mesher/stages.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <stdexcept>
 
@@ -239,6 +240,16 @@ std::string known_letters() {
   return known;
 }
 
+/// Words are written in capitals: where those make a word, that it may be meant.
+std::string capitals_suggestion(const std::string& text) {
+  std::string capitals = text;
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const auto is_known = [](char letter) {
+    return std::ranges::find(stage_registry(), letter, &Stage::letter) != stage_registry().end();
+  };
+  return std::ranges::all_of(capitals, is_known) ? "; did you mean '" + capitals + "'?" : "";
+}
+
 }  // namespace
 
 std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
@@ -294,7 +305,8 @@ Word parse_word(const std::string& text) {
   for (const char letter : text) {
     const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
     if (stage == stages().end())
-      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters());
+      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters() +
+                       capitals_suggestion(text));
     if (stage->from != word.result)
       throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
                        (word.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +

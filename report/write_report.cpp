@@ -19,6 +19,7 @@
 #include "report/page_text.h"
 #include "report/samples_json.h"
 #include "report/sheet_json.h"
+#include "sweep/json_problem.h"
 #include "sweep/record.h"
 #include "sweep/samples.h"
 #include "sweep/tables.h"
@@ -248,7 +249,7 @@ class Page {
         sheet["facts"] = std::move(facts);
       cells_of(seed_of(cell), sheet).push_back(std::move(json));
     } catch (const Json::exception& error) {
-      throw InputError(fmt::format("{}: is no record of a cell: {}", file.string(), error.what()));
+      throw InputError(json_problem(file, "is no record of a cell", error));
     }
   }
 

@@ -60,14 +60,15 @@ std::string value_of(std::string_view head, const std::string& key) {
   return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
 }
 
-/// Asked until it tells; empty where the peer does not, as its cells will say.
-std::string version_of(const Peer& peer) {
+/// Asked until it tells; empty where the peer does not, and `why` says for what reason.
+std::string version_of(const Peer& peer, std::string& why) {
   static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
   const std::pair asked{peer.folder, peer.version};
   if (const auto at = known.find(asked); at != known.end()) return at->second;
   try {
     return known[asked] = peer_version(peer);
-  } catch (const PeerError&) {
+  } catch (const std::runtime_error& error) {  // PeerError, InputError
+    why = error.what();
     known.erase(asked);
     return "";
   }
@@ -95,7 +96,7 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
   cell.program_digest = program_digest();
   std::string pipeline = word.text;
   if ((cell.peer = experiment.peer_of(word)) != nullptr) {
-    cell.peer_version = version_of(*cell.peer);
+    cell.peer_version = version_of(*cell.peer, cell.no_peer_version);
     cell.peer_file = fs::absolute(cell.peer->file)
                          .lexically_normal()
                          .lexically_relative(fs::absolute(experiment.file).lexically_normal().parent_path())

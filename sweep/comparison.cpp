@@ -1,11 +1,13 @@
 #include "sweep/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "metrics/metrics.h"
 #include "sweep/cell_text.h"
@@ -27,10 +29,12 @@ int direction(const std::string& key, const std::vector<Metric>& own) {
     if (find_metric(metric.key) == nullptr) metrics.push_back(metric);
   const auto at = std::ranges::find(metrics, key, &Metric::key);
   if (at != metrics.end() && at->better != Better::kNeither) return at->better == Better::kHigher ? 1 : -1;
-  std::string known;
+  std::vector<std::string> known;
   for (const Metric& m : metrics)
-    if (m.better != Better::kNeither) known += m.key + ", ";
-  throw InputError("metric '" + key + "' cannot be compared: expected some of " + known + kSeconds);
+    if (m.better != Better::kNeither) known.push_back(m.key);
+  known.emplace_back(kSeconds);
+  throw InputError(fmt::format("metric '{}' cannot be compared: expected some of {}{}", key,
+                               fmt::join(known, ", "), suggestion(key, known)));
 }
 
 std::string name(const CellRecord& r) { return r.group + " " + r.pipeline; }

@@ -11,6 +11,7 @@
 
 #include "base/located.h"
 #include "cases/case_file.h"
+#include "cases/problem.h"
 #include "cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
@@ -25,15 +26,6 @@ namespace {
 
 const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
 
-std::vector<std::string> keys_of_metrics(const Experiment& experiment) {
-  std::vector<std::string> keys;
-  for (const Metric& m : metric_registry()) keys.push_back(m.key);
-  for (const std::string& solver : experiment.solvers)
-    for (const Metric& m : metrics_of_solver(solver)) keys.push_back(m.key);
-  for (const MetricCommand& command : experiment.metrics) keys.push_back(command.metric.key);
-  return keys;
-}
-
 /// What one of the keys is, up to a dot: commands may give several values.
 bool is_known(const std::string& metric, const std::vector<std::string>& known) {
   return std::ranges::find(known, metric) != known.end() ||
@@ -43,9 +35,7 @@ bool is_known(const std::string& metric, const std::vector<std::string>& known) 
 void check_known(const TomlTable& table, const std::string& key, const std::string& metric,
                  const std::vector<std::string>& known) {
   if (is_known(metric, known)) return;
-  const auto near = nearest_name(metric, known);
-  throw InputError(table.where(key) + ": unknown metric '" + metric + "'" +
-                   (near ? "; did you mean '" + *near + "'?" : ""));
+  throw InputError(table.where(key) + ": unknown metric '" + metric + "'" + suggestion(metric, known));
 }
 
 /// Names of solvers, each once.
@@ -124,22 +114,6 @@ LinfStudy read_linf_study(const TomlTable& table) {
 
 /// Up to this many characters of a value make the name of a folder.
 constexpr std::size_t kLongestValue = 40;
-
-Better read_better(const TomlTable& table) {
-  const std::string text = table.text("better", "neither");
-  if (text == "higher") return Better::kHigher;
-  if (text == "lower") return Better::kLower;
-  if (text == "neither") return Better::kNeither;
-  throw InputError(table.where("better") + ": 'better' is '" + text +
-                   "': expected \"higher\", \"lower\" or \"neither\"");
-}
-
-int read_count(const TomlTable& table, const char* key, int least, int most, int absent) {
-  const long long count = table.integer(key, absent);
-  if (!table.has(key) || (count >= least && count <= most)) return static_cast<int>(count);
-  throw InputError(
-      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most));
-}
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
@@ -258,43 +232,8 @@ void Experiment::check_comparisons(const TomlTable& table, const Case& c) const 
   for (const auto& [word, name] : c.compare) {
     located(table.where("compare"), [&] { find_pipeline(word); });
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    const auto near = nearest_name(name, names);
-    throw InputError(table.where("compare") + ": no published row '" + name + "'" +
-                     (near ? "; did you mean '" + *near + "'?" : ""));
+    throw InputError(table.where("compare") + ": no published row '" + name + "'" + suggestion(name, names));
   }
-}
-
-void Experiment::read_metric(const TomlTable& table) {
-  MetricCommand command;
-  Metric& metric = command.metric;
-  metric.key = table.text("name");
-  command.folder = file.parent_path();
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (metric.key.empty() || metric.key.size() > 60 ||
-      std::isalpha(static_cast<unsigned char>(metric.key[0])) == 0 || !std::ranges::all_of(metric.key, plain))
-    throw InputError(table.where("name") + ": '" + metric.key +
-                     "': the name of a metric is a letter, then letters, digits, '_' and '-'");
-  std::vector<std::string> taken = keys_of_metrics(*this);
-  for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
-  taken.push_back("seconds");
-  if (std::ranges::find(taken, metric.key) != taken.end())
-    throw InputError(table.where("name") + ": there is a metric '" + metric.key + "' already");
-  command.command = read_command(table, "command");
-  if (!has_placeholder(command.command, "{mesh}") && !has_placeholder(command.command, "{folder}"))
-    throw InputError(table.where("command") + ": 'command' lacks {mesh}, and {folder} in its place");
-  if (table.has("files")) command.files = table.texts("files");
-  for (const std::string& name : command.files)
-    if (!std::filesystem::is_regular_file(command.folder / name))
-      throw InputError(table.where("files") + ": no file '" + (command.folder / name).string() + "'");
-  metric.title = table.text("title", metric.key);
-  metric.unit = table.text("unit", "");
-  metric.better = read_better(table);
-  metric.worst = std::numeric_limits<double>::quiet_NaN();
-  metric.source = fmt::format("{}", fmt::join(command.command, " "));
-  metric.digits = read_count(table, "digits", 0, kMostDigits, metric.digits);
-  command.timeout = static_cast<unsigned>(read_count(table, "timeout", 1, kMostSeconds, 0));
-  table.finish(metric_keys());
-  metrics.push_back(std::move(command));
 }
 
 const Peer* Experiment::peer_of(const Word& word) const {
@@ -307,11 +246,10 @@ Word Experiment::find_pipeline(const std::string& text) const {
   if (is_peer) return {text, {}, PatchForm::kQuads};
   std::vector<std::string> names;
   for (const Peer& peer : peers) names.push_back(peer.name);
-  const auto near = nearest_name(text, names);
   try {
     return parse_word(text);
   } catch (const InputError& error) {
-    throw InputError(error.what() + (near ? "; did you mean '" + *near + "'?" : ""));
+    throw InputError(error.what() + suggestion(text, names));
   }
 }
 
@@ -355,7 +293,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
   experiment.solvers = read_solvers(table);
   for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
-  const std::vector<std::string> metrics = keys_of_metrics(experiment);
+  const std::vector<std::string> metrics = experiment.keys_of_metrics();
   if (const auto correlation = table.optional_table("correlate"))
     experiment.correlation = read_correlation(*correlation, metrics);
   if (table.has("reference")) {
@@ -363,7 +301,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     experiment.published = read_published(experiment.reference, metrics);
   }
   experiment.step_times = table.flag("step_times", false);
-  experiment.repeat_times = static_cast<int>(read_count(table, "repeat_times", 2, kMostRepetitions, 0));
+  experiment.repeat_times = read_count(table, "repeat_times", 2, kMostRepetitions, 0);
   experiment.columns = read_columns(table, metrics);
   if (const auto ratio = table.optional_table("ratio")) {
     experiment.ratio = read_ratio(*ratio, metrics);
@@ -388,7 +326,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     const std::string name = experiment.cases_[i].text("name");
     check_folder_name(experiment.cases_[i], name, names);
     names.push_back(name);
-    for (std::size_t v = 0; v < experiment.n_variants(); ++v) experiment.read_variant(i, v);
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) check_formulas(experiment.read_variant(i, v));
   }
   return experiment;
 }

@@ -66,6 +66,7 @@ class Experiment {
   std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
   bool calibrate = false;                         ///< peers are compared at our number of quads
   std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
+  std::string calibrate_where;                    ///< file and line that ask for it; empty: nothing does
   std::vector<MetricCommand> metrics;
   std::vector<std::string> solvers;               ///< that measure every mesh, by name
   std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
@@ -79,6 +80,9 @@ class Experiment {
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
   std::filesystem::path reference;                      ///< file of the published rows; empty: none
 
+  /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
+  /// called when all peers are there.
+  void check_calibration() const;
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
   std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
@@ -110,6 +114,7 @@ class Experiment {
   void read_peer(const TomlTable& table);
   void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
   void read_metric(const TomlTable& table);
+  std::vector<std::string> keys_of_metrics() const;
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 

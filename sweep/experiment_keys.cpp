@@ -1,10 +1,13 @@
 #include "sweep/experiment_keys.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
+#include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "sweep/tables.h"
 
@@ -15,6 +18,23 @@ std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+/// What looks like placeholders, such as "{input}"; not "${input}", which is the shell's.
+std::vector<std::string> names_in_braces(const std::string& word) {
+  std::vector<std::string> names;
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  for (std::size_t at = 0; (at = word.find('{', at)) != std::string::npos; ++at) {
+    const auto end = word.find('}', at);
+    if (end == std::string::npos || end == at + 1 || (at > 0 && word[at - 1] == '$')) continue;
+    const std::string name = word.substr(at, end + 1 - at);
+    if (std::all_of(name.begin() + 1, name.end() - 1, is_letter)) names.push_back(name);
+  }
+  return names;
+}
+
+bool is_program_text(const std::string& word) {
+  return word.find_first_of(" \t\n\"'$;(") != std::string::npos;
 }
 
 }  // namespace
@@ -39,7 +59,40 @@ std::vector<std::string> read_command(const TomlTable& table, const char* key) {
       fmt::format("{}: '{}' is empty: expected a program and its arguments", table.where(key), key));
 }
 
-bool has_placeholder(const std::vector<std::string>& command, const char* placeholder) {
+int read_count(const TomlTable& table, const char* key, int least, int most, int absent) {
+  const long long count = table.integer(key, absent);
+  if (!table.has(key) || (count >= least && count <= most)) return static_cast<int>(count);
+  throw InputError(
+      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most));
+}
+
+void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
+                        const std::vector<std::string>& known,
+                        const std::vector<std::vector<std::string>>& needed) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(table.where("command") + ": 'command' " + what);
+  };
+  std::vector<std::string> strange;
+  for (const std::string& word : command)
+    for (const std::string& name : names_in_braces(word)) {
+      if (std::ranges::find(known, name) != known.end()) continue;
+      if (is_program_text(word))
+        strange.push_back(name);
+      else
+        refuse(fmt::format("has the unknown {}; known: {}{}", name, fmt::join(known, ", "),
+                           suggestion(name, known)));
+    }
+  for (const std::vector<std::string>& group : needed) {
+    if (std::ranges::any_of(group, [&](const std::string& name) { return has_placeholder(command, name); }))
+      continue;
+    for (const std::string& name : strange)
+      if (const std::string near = suggestion(name, group); !near.empty())
+        refuse("has the unknown " + name + near);
+    refuse(fmt::format("lacks {}", fmt::join(group, ", and in its place ")));
+  }
+}
+
+bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder) {
   return std::ranges::any_of(command, [&](const std::string& w) { return w.find(placeholder) != w.npos; });
 }
 

@@ -14,8 +14,18 @@ std::vector<int> read_counts(const TomlTable& table, const std::string& key, dou
 /// A program and its arguments. Throws InputError with file and line when there is no program.
 std::vector<std::string> read_command(const TomlTable& table, const char* key);
 
+/// A whole number from `least` to `most`; throws InputError with file and line for another.
+int read_count(const TomlTable& table, const char* key, int least, int most, int absent);
+
+/// What stands in braces in the words of `command`: throws InputError with file and line for what is none of
+/// `known`, and where all of one of the groups of `needed` are missing. Words that are text of a program may
+/// have braces of their own.
+void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
+                        const std::vector<std::string>& known,
+                        const std::vector<std::vector<std::string>>& needed);
+
 /// Whether a word of the command holds `placeholder`, such as "{mesh}".
-bool has_placeholder(const std::vector<std::string>& command, const char* placeholder);
+bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder);
 
 /// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.
 /// Throws InputError with file and line for one that cannot, is that of a file of results, or one of

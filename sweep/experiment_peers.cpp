@@ -83,9 +83,7 @@ void Experiment::read_peer(const TomlTable& table) {
     extension = "." + format;
   };
   peer.command = read_command(table, "command");
-  for (const char* placeholder : {"{input}", "{output}"})
-    if (!has_placeholder(peer.command, placeholder))
-      throw InputError(fmt::format("{}: 'command' lacks {}", table.where("command"), placeholder));
+  check_placeholders(table, peer.command, peer_placeholders(), {{"{input}"}, {"{output}"}});
   peer.version = read_command(table, "version");
   read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
@@ -104,6 +102,17 @@ void Experiment::read_peer(const TomlTable& table) {
   }
   table.finish(peer_keys());
   peers.push_back(std::move(peer));
+}
+
+void Experiment::check_calibration() const {
+  if (calibrate_where.empty()) return;
+  const std::string head =
+      fmt::format("{}: '{}' has no effect: ", calibrate_where, calibrate ? "calibrate" : "calibrate_to");
+  if (peers.empty())
+    throw InputError(head + "there are no peers: expected [[peer]] tables, 'peer_files' or --peer");
+  const auto is_calibrated = [](const Peer& peer) { return !peer.calibrate_to.empty(); };
+  if (!calibrate && std::ranges::none_of(peers, is_calibrated))
+    throw InputError(head + "expected 'calibrate = \"quads\"' beside it");
 }
 
 std::vector<std::string> Experiment::add_peer_file(const std::filesystem::path& path) {
@@ -129,6 +138,8 @@ void Experiment::read_peers(const TomlTable& table, const std::vector<std::strin
   else if (calibrate && calibrate_to.empty())
     throw InputError(table.where("calibrate") +
                      ": 'pipelines' has no word that makes quads: expected 'calibrate_to = \"DBCO\"'");
+  if (calibrate || table.has("calibrate_to"))
+    calibrate_where = table.where(calibrate ? "calibrate" : "calibrate_to");
   for (const TomlTable& peer : table.tables("peer")) read_peer(peer);
   if (!table.has("peer_files")) return;
   for (const std::string& name : table.texts("peer_files"))

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "delquad/error.h"
+#include "sweep/json_problem.h"
 #include "sweep/scratch_folder.h"
 #include "sweep/tables.h"
 #include "sweep/verify.h"
@@ -62,8 +63,7 @@ std::array<std::string, 2> digests_of(const CellRecord& record) {
     const Json digests = Json::parse(in).at("digests");
     return {digests.at("model"), digests.at("mesh")};
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: is no record of a cell: {}", (record.folder / "record.json").string(),
-                                 error.what()));
+    throw InputError(json_problem(record.folder / "record.json", "is no record of a cell", error));
   }
 }
 

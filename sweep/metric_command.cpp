@@ -118,6 +118,12 @@ MetricOutcome values_of(const std::string& key, const Json& object) {
 
 }  // namespace
 
+const std::vector<std::string>& metric_placeholders() {
+  static const std::vector<std::string> all = {"{mesh}",     "{folder}", "{case}",
+                                               "{pipeline}", "{size}",   "{seed}"};
+  return all;
+}
+
 MetricOutcome parse_metric_output(const std::string& key, const std::string& printed) {
   const std::string text = trimmed(printed);
   if (text.empty()) return failed("printed nothing");

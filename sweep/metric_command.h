@@ -22,6 +22,9 @@ struct MetricCommand {
   std::filesystem::path folder = {};    ///< of the experiment
 };
 
+/// What stands for something in the words of its command.
+const std::vector<std::string>& metric_placeholders();
+
 /// What it said of one mesh.
 struct MetricOutcome {
   /// By key: that of the metric, or, when it gave several, "metric.name". NaN: it is not defined.

@@ -19,6 +19,7 @@
 #include "sweep/peer_reference.h"
 #include "sweep/peer_sizes.h"
 #include "sweep/run_program.h"
+#include "sweep/scratch_folder.h"
 
 namespace delquad {
 namespace {
@@ -320,25 +321,21 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
   return words;
 }
 
+const std::vector<std::string>& peer_placeholders() {
+  static const std::vector<std::string> all = {"{input}",      "{output}", "{size}",
+                                               "{size_field}", "{quads}",  "{seed}"};
+  return all;
+}
+
 std::string peer_version(const Peer& peer) {
-  std::string pattern = (fs::temp_directory_path() / "delquad-XXXXXX").string();
-  const int file = mkstemp(pattern.data());
-  if (file < 0) throw PeerError(fs::temp_directory_path().string() + ": cannot be written to");
-  close(file);
-  const fs::path log = pattern;
+  const ScratchFolder scratch;
+  const fs::path log = scratch.path() / "version";
   const auto words = located_command(peer, peer.version);
-  try {
-    check_run(words[0], run_program(words, fs::temp_directory_path(), log, kVersionSeconds), {0}, log);
-    std::ifstream in(log);
-    std::string line;
-    std::getline(in, line);
-    if (line.empty()) throw PeerError(fmt::format("{}: prints no version", fmt::join(words, " ")));
-    fs::remove(log);
-    return line;
-  } catch (...) {
-    fs::remove(log);
-    throw;
-  }
+  check_run(words[0], run_program(words, scratch.path(), log, kVersionSeconds), {0}, log);
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
+  throw PeerError(fmt::format("{}: prints no version", fmt::join(words, " ")));
 }
 
 void check_peer_mesh(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh) {

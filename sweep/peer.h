@@ -59,7 +59,11 @@ class PeerError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the peer says of its version, in one line. Throws PeerError.
+/// What stands for something in the words of its command.
+const std::vector<std::string>& peer_placeholders();
+
+/// What the peer says of its version, in one line. Throws PeerError, and InputError where there is no room
+/// for what it prints.
 std::string peer_version(const Peer& peer);
 
 /// What a peer is told of a case.

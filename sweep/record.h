@@ -20,6 +20,7 @@ struct CellIdentity {
   std::map<std::string, FileMark> files = {};          ///< of the cell, but for the record
   const Peer* peer = nullptr;                          ///< in place of a pipeline
   std::string peer_version = {};                       ///< empty: it does not tell
+  std::string no_peer_version = {};                    ///< why it does not
   std::map<std::string, std::string> peer_files = {};  ///< that its command names, with their digests
   std::string peer_file = {};  ///< that it was read from, as seen from the folder of the experiment's file
   /// Measures by command, and the digests of the files that determine each.

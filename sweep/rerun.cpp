@@ -13,6 +13,7 @@
 #include "mesher/runner.h"
 #include "sweep/cells.h"
 #include "sweep/digest.h"
+#include "sweep/json_problem.h"
 #include "sweep/measure_by_commands.h"
 #include "sweep/recorded_case.h"
 #include "sweep/scratch_folder.h"
@@ -48,8 +49,7 @@ Json read_json(const std::filesystem::path& file) {
     json.at("digests").at("mesh");
     return json;
   } catch (const Json::exception& error) {
-    throw InputError(
-        fmt::format("{}: is no record of an experiment's cell: {}", file.string(), error.what()));
+    throw InputError(json_problem(file, "is no record of an experiment's cell", error));
   }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,6 +14,7 @@
 #include "sweep/calibration.h"
 #include "sweep/digest.h"
 #include "sweep/experiment.h"
+#include "sweep/json_problem.h"
 #include "sweep/study_file.h"
 
 namespace delquad {
@@ -82,6 +82,7 @@ CellRecord parse(const Json& json) {
   for (const Json& metric : json.value("own_metrics", Json::array()))
     record.own_metrics.push_back(parse_metric(metric));
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
+  record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
@@ -107,7 +108,7 @@ std::optional<StudyFile> readable_study(const fs::path& folder) {
 }
 
 /// Which cell it is tells its folder.
-CellRecord damaged_record(const fs::path& file, const std::string& what,
+CellRecord damaged_record(const fs::path& file, const std::string& problem,
                           const std::optional<StudyFile>& study) {
   CellRecord record;
   record.pipeline = file.parent_path().filename().string();
@@ -118,11 +119,8 @@ CellRecord damaged_record(const fs::path& file, const std::string& what,
     record.variant = cell->variant;
     record.group += text_of_variant(record.variant);
   }
-  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
-  std::string plain = what;  // which may quote any bytes
-  std::ranges::replace_if(plain, std::not_fn(is_plain), '?');
   record.kind = "damaged";
-  record.reason = fmt::format("damaged record: {}: {}", file.string(), plain);
+  record.reason = "damaged record: " + problem;
   return record;
 }
 
@@ -132,11 +130,12 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
     std::ifstream in(file);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     const Json json = Json::parse(text);
-    record = json.contains("digest") && !is_sealed(text)
-                 ? damaged_record(file, "was changed: its digest is not that of its text", study)
-                 : parse(json);
+    record =
+        json.contains("digest") && !is_sealed(text)
+            ? damaged_record(file, file.string() + ": was changed: its digest is not that of its text", study)
+            : parse(json);
   } catch (const Json::exception& error) {
-    record = damaged_record(file, error.what(), study);
+    record = damaged_record(file, json_problem(file, "", error), study);
   }
   record.folder = file.parent_path();
   return record;

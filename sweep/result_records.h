@@ -38,8 +38,9 @@ struct CellRecord {
   std::vector<std::string> size_adapted_to = {};  ///< what made the size less than was asked for
   std::vector<Metric> own_metrics = {};           ///< that the project itself does not have
   std::map<std::string, std::string> failed_metrics = {};  ///< why a measure has no value, by key
-  std::optional<CalibrationRecord> calibration = {};       ///< of a peer
-  std::filesystem::path folder = {};                       ///< of the cell
+  bool metric_failed = false;  ///< one of them by a command, which may come out otherwise
+  std::optional<CalibrationRecord> calibration = {};  ///< of a peer
+  std::filesystem::path folder = {};                  ///< of the cell
 };
 
 /// The files record.json below a folder, by path; those of unfinished cells are left out. Throws InputError

@@ -100,6 +100,8 @@ struct Work {
     RunResult result = cell.identity.peer != nullptr
                            ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
                            : finish_meshing(*prepared, name, std::move(state));
+    if (const std::string& why = cell.identity.no_peer_version; !why.empty())
+      result.warnings.push_back(name + ": its version is unknown: " + why);
     for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
     // What others make is shown as it is.
     if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
@@ -110,7 +112,7 @@ struct Work {
     // Before anything of the cell is in place: it may take long.
     if (cell.identity.peer == nullptr) fs::remove_all(scratch);
     for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
-      say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
+      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
     write_cell(cell.folder, [&](const fs::path& at) {
       move_files(scratch, at);
       const Stopwatch writing;

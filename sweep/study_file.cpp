@@ -10,6 +10,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "sweep/digest.h"
+#include "sweep/json_problem.h"
 
 namespace delquad {
 namespace {
@@ -94,8 +95,7 @@ std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
   try {
     return from_json(Json::parse(in));
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: does not describe an experiment's results: {}",
-                                 (folder / kFile).string(), error.what()));
+    throw InputError(json_problem(folder / kFile, "does not describe an experiment's results", error));
   }
 }
 

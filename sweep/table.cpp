@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
+#include "sweep/json_problem.h"
 #include "sweep/peer.h"
 #include "sweep/rendered_table.h"
 
@@ -244,7 +245,7 @@ Table read_table(const std::filesystem::path& file) {
     }
     return table;
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: is no table of results: {}", file.string(), error.what()));
+    throw InputError(json_problem(file, "is no table of results", error));
   }
 }
 

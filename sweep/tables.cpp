@@ -239,6 +239,7 @@ Outcome make_tables(const StudyResults& results) {
     outcome.correlations =
         correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
   outcome.figures = make_figures(results.records);
+  outcome.metrics_failed = std::ranges::count_if(results.records, &CellRecord::metric_failed);
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
                              results.time_problems.end());
   if (results.left_out > 0)

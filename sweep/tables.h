@@ -20,6 +20,7 @@ struct Outcome {
   std::vector<Figure> figures;       ///< of several pipelines over several cases
   long long leftover_triangles = 0;  ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
+  long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
 };
 
 /// The records of an experiment's cells, and what it consists of.

@@ -11,6 +11,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "sweep/cells.h"
+#include "sweep/json_problem.h"
 
 namespace delquad {
 namespace {
@@ -74,15 +75,15 @@ void write_times(const fs::path& folder, const VariantTimes& times) {
 std::optional<VariantTimes> read_times(const fs::path& folder) {
   std::ifstream in(folder / kFile);
   if (!in) return std::nullopt;
-  const auto damaged = [&](const std::string& why) {
-    return InputError(fmt::format("{}: is no file of repeated times: {}", (folder / kFile).string(), why));
+  const auto damaged = [&](const std::exception& why) {
+    return InputError(json_problem(folder / kFile, "is no file of repeated times", why));
   };
   try {
     return from_json(Json::parse(in));
   } catch (const Json::exception& error) {
-    throw damaged(error.what());
+    throw damaged(error);
   } catch (const InputError& error) {
-    throw damaged(error.what());
+    throw damaged(error);
   }
 }
 

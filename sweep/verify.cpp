@@ -16,6 +16,7 @@
 #include "metrics/metrics.h"
 #include "sweep/digest.h"
 #include "sweep/experiment_copy.h"
+#include "sweep/json_problem.h"
 #include "sweep/recorded_case.h"
 #include "sweep/result_records.h"
 #include "sweep/scratch_folder.h"
@@ -73,7 +74,7 @@ Lines check_record(VerifiedCell& cell) {
     std::ranges::move(check_files(cell), std::back_inserter(wrong));
     cell.record = essence(cell.record);
   } catch (const Json::exception& error) {
-    wrong.push_back(cell.file.string() + ": is no record of a cell: " + error.what());
+    wrong.push_back(json_problem(cell.file, "is no record of a cell", error));
     cell.has_mesh = false;
   }
   return wrong;
@@ -133,7 +134,7 @@ Lines check_variant(const Variant& variant, const fs::path& data) {
     for (const VerifiedCell* cell : variant)
       std::ranges::move(check_measures(*cell, prepared ? &*prepared : nullptr), std::back_inserter(wrong));
   } catch (const Json::exception& error) {
-    wrong.push_back(variant[0]->file.string() + ": is no record of a cell: " + error.what());
+    wrong.push_back(json_problem(variant[0]->file, "is no record of a cell", error));
   } catch (const InputError& error) {
     wrong.emplace_back(error.what());
   }

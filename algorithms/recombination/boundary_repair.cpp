@@ -98,7 +98,8 @@ double place(std::vector<Vec2>& points, int v, std::span<const Element> star) {
 class Repairer {
  public:
   Repairer(QuadPatch& mesh, const std::vector<FanEnds>& pairs)
-      : points_(mesh.points), elements_(mesh.quads), slot_(mesh.points.size(), kNone) {
+      : points_(mesh.points), elements_(mesh.quads), slot_(mesh.n_boundary, kNone) {
+    elements_.reserve(elements_.size() + mesh.triangles.size() + 2 * pairs.size());
     for (const auto& t : mesh.triangles) elements_.push_back({t[0], t[1], t[2], kNone});
     first_end_ = elements_.size();
     for (const FanEnds& pair : pairs) {
@@ -192,7 +193,7 @@ class Repairer {
   std::vector<Vec2>& points_;
   std::vector<Element>& elements_;
   std::size_t first_end_ = 0;             // element of the first pair's first end
-  std::vector<int> slot_;                 // of each point: place in around_, or kNone
+  std::vector<int> slot_;                 // of each boundary point: place in around_, or kNone
   std::vector<std::vector<int>> around_;  // elements that hold, or once held, the point
   BoundaryRepairSummary summary_;
 };

@@ -1,6 +1,8 @@
 #include "algorithms/recombination/dual_graph.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -26,26 +28,110 @@ std::vector<int> triangles_along_curve(const TriPatch& tri) {
   return hilbert_order(centroids);
 }
 
-long long merge_cost(const TriPatch& tri, int t, int side, int u) {
-  const auto& v = tri.triangles[t];
-  const int opposite = tri.triangles[u][facing_side(tri, u, t)];
-  const double eta = signed_eta(tri.points[v[side]], tri.points[v[(side + 1) % 3]], tri.points[opposite],
-                                tri.points[v[(side + 2) % 3]]);
+long long merge_cost(const TriPatch& tri, const std::array<int, 4>& quad) {
+  const auto& p = tri.points;
+  const double eta = signed_eta(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]);
   return static_cast<long long>(std::floor(kCostUnit * (1 - eta)));
 }
 
+/// Nodes whose sides are listed at once, and those whose edges one thread writes at once.
+constexpr std::size_t kPerBlock = 256, kPerRange = 32 * kPerBlock;
+
+/// Where the edges of each range of nodes begin, each edge being its lower node's, and after the last.
+std::vector<std::size_t> first_edges(const TriPatch& tri, const std::vector<int>& node) {
+  const std::size_t n = node.size();
+  std::vector<std::atomic<std::size_t>> counts(n / kPerRange + 1);
+  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      std::size_t higher = 0;
+      for (const int u : tri.neighbours[t]) higher += u >= 0 && node[u] > node[t];
+      counts[node[t] / kPerRange].fetch_add(higher, std::memory_order_relaxed);
+    }
+  });
+  std::vector<std::size_t> first = {0};
+  for (const auto& count : counts) first.push_back(first.back() + count);
+  return first;
+}
+
+/// A block of nodes and their sides to higher nodes, in steps: each fetches from memory what the next one
+/// needs, and none has a branch that would be guessed wrongly half of the time.
+class SideBlock {
+ public:
+  SideBlock(const TriPatch& tri, const std::vector<int>& triangle, const std::vector<int>& node)
+      : tri_(tri), triangle_(triangle), node_(node) {}
+
+  /// Writes the edges of nodes [begin, end), and returns where they end.
+  MatchingGraph::Edge* write(std::size_t begin, std::size_t end, MatchingGraph::Edge* edge) {
+    for (std::size_t i = begin; i < end; ++i) __builtin_prefetch(&tri_.neighbours[triangle_[i]]);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const int u : tri_.neighbours[triangle_[i]]) __builtin_prefetch(&node_[std::max(u, 0)]);
+    }
+    list_sides(begin, end);
+    for (std::size_t k = 0; k < n_; ++k) {
+      quads_[k] = merged_quad(tri_, triangle_[sides_[k].node], sides_[k].side, triangle_[sides_[k].other]);
+      for (const int v : quads_[k]) __builtin_prefetch(&tri_.points[v]);
+    }
+    for (std::size_t k = 0; k < n_; ++k) {
+      *edge++ = {sides_[k].node, sides_[k].other, merge_cost(tri_, quads_[k])};
+    }
+    return edge;
+  }
+
+ private:
+  struct Side {
+    int node, side, other;
+  };
+
+  void list_sides(std::size_t begin, std::size_t end) {
+    n_ = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int t = triangle_[i];
+      __builtin_prefetch(&tri_.triangles[t]);
+      for (int side = 0; side < 3; ++side) {
+        const int u = tri_.neighbours[t][side], other = u < 0 ? -1 : node_[u];
+        sides_[n_] = {static_cast<int>(i), side, other};
+        n_ += other > static_cast<int>(i);
+        __builtin_prefetch(&tri_.triangles[std::max(u, 0)]);
+      }
+    }
+  }
+
+  const TriPatch& tri_;
+  const std::vector<int>&triangle_, &node_;
+  std::size_t n_ = 0;
+  std::array<Side, 3 * kPerBlock> sides_;
+  std::array<std::array<int, 4>, 3 * kPerBlock> quads_;
+};
+
 std::vector<MatchingGraph::Edge> interior_sides(const TriPatch& tri, const std::vector<int>& triangle,
-                                                const std::vector<int>& node) {
-  using Edges = std::vector<MatchingGraph::Edge>;
-  return parallel_collect<MatchingGraph::Edge>(
-      triangle.size(), [&](std::size_t begin, std::size_t end, Edges& edges) {
-        edges.reserve(3 * (end - begin));
-        for (std::size_t i = begin; i < end; ++i) {
-          const int t = triangle[i];
+                                                const std::vector<int>& node,
+                                                const std::vector<std::size_t>& first_edge) {
+  const std::size_t n = triangle.size();
+  std::vector<MatchingGraph::Edge> edges(first_edge.back());
+  parallel_for((n + kPerRange - 1) / kPerRange, [&](std::size_t range) {
+    SideBlock block(tri, triangle, node);
+    MatchingGraph::Edge* edge = edges.data() + first_edge[range];
+    const std::size_t range_end = std::min(n, (range + 1) * kPerRange);
+    for (std::size_t begin = range * kPerRange; begin < range_end; begin += kPerBlock) {
+      edge = block.write(begin, std::min(begin + kPerBlock, range_end), edge);
+    }
+  });
+  return edges;
+}
+
+struct BoundarySide {
+  int triangle, from, to;  ///< vertices, counterclockwise
+};
+
+std::vector<BoundarySide> boundary_sides(const TriPatch& tri) {
+  using Sides = std::vector<BoundarySide>;
+  return parallel_collect<BoundarySide>(
+      tri.triangles.size(), [&](std::size_t begin, std::size_t end, Sides& sides) {
+        for (std::size_t t = begin; t < end; ++t) {
           for (int side = 0; side < 3; ++side) {
-            const int u = tri.neighbours[t][side];
-            if (u < 0 || node[u] < static_cast<int>(i)) continue;
-            edges.push_back({static_cast<int>(i), node[u], merge_cost(tri, t, side, u)});
+            if (tri.neighbours[t][side] >= 0) continue;
+            const auto& v = tri.triangles[t];
+            sides.push_back({static_cast<int>(t), v[(side + 1) % 3], v[(side + 2) % 3]});
           }
         }
       });
@@ -53,12 +139,9 @@ std::vector<MatchingGraph::Edge> interior_sides(const TriPatch& tri, const std::
 
 void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, DualGraph& dual) {
   std::vector<int> first(tri.n_boundary, -1), last(tri.n_boundary, -1);
-  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-    for (int side = 0; side < 3; ++side) {
-      if (tri.neighbours[t][side] >= 0) continue;
-      first[tri.triangles[t][(side + 1) % 3]] = static_cast<int>(t);
-      last[tri.triangles[t][(side + 2) % 3]] = static_cast<int>(t);
-    }
+  for (const BoundarySide& side : boundary_sides(tri)) {
+    first[side.from] = side.triangle;
+    last[side.to] = side.triangle;
   }
   for (int b = 0; b < tri.n_boundary; ++b) {
     if (first[b] < 0 || first[b] == last[b] || facing_side(tri, first[b], last[b]) >= 0) continue;
@@ -72,17 +155,40 @@ int first_node_of(std::vector<int>& before, int v) {
   return v;
 }
 
-/// Components go by their first nodes.
-void add_spares(DualGraph& dual) {
-  const int n = dual.graph.n_nodes;
-  std::vector<int> first(n), spare(n, 0);
-  std::iota(first.begin(), first.end(), 0);
-  for (int e = 0; e < dual.first_extra; ++e) {
-    const int a = first_node_of(first, dual.graph.edges[e].a),
-              b = first_node_of(first, dual.graph.edges[e].b);
-    first[std::max(a, b)] = std::min(a, b);
+void join(std::vector<int>& before, const MatchingGraph::Edge& edge) {
+  const int a = first_node_of(before, edge.a), b = first_node_of(before, edge.b);
+  before[std::max(a, b)] = std::min(a, b);
+}
+
+/// The first node of each node's component: within ranges first, and then across.
+std::vector<int> first_nodes(const MatchingGraph& graph, const std::vector<std::size_t>& first_edge) {
+  std::vector<int> before(graph.n_nodes);
+  std::vector<std::vector<MatchingGraph::Edge>> across(first_edge.size() - 1);
+  parallel_for(across.size(), [&](std::size_t range) {
+    const auto begin = static_cast<std::ptrdiff_t>(range * kPerRange);
+    const int end = static_cast<int>(std::min(before.size(), (range + 1) * kPerRange));
+    std::iota(before.begin() + begin, before.begin() + end, static_cast<int>(begin));
+    for (std::size_t e = first_edge[range]; e < first_edge[range + 1]; ++e) {
+      if (graph.edges[e].b >= end) {
+        across[range].push_back(graph.edges[e]);
+      } else {
+        join(before, graph.edges[e]);
+      }
+    }
+  });
+  for (const auto& edges : across) {
+    for (const auto& edge : edges) join(before, edge);
   }
-  for (int v = 0; v < n; ++v) spare[first[v] = first_node_of(first, v)] ^= 1;
+  for (int& v : before) v = before[v];  // that of a lower node, which has its own already
+  return before;
+}
+
+/// Components go by their first nodes.
+void add_spares(DualGraph& dual, const std::vector<std::size_t>& first_edge) {
+  const int n = dual.graph.n_nodes;
+  const std::vector<int> first = first_nodes(dual.graph, first_edge);
+  std::vector<int> spare(n, 0);
+  for (const int v : first) spare[v] ^= 1;
   for (int v = 0; v < n; ++v) spare[v] = spare[v] != 0 ? dual.graph.n_nodes++ : -1;
   if (dual.graph.n_nodes == n) return;
   for (int v = 0; v < n; ++v) {
@@ -92,18 +198,27 @@ void add_spares(DualGraph& dual) {
 
 }  // namespace
 
+std::array<int, 4> merged_quad(const TriPatch& tri, int t, int side, int u) {
+  const auto &v = tri.triangles[t], &w = tri.triangles[u];
+  const int a = v[(side + 1) % 3], b = v[(side + 2) % 3];
+  const int opposite = w[0] ^ w[1] ^ w[2] ^ a ^ b;
+  return {v[side], a, opposite, b};
+}
+
 DualGraph build_dual_graph(const TriPatch& tri) {
   DualGraph dual;
   dual.triangle = triangles_along_curve(tri);
   dual.graph.n_nodes = static_cast<int>(tri.triangles.size());
   std::vector<int> node(tri.triangles.size());
-  for (std::size_t i = 0; i < dual.triangle.size(); ++i) node[dual.triangle[i]] = static_cast<int>(i);
-  check_cancelled();
-  dual.graph.edges = interior_sides(tri, dual.triangle, node);
+  parallel_ranges(node.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) node[dual.triangle[i]] = static_cast<int>(i);
+  });
+  const std::vector<std::size_t> first_edge = first_edges(tri, node);
+  dual.graph.edges = interior_sides(tri, dual.triangle, node, first_edge);
   dual.first_extra = static_cast<int>(dual.graph.edges.size());
   add_extra_edges(tri, node, dual);
   check_cancelled();
-  add_spares(dual);
+  add_spares(dual, first_edge);
   return dual;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -27,6 +28,9 @@ struct DualGraph {
   int first_extra = 0;            ///< index of the first extra edge
   std::vector<int> extra_vertex;  ///< boundary point of each extra edge
 };
+
+/// The quad that triangle t and its neighbour u across a side of t make, from t's corner opposite of it.
+std::array<int, 4> merged_quad(const TriPatch& tri, int t, int side, int u);
 
 DualGraph build_dual_graph(const TriPatch& tri);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -28,16 +28,30 @@ std::uint32_t curve_position(std::uint32_t x, std::uint32_t y) {
   return position;
 }
 
-/// Sorts by the upper 32 bits; numbers that agree in them stay in their order.
+/// Sorts by the upper 32 bits; numbers that agree in them stay in their order. Parts of a fixed length are
+/// counted and moved at once.
 void sort_by_upper_half(std::vector<std::uint64_t>& keys) {
   constexpr int kDigit = 11;
+  constexpr std::size_t kPart = std::size_t{1} << 17;
+  using Counts = std::array<std::size_t, 1u << kDigit>;
   std::vector<std::uint64_t> sorted(keys.size());
+  std::vector<Counts> parts((keys.size() + kPart - 1) / kPart);
   for (int shift = 32; shift < 64; shift += kDigit) {
     const auto digit = [&](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };
-    std::array<std::size_t, (1u << kDigit) + 1> first = {};
-    for (const std::uint64_t key : keys) ++first[digit(key) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (const std::uint64_t key : keys) sorted[first[digit(key)]++] = key;
+    const auto part_of = [&](std::size_t part) {
+      return std::span(keys).subspan(part * kPart, std::min(kPart, keys.size() - part * kPart));
+    };
+    parallel_for(parts.size(), [&](std::size_t part) {
+      parts[part].fill(0);
+      for (const std::uint64_t key : part_of(part)) ++parts[part][digit(key)];
+    });
+    std::size_t place = 0;
+    for (std::size_t d = 0; d < parts[0].size(); ++d) {
+      for (Counts& counts : parts) place += std::exchange(counts[d], place);
+    }
+    parallel_for(parts.size(), [&](std::size_t part) {
+      for (const std::uint64_t key : part_of(part)) sorted[parts[part][digit(key)]++] = key;
+    });
     keys.swap(sorted);
   }
 }
@@ -65,7 +79,9 @@ std::vector<int> hilbert_order(std::span<const Vec2> points) {
   });
   sort_by_upper_half(keys);
   std::vector<int> order(points.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<int>(keys[i] & 0xffffffffu);
+  parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) order[i] = static_cast<int>(keys[i] & 0xffffffffu);
+  });
   return order;
 }
 

@@ -1,7 +1,10 @@
 #include "algorithms/recombination/recombine.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include "algorithms/recombination/boundary_repair.h"
 #include "algorithms/recombination/dual_graph.h"
@@ -27,24 +30,44 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Pairs that are looked at together, so that what each needs is fetched from memory while others are.
+constexpr std::size_t kPerBlock = 256;
+
+/// The triangles of the pairs that are matched through their lower nodes in [begin, end).
+std::size_t list_pairs(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate,
+                       std::size_t begin, std::size_t end,
+                       std::array<std::pair<int, int>, kPerBlock>& pairs) {
+  const int n = static_cast<int>(dual.triangle.size());
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const int j = mate[i];
+    if (j >= n || j < static_cast<int>(i)) continue;
+    const int t = dual.triangle[i], u = dual.triangle[j];
+    __builtin_prefetch(&tri.triangles[t]);
+    __builtin_prefetch(&tri.neighbours[t]);
+    __builtin_prefetch(&tri.triangles[u]);
+    pairs[count++] = {t, u};
+  }
+  return count;
+}
+
 /// The quads of all matched pairs that share a side.
 std::vector<std::array<int, 4>> merged_pairs(const TriPatch& tri, const DualGraph& dual,
                                              const std::vector<int>& mate) {
   using Quads = std::vector<std::array<int, 4>>;
-  const int n = static_cast<int>(dual.triangle.size());
-  return parallel_collect<std::array<int, 4>>(
-      dual.triangle.size(), [&](std::size_t begin, std::size_t end, Quads& quads) {
-        quads.reserve(end - begin);
-        for (std::size_t i = begin; i < end; ++i) {
-          if (mate[i] >= n || mate[i] < static_cast<int>(i)) continue;
-          const int t = dual.triangle[i], u = dual.triangle[mate[i]];
-          const auto& v = tri.triangles[t];
-          const int side = facing_side(tri, t, u);
-          if (side < 0) continue;  // matched by an extra edge
-          const int opposite = tri.triangles[u][facing_side(tri, u, t)];
-          quads.push_back({v[side], v[(side + 1) % 3], opposite, v[(side + 2) % 3]});
-        }
-      });
+  return parallel_collect<std::array<int, 4>>(dual.triangle.size(), [&](std::size_t begin, std::size_t end,
+                                                                        Quads& quads) {
+    quads.reserve(end - begin);
+    std::array<std::pair<int, int>, kPerBlock> pairs;
+    for (; begin < end; begin += kPerBlock) {
+      const std::size_t count = list_pairs(tri, dual, mate, begin, std::min(begin + kPerBlock, end), pairs);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto [t, u] = pairs[k];
+        const int side = facing_side(tri, t, u);
+        if (side >= 0) quads.push_back(merged_quad(tri, t, side, u));  // else by an extra edge
+      }
+    }
+  });
 }
 
 /// Those quads, and the triangles matched with a spare.

@@ -1,7 +1,11 @@
 #include "geometry/cad/example_models.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -28,12 +32,11 @@ const std::vector<Example>& example_models() {
 }
 
 void check_example(const std::string& name) {
-  std::string known;
-  for (const Example& example : example_models()) {
-    if (example.name == name) return;
-    known += (known.empty() ? "" : ", ") + example.name;
-  }
-  throw InputError("unknown example '" + name + "'; known: " + known);
+  std::vector<std::string> names;
+  for (const Example& example : example_models()) names.push_back(example.name);
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw InputError(fmt::format("unknown example '{}'; known: {}{}", name, fmt::join(names, ", "),
+                               suggestion(name, names)));
 }
 
 }  // namespace delquad

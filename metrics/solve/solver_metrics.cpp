@@ -42,9 +42,9 @@ constexpr Part kParts[] = {
 const Solver& find_solver(const std::string& name) {
   const auto at = std::ranges::find(solvers(), name, &Solver::name);
   if (at != solvers().end()) return *at;
-  const auto near = nearest_name(name, solver_names());
+  const std::string near = suggestion(name, solver_names());
   throw InputError("unknown solver '" + name + "'" +
-                   (near ? "; did you mean '" + *near + "'?" : ": expected poisson or elasticity"));
+                   (near.empty() ? ": expected poisson or elasticity" : near));
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ class Sheet {
     return fileName(this.sheet.id, seed === "" ? "" : `seed=${seed}`, ...parts);
   }
   wordSteps({ word, peer }) {
-    if (peer) return `another mesher, version ${peer.version}`;
+    if (peer) return `another mesher, version ${peer.version || "unknown"}`;
     const names = Object.fromEntries(this.glossary.letters.map((l) => [l.letter, l.name]));
     return [...word].map((letter) => names[letter] || letter).join(", ");
   }

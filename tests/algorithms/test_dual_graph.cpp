@@ -48,16 +48,18 @@ TEST(SignedEta, IsTheSameFromEveryCornerAndFallsAsACornerTurnsReflex) {
 }
 
 TEST(Hilbert, VisitsTheCellsOfALatticeSideBySide) {
-  std::vector<Vec2> points;
-  for (int i = 0; i < 64; ++i) {
-    for (int j = 0; j < 64; ++j) points.push_back({double(i), double(j)});
-  }
-  const std::vector<int> order = hilbert_order(points);
-  ASSERT_EQ(order.size(), points.size());
-  EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), points.size());
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const Vec2 d = points[order[k]] - points[order[k - 1]];
-    EXPECT_EQ(std::abs(d.x) + std::abs(d.y), 1) << k;
+  for (const int side : {64, 512}) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < side; ++i) {
+      for (int j = 0; j < side; ++j) points.push_back({double(i), double(j)});
+    }
+    const std::vector<int> order = hilbert_order(points);
+    ASSERT_EQ(order.size(), points.size());
+    EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), points.size());
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      const Vec2 d = points[order[k]] - points[order[k - 1]];
+      ASSERT_EQ(std::abs(d.x) + std::abs(d.y), 1) << k;
+    }
   }
 }
 

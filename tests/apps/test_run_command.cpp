@@ -143,6 +143,12 @@ TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
       "reference = \"published.toml\"\ncompare = { DB = \"Thiers\" }\n[[case]]\nname = \"a\"\nsize = 1\n" +
           kSquare,
       "'Theirs'");
+  refused("[[case]]\nname = \"good\"\nsize = 1\n" + kSquare + "[[case]]\nname = \"a\"\nsize = \"0.1 + u\"\n" +
+              kSquare,
+          "e.toml:7: expression '0.1 + u', position 7: 'u' is not known");
+  refused("[[case]]\nname = \"a\"\nsize = 1\ncross = \"bonudary\"\n" + kSquare, "did you mean 'boundary'?");
+  refused("[matrix]\nsize = [0.1, \"x +\"]\n[[case]]\nname = \"a\"\n" + kSquare,
+          "e.toml:2: expression 'x +', position");
   refused("reference = \"none.toml\"\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "none.toml");
 }
 

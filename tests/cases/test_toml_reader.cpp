@@ -72,6 +72,8 @@ TEST(NearestName, CountsSwapsAsOne) {
   EXPECT_EQ(nearest_name("boundry", {"region", "boundary"}), "boundary");
   EXPECT_EQ(nearest_name("qqqqqqqq", {"region", "boundary"}), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);
+  EXPECT_EQ(suggestion("szie", {"cross", "size"}), "; did you mean 'size'?");
+  EXPECT_EQ(suggestion("qqqqqqqq", {"size"}), "");
 }
 
 }  // namespace

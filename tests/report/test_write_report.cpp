@@ -138,6 +138,7 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   const Json& damaged = data["studies"][2]["sheets"][0]["seeds"][0]["cells"][1];
   EXPECT_EQ(damaged["status"], "failed");
   EXPECT_EQ(damaged["reason"].get<std::string>().find("damaged record: "), 0u);
+  EXPECT_EQ(count(read_text(folder / "r.html"), "json.exception"), 0u);
   const Json& cell = data["studies"][1]["sheets"][0]["seeds"][0]["cells"][1];
   EXPECT_EQ(cell["status"], "ok");
   EXPECT_FALSE(cell.contains("mesh"));

@@ -120,6 +120,7 @@ TEST(Compare, AValueThatIsNoLongerDefinedIsARegression) {
 TEST(Compare, RefusesMetricsWithoutADirection) {
   for (const char* metric : {"n_quads", "beauty"})
     expect_input_error([&] { compare_records({}, {}, {metric}, 0.1); }, {metric, "eta_mean", "seconds"});
+  expect_input_error([&] { compare_records({}, {}, {"eta_maen"}, 0.1); }, {"did you mean 'eta_mean'?"});
 }
 
 TEST(ReadRecords, NameWhatIsNoRecord) {

@@ -78,6 +78,19 @@ TEST(Experiments, LinfStudyIsDeterministicAndNotesThePaper) {
   EXPECT_GT(std::count(tables[0].begin(), tables[0].end(), '\n'), 2);
 }
 
+TEST(Experiments, MisspeltNamesAreSuggested) {
+  const testing_support::TemporaryFolder folder;
+  const auto expect = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    const auto file = testing_support::write_text(
+        folder / "e.toml", text + "\n[[case]]\nname = \"a\"\nsize = 1\nexample = \"sphere\"\n");
+    expect_input_error([&] { Experiment::read(file); }, parts);
+  };
+  expect("columns = [\"quadz\"]", {"e.toml:1", "'quadz'", "did you mean 'n_quads'?"});
+  expect("pipelines = [\"DB\", \"dbco\"]", {"e.toml:1", "'dbco'", "did you mean 'DBCO'?"});
+  expect("[[case]]\nname = \"b\"\nsize = 1\nexample = \"spere\"",
+         {"e.toml:4", "'spere'", "did you mean 'sphere'?"});
+}
+
 TEST(Experiments, RatiosAreNoted) {
   const testing_support::TemporaryFolder folder;
   const auto file = testing_support::write_text(

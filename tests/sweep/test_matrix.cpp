@@ -67,7 +67,18 @@ TEST_F(Matrix, MistakesAreNamed) {
   expect_input_error([&] { read("[matrix]\nsize = [0.1, -1]\nseed = [-1]\n"); },
                      {"e.toml:3", "'seed' is -1"});
   expect_input_error([&] { read("[matrix]\ninsertion.h_mx = [1.3]\n"); },
-                     {"e.toml:2", "'case.insertion.h_mx'", "'h_max'"});
+                     {"e.toml:2", "'matrix.insertion.h_mx'", "'h_max'"});
+  expect_input_error([&] { read("[matrix]\nsead = [1, 2]\n"); },
+                     {"e.toml:2: unknown key 'matrix.sead'; did you mean 'seed'?"});
+  expect_input_error([&] { read("[matrix]\nsize = [0.1, true]\n"); }, {"e.toml:2: 'matrix.size' must be"});
+  expect_input_error([&] { read("[matrix]\ninsertoin.h_max = [1.3]\n"); },
+                     {"e.toml:2", "'matrix.insertoin'", "'insertion'"});
+  expect_input_error(
+      [&] {
+        read("[matrix]\ninsertion.h_max = [1.3]\n",
+             kSquare + "size = 0.1\ninsertion = { rejektion = 0.5 }\n");
+      },
+      {"e.toml:7", "'case.insertion.rejektion'", "'rejection'"});
   expect_input_error([&] { read("[matrix]\nsize.gradation = [0.3]\n"); },
                      {"e.toml:2", "'size' is no table at", "e.toml:6"});
   expect_input_error([&] { read("[matrix]\ninsertion.h_max = [9]\n"); },

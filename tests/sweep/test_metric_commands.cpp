@@ -8,6 +8,7 @@
 #include "sweep/metric_command.h"
 #include "sweep/run_experiment.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -110,6 +111,7 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
           metric("good", "echo 1"),
       "[\"DB\"]"));
   EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
+  EXPECT_EQ(outcome.metrics_failed, 1) << "cells";
   const Json db = record("DB");
   EXPECT_EQ(db["status"], "ok");
   const Json failed = db["failed_metrics"];
@@ -132,6 +134,23 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   EXPECT_GT(db["metrics"]["n_quads"], 0);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "square" / "DB" / "metric-broken.err"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "square" / ".DB.work"));
+}
+
+/// A failed measure counts as a failed cell does, in its shard and in later runs, too; one that is not
+/// defined does not.
+TEST_F(MetricCommands, FailuresCountInTheExitCode) {
+  const auto exit_code = [&](const std::string& metrics) {
+    const std::string file = write(metrics).string();
+    const std::string out = (folder_ / "out").string();
+    return testing_support::run_program(DELQUAD_PROGRAM, {{"run", file, "-o", out}, 0, {}});
+  };
+  const auto failed = exit_code(metric("m", "exit 3"));
+  EXPECT_EQ(failed.exit_code, 1) << failed.err;
+  EXPECT_NE(failed.err.find("error: square DB: no 'm': sh: ended with exit code 3"), std::string::npos)
+      << failed.err;
+  EXPECT_EQ(exit_code(metric("m", "exit 3")).exit_code, 1);
+  const auto undefined = exit_code(metric("m", "echo nan"));
+  EXPECT_EQ(undefined.exit_code, 0) << undefined.err;
 }
 
 /// What determines a value belongs to the cell's key; a cell whose measures have failed is tried again.
@@ -196,6 +215,8 @@ TEST_F(MetricCommands, MistakesAreNamed) {
   refused("[[metric]]\ncommand = [\"x\", \"{mesh}\"]\n", {"e.toml:2", "'metric.name'"});
   refused("[[metric]]\nname = \"m\"\n", {"e.toml:2", "'metric.command'"});
   refused("[[metric]]\nname = \"m\"\ncommand = [\"x\"]\n", {"e.toml:4", "lacks {mesh}"});
+  refused("[[metric]]\nname = \"m\"\ncommand = [\"x\", \"{msh}\"]\n",
+          {"e.toml:4", "the unknown {msh}", "did you mean '{mesh}'?"});
   refused("[[metric]]\nname = \"m\"\ncommand = []\n", {"e.toml:4", "is empty"});
   refused(good + good, {"e.toml:6", "there is a metric 'm' already"});
   for (const char* name : {"", "1m", "a b", "a.b", "../a"})

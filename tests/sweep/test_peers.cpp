@@ -89,6 +89,30 @@ TEST_F(Peers, AnotherVersionIsAnotherCell) {
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", newer), out()), "outdated       square copy\n");
 }
 
+/// Its mesh counts, but results of another version would be taken for its.
+TEST_F(Peers, SayWhenTheyDoNotTellTheirVersion) {
+  std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kSquare;
+  const std::string tells = "[\"echo\", \"1.0\"]";
+  for (const auto& [version, why] : {std::pair("[\"true\"]", "true: prints no version"),
+                                     std::pair("[\"sh\", \"-c\", \"exit 3\"]", "sh: ended with exit code 3"),
+                                     std::pair("[\"no-such-mesher\"]", "no-such-mesher: not found")}) {
+    fs::remove_all(out());
+    std::string silent = text;
+    silent.replace(silent.find(tells), tells.size(), version);
+    const Outcome outcome = run_experiment(experiment("[\"copy\"]", silent), out());
+    EXPECT_EQ(outcome.others_failed, 0);
+    const std::string warning = std::string("square copy: its version is unknown: ") + why;
+    const auto said = [&](const std::string& line) { return line.find(warning) != std::string::npos; };
+    EXPECT_TRUE(std::ranges::any_of(records().at("copy").warnings, said)) << why;
+    EXPECT_TRUE(std::ranges::any_of(outcome.table.notes, said)) << why;
+  }
+  text.replace(text.find(tells), tells.size(), "[\"sh\", \"-c\", \"echo; echo 7\"]");
+  run_experiment(experiment("[\"copy\"]", text), out());
+  EXPECT_TRUE(records().at("copy").warnings.empty());
+  EXPECT_NE(read_text(fs::path(out()) / "square" / "copy" / "record.json").find("\"version\": \"7\""),
+            std::string::npos);
+}
+
 TEST_F(Peers, AnotherScriptIsAnotherCell) {
   const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kSquare;
   run_experiment(experiment("[\"copy\"]", text), out());
@@ -281,6 +305,16 @@ TEST_F(Peers, BadEntriesAreNamed) {
   };
   const std::string version = "version = [\"true\"]\n", name = "name = \"x\"\n";
   expect(name + version + "command = [\"x\", \"{input}\"]\n", {"{output}", "command"});
+  expect(name + version + "command = [\"x\", \"{imput}\", \"{output}\"]\n",
+         {"peers.toml:5: 'command' has the unknown {imput}", "did you mean '{input}'?"});
+  expect(name + version + "command = [\"x\", \"{input}\", \"{output}\", \"--h={mesh}\"]\n",
+         {"peers.toml:5", "the unknown {mesh}; known: {input}, {output}"});
+  expect(name + version + "command = [\"sh\", \"-c\", \"x {imput} {output}\"]\n",
+         {"peers.toml:5", "the unknown {imput}; did you mean '{input}'?"});
+  EXPECT_NO_THROW(experiment("[\"DB\"]", "[[peer]]\n" + name + version +
+                                             "command = [\"sh\", \"-c\", \"awk '{print}' {input} > ${x} "
+                                             "{output}\", \"${y}\", \"{ 1 }\"]\n" +
+                                             kSquare));
   expect(name + version + "command = []\n", {"command", "empty"});
   expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
   const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";

@@ -182,6 +182,28 @@ TEST_F(CalibratedPeers, KeysAreChecked) {
       {"grid", "pos, sol, points"});
 }
 
+/// Peers may come from the command line: only with these it is known whether there are any.
+TEST_F(CalibratedPeers, AreThereWhereACalibrationIsAskedFor) {
+  const std::string peers_file = write_text(folder_ / "grid.toml", peer("grid", kCoarserGrid)).string();
+  const auto run = [&](const std::string& text, std::vector<std::string> more = {}) {
+    const std::string file = write_text(folder_ / "e.toml", text + kSquare).string();
+    std::vector<std::string> arguments = {"run", file, "-o", out().string(), "--dry-run"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return testing_support::run_program(DELQUAD_PROGRAM, {arguments, 0, {}});
+  };
+  const std::string ask = "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n";
+  const auto alone = run(ask);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("e.toml:2: 'calibrate' has no effect: there are no peers"), std::string::npos)
+      << alone.err;
+  EXPECT_EQ(run(ask, {"--peer", peers_file}).exit_code, 0);
+  EXPECT_EQ(run("pipelines = [\"DB\"]\ncalibrate = \"none\"\n").exit_code, 0);
+  const auto word = run("pipelines = [\"DB\"]\ncalibrate_to = \"DB\"\n", {"--peer", peers_file});
+  EXPECT_EQ(word.exit_code, 2);
+  EXPECT_NE(word.err.find("e.toml:2: 'calibrate_to' has no effect: expected 'calibrate"), std::string::npos)
+      << word.err;
+}
+
 /// Nothing has failed where a mesher cannot be told a case.
 TEST_F(CalibratedPeers, MayBeNotApplicable) {
   const std::string peers =

@@ -219,7 +219,9 @@ TEST_F(Records, VerifyFindsWhatWasChanged) {
   EXPECT_NE(findings()[0].find("study.json: was changed"), std::string::npos) << findings()[0];
   write_text(out() / "study.json", "{");
   EXPECT_GE(findings().size(), 2u);
-  EXPECT_NE(findings()[1].find("study.json: does not describe"), std::string::npos) << findings()[1];
+  EXPECT_NE(findings()[1].find("study.json:1:2: does not describe an experiment's results: it ends there"),
+            std::string::npos)
+      << findings()[1];
   restore();
   fs::remove_all(cell());
   EXPECT_EQ(findings().size(), 5u) << "a cell, and tables in four formats";
@@ -298,7 +300,8 @@ TEST_F(Records, ADamagedRecordIsOneFailedCell) {
     EXPECT_EQ(outcome.others_failed, 1) << text;
     const auto is_named = [&](const CellRecord& record) {
       return record.kind == "damaged" && record.group == "square@seed=1,size=0.25" &&
-             record.pipeline == "DB" && record.reason.starts_with("damaged record: " + file.string() + ": ");
+             record.pipeline == "DB" && record.reason.starts_with("damaged record: " + file.string() + ":") &&
+             record.reason.find("json.exception") == std::string::npos;
     };
     const std::vector<CellRecord> records = read_records(out());
     EXPECT_EQ(records.size(), kCells);
@@ -306,6 +309,27 @@ TEST_F(Records, ADamagedRecordIsOneFailedCell) {
   }
   EXPECT_EQ(run(kSizes).others_failed, 0);
   EXPECT_TRUE(findings().empty()) << findings()[0];
+}
+
+/// In words of our own, with the place.
+TEST_F(Records, DamageIsToldPlainly) {
+  run(kSizes);
+  const fs::path file = cell() / "record.json";
+  const std::string whole = read_text(file);
+  const auto reason = [&](const std::string& text) {
+    write_text(file, text);
+    for (const CellRecord& record : read_records(out()))
+      if (record.kind == "damaged") return record.reason.substr(std::string("damaged record: ").size());
+    return std::string();
+  };
+  const std::string name = file.string();
+  EXPECT_EQ(reason(""), name + ":1:1: it ends there, too early");
+  EXPECT_EQ(reason("{\n  \"case\": \"a\",\n  oops"), name + ":3:3: no JSON there");
+  EXPECT_EQ(reason("{\n\"case\": \"a"), name + ":2:11: it ends there, too early");
+  EXPECT_EQ(reason("{}"), name + ": 'case' is missing");
+  EXPECT_EQ(reason("{\"case\": 3}"), name + ": a value in it is not of the expected kind");
+  const std::string cut = whole.substr(0, whole.find(',', whole.size() / 2) + 1);
+  EXPECT_NE(reason(cut).find("it ends there, too early"), std::string::npos) << reason(cut);
 }
 
 TEST_F(Records, PicturesCanBeLeftOut) {

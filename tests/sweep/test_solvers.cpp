@@ -70,6 +70,7 @@ TEST_F(Solvers, BelongToWhatDeterminesACell) {
 TEST_F(Solvers, SayWhyThereIsNoValueAndAreNotAskedAgain) {
   const std::string head = "pipelines = [\"DB\"]\nsolver = [\"elasticity\", \"poisson\"]\n";
   const Outcome outcome = run(head, kBall);
+  EXPECT_EQ(outcome.metrics_failed, 0);
   const Json json = record("ball/DB");
   EXPECT_EQ(json["status"], "ok");
   EXPECT_TRUE(json["metrics"]["elasticity_h1"].is_null());
