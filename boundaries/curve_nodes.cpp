@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
 #include <unordered_map>
 
 #include "delquad/error.h"
@@ -16,11 +19,105 @@ namespace {
 /// Splitting a curve of one or two edges distorts it most: the T-join avoids these where it can.
 constexpr double kFewEdgesPenalty = 4;
 
+/// Numbers mod 2, by the places of the ones.
+using Parities = std::set<int>;
+
+void add(Parities& to, const Parities& other) {
+  for (const int i : other)
+    if (const auto [at, added] = to.insert(i); !added) to.erase(at);
+}
+
+/// Parts of the graph that hang together, by node.
+std::vector<int> components(const WeightedGraph& graph) {
+  std::vector<int> root(graph.n_nodes);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& e : graph.edges) root[find(e.a)] = find(e.b);
+  for (int v = 0; v < graph.n_nodes; ++v) root[v] = find(v);
+  return root;
+}
+
+/// A curve at which more than two patches meet is no edge of a graph, and a change of it by one changes the
+/// parity of several parts of the graph. Returns the curves (indices into `costs`) to change so that each
+/// part has an even number of odd patches, where that can be: a sum of columns mod 2, by elimination, in
+/// which cheap columns come first.
+std::vector<int> columns_for(const std::vector<Parities>& columns, const std::vector<double>& costs,
+                             Parities wanted) {
+  struct Row {
+    Parities column, made_of;
+  };
+  std::map<int, Row> basis;  // by the first place of the column
+  const auto reduce = [&](Row& row) {
+    while (!row.column.empty()) {
+      const auto at = basis.find(*row.column.begin());
+      if (at == basis.end()) return;
+      add(row.column, at->second.column);
+      add(row.made_of, at->second.made_of);
+    }
+  };
+  std::vector<int> order(columns.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int c) { return costs[c]; });
+  for (const int c : order) {
+    Row row{columns[c], {c}};
+    reduce(row);
+    if (!row.column.empty()) basis.emplace(*row.column.begin(), row);
+  }
+  Row sum{std::move(wanted), {}};
+  Parities chosen;
+  while (!sum.column.empty()) {  // what no column has stays odd
+    const auto at = basis.find(*sum.column.begin());
+    if (at == basis.end()) {
+      sum.column.erase(sum.column.begin());
+      continue;
+    }
+    add(sum.column, at->second.column);
+    add(chosen, at->second.made_of);
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
 /// n + 1 or n - 1, whichever is nearer to the integral in ratio and allowed.
 int changed_by_one(int n, const CurveDemand& curve) {
   if (n - 1 < curve.minimum) return n + 1;
   const auto misfit = [&](int m) { return std::abs(std::log(m / std::max(curve.integral, 1e-3))); };
   return misfit(n - 1) < misfit(n + 1) ? n - 1 : n + 1;
+}
+
+double cost_of_change(int n, const CurveDemand& curve) {
+  const double change = std::abs(std::log(changed_by_one(n, curve) / static_cast<double>(n)));
+  return change * (n <= 2 ? kFewEdgesPenalty : 1);
+}
+
+/// Changes curves at which more than two patches meet, so that the others can do the rest.
+void even_branches(const std::vector<CurveDemand>& curves, const std::vector<int>& branching,
+                   const WeightedGraph& graph, std::vector<int>& counts, std::vector<int>& total) {
+  if (branching.empty()) return;
+  const std::vector<int> part = components(graph);
+  const int free_part = part.back();  // the outside's
+  const auto parity = [&](const std::vector<int>& patches) {
+    Parities odd;
+    for (const int p : patches)
+      if (part[p] != free_part) add(odd, {part[p]});
+    return odd;
+  };
+  std::vector<int> odd_patches;
+  for (size_t p = 0; p < total.size(); ++p)
+    if (total[p] % 2) odd_patches.push_back(static_cast<int>(p));
+  std::vector<Parities> columns;
+  std::vector<double> costs;
+  for (const int c : branching) {
+    columns.push_back(parity(curves[c].patches));
+    costs.push_back(cost_of_change(counts[c], curves[c]));
+  }
+  for (const int i : columns_for(columns, costs, parity(odd_patches))) {
+    const int c = branching[i], n = changed_by_one(counts[c], curves[c]);
+    for (const int p : curves[c].patches) total[p] += n - counts[c];
+    counts[c] = n;
+  }
 }
 
 }  // namespace
@@ -68,20 +165,20 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
   std::vector<int> counts;
   std::vector<int> total(n_patches, 0);
   WeightedGraph graph{n_patches + 1, {}};  // the last node is the outside
-  std::vector<int> curve_of_edge;
+  std::vector<int> curve_of_edge, branching;
   for (size_t c = 0; c < curves.size(); ++c) {
     const CurveDemand& curve = curves[c];
     const int n = std::max(curve.minimum, static_cast<int>(std::lround(curve.integral)));
     counts.push_back(n);
     for (const int p : curve.patches) total[p] += n;
-    if (curve.patches.empty() || curve.patches.size() > 2)
-      continue;  // more than two: no single edge of the graph
+    if (curve.patches.size() > 2) branching.push_back(static_cast<int>(c));
+    if (curve.patches.empty() || curve.patches.size() > 2) continue;
     const int a = curve.patches[0], b = curve.patches.size() == 2 ? curve.patches[1] : n_patches;
     if (a == b) continue;
-    const double change = std::abs(std::log(changed_by_one(n, curve) / static_cast<double>(n)));
-    graph.edges.push_back({a, b, change * (n <= 2 ? kFewEdgesPenalty : 1)});
+    graph.edges.push_back({a, b, cost_of_change(n, curve)});
     curve_of_edge.push_back(static_cast<int>(c));
   }
+  even_branches(curves, branching, graph, counts, total);
   std::vector<int> terminals;
   for (int p = 0; p < n_patches; ++p) {
     if (total[p] % 2) terminals.push_back(p);

@@ -32,7 +32,8 @@ struct CurveDemand {
 /// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
 /// them. The curves to change by one are a minimum-weight T-join over patches and curves (odd patches are the
 /// terminals; the curves of the outline lead to an outside whose parity is free), weighted by |log((n +- 1) /
-/// integral)|. `odd_patches` receives the patches for which there is none.
+/// integral)|. Curves at which more than two patches meet are changed before, where the others cannot do it
+/// alone. `odd_patches` receives the patches for which there is none.
 std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
                              const MatchingSolver& solver, std::vector<int>& odd_patches);
 

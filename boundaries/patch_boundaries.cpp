@@ -10,6 +10,15 @@
 
 namespace delquad {
 
+bool meshable(const PatchBoundary& boundary) {
+  try {
+    constrained_delaunay(boundary);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 namespace {
 
 /// Pairs of edges that share a point other than a common end.
@@ -32,16 +41,6 @@ std::vector<std::pair<size_t, size_t>> crossing_edges(const PatchBoundary& bound
     });
   }
   return pairs;
-}
-
-/// Only the triangulation can tell: it also finds points that coincide and loops that are turned inside out.
-bool meshable(const PatchBoundary& boundary) {
-  try {
-    constrained_delaunay(boundary);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
 }
 
 /// The curves that keep the boundary from enclosing quads; empty if none do.

@@ -16,6 +16,10 @@ struct PatchBoundaries {
   std::vector<std::vector<int>> at_fault;  ///< of each patch, the curves that keep it from enclosing quads
 };
 
+/// Does the boundary enclose an area? Only the triangulation can tell: it also finds points that coincide and
+/// loops that are turned inside out.
+bool meshable(const PatchBoundary& boundary);
+
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted, const SizeField& size,
                                  const MatchingSolver& solver);

@@ -55,32 +55,65 @@ std::set<int> corners_between_curves(int p, const std::vector<FaceCorner>& corne
   return found;
 }
 
-/// Takes pointed tips and sharp corners out of a patch, and the nodes that this drops from their curves.
-void cap_patch(int p, const SurfaceModel& model, const SurfaceCurves& curves,
-               const std::vector<CurveDemand>& demands, SurfaceDomain& domain) {
-  SurfaceNodes& nodes = domain.nodes;
-  SurfacePatch& patch = domain.patches[p];
-  const auto add = [&](const Vec3& x) {
-    nodes.points.push_back(x);
-    return static_cast<int>(nodes.points.size()) - 1;
-  };
-  int hint = -1;
-  auto caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model, u, hint)); });
-  for (const BoundaryCap& cap : caps)
-    for (auto& on_curve : nodes.on_curve)
+/// Takes pointed tips and sharp corners out of patches, and the nodes that this drops from their curves.
+class Capping {
+ public:
+  Capping(const SurfaceModel& model, const SurfaceCurves& curves, const std::vector<CurveDemand>& demands,
+          SurfaceDomain& domain)
+      : model_(model), curves_(curves), demands_(demands), domain_(domain) {}
+
+  /// Caps that leave no area, as where two boundaries are nearer than an edge, are not made.
+  void cap(int p) {
+    SurfacePatch& patch = domain_.patches[p];
+    const PatchBoundary before = patch.boundary;
+    const std::size_t n_points = domain_.nodes.points.size();
+    for (const bool tips : {true, false}) {
+      const std::vector<BoundaryCap> caps = find(p, patch, tips);
+      if (!caps.empty() && !meshable(patch.boundary)) {
+        patch.boundary = before;
+        domain_.nodes.points.resize(n_points);
+        continue;
+      }
+      for (const BoundaryCap& cap : caps) accept(p, cap);
+      return;
+    }
+  }
+
+ private:
+  std::vector<BoundaryCap> find(int p, SurfacePatch& patch, bool tips) {
+    SurfaceNodes& nodes = domain_.nodes;
+    const auto add = [&](const Vec3& x) {
+      nodes.points.push_back(x);
+      return static_cast<int>(nodes.points.size()) - 1;
+    };
+    int hint = -1;
+    std::vector<BoundaryCap> caps;
+    if (tips) caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model_, u, hint)); });
+    const std::set<int> corners = corners_between_curves(p, curves_.corners, demands_, nodes);
+    const CapNodes cap_nodes{[&](int node) { return corners.contains(node); },
+                             [&](int node) { return nodes.points[node]; },
+                             [&](const Vec3& x, Vec2 u) {
+                               return model_.projector ? model_.projector->to_face(patch.map.face, x)
+                                                       : lift(patch, model_, u, hint);
+                             },
+                             [&](Vec2 u) { return fine_normal(patch, model_.fine, u, hint); }, add};
+    for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
+    return caps;
+  }
+
+  void accept(int p, const BoundaryCap& cap) {
+    for (auto& on_curve : domain_.nodes.on_curve)
       std::erase_if(on_curve, [&](const CurveNode& n) {
         return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
       });
-  const std::set<int> corners = corners_between_curves(p, curves.corners, demands, nodes);
-  const CapNodes cap_nodes{
-      [&](int node) { return corners.contains(node); }, [&](int node) { return nodes.points[node]; },
-      [&](const Vec3& x, Vec2 u) {
-        return model.projector ? model.projector->to_face(patch.map.face, x) : lift(patch, model, u, hint);
-      },
-      [&](Vec2 u) { return fine_normal(patch, model.fine, u, hint); }, add};
-  for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
-  for (BoundaryCap& cap : caps) domain.caps.push_back({p, std::move(cap)});
-}
+    domain_.caps.push_back({p, cap});
+  }
+
+  const SurfaceModel& model_;
+  const SurfaceCurves& curves_;
+  const std::vector<CurveDemand>& demands_;
+  SurfaceDomain& domain_;
+};
 
 /// Nodes, lines, curves and regions, once the nodes are those that remain.
 Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, const SurfaceNodes& nodes) {
@@ -118,6 +151,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.nodes = std::move(placed.nodes);
   domain.sharp_corners =
       find_sharp_corners(curves.corners, curves.chains, curves.maps, domain.nodes, kBadEta);
+  Capping capping(model, curves, wanted.demands, domain);
   for (size_t p = 0; p < curves.maps.size(); ++p) {
     domain.patches.push_back({std::move(curves.maps[p]), std::move(curves.outlines[p]),
                               std::move(placed.boundaries[p]), std::move(backgrounds[p]),
@@ -125,7 +159,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     SurfacePatch& patch = domain.patches[p];
     const DoingFace face(fine.regions[patch.map.face].tag);
     try {
-      cap_patch(static_cast<int>(p), model, curves, wanted.demands, domain);
+      capping.cap(static_cast<int>(p));
       seed_narrow_places(patch.boundary);
     } catch (const InputError& error) {
       throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(fine, patch.map), error.what()));

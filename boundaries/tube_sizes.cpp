@@ -119,8 +119,11 @@ std::vector<std::vector<double>> tube_sizes(const Mesh& fine, const std::vector<
         (side.forward ? lines[side.line].forward : lines[side.line].backward) = &side;
       }
     TubePatch patch(fine, maps[p], size);
-    for (const auto& [chain, lines] : sides_of)
-      if (lines[0].forward != nullptr && lines[0].backward != nullptr) patch.add_cut(lines);
+    for (auto& [chain, lines] : sides_of) {
+      // A cut that ends at this one may leave another patch beside a part of it.
+      std::erase_if(lines, [](const Seam& s) { return s.forward == nullptr || s.backward == nullptr; });
+      if (!lines.empty()) patch.add_cut(lines);
+    }
     sizes[p] = patch.sizes();
   }
   return sizes;

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/predicates.h"
-#include "delquad/error.h"
 
 namespace delquad {
 
@@ -103,23 +102,29 @@ std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<V
   return EarCutter(flattened(corners)).cut();
 }
 
-void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes) {
+void split_quads(Mesh& mesh, ReadNotes& notes) {
   if (mesh.quads.empty()) return;
+  std::size_t odd = 0;
   for (size_t i = 0; i < mesh.quads.size(); ++i) {
     const auto& q = mesh.quads[i];
-    const auto parts =
-        split_polygon({mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]});
-    if (!parts)
-      throw InputError(
-          fmt::format("{}: the quad at ({:.6g}, {:.6g}, {:.6g}): expected one that does not cross "
-                      "itself, to split it into triangles",
-                      source, mesh.points[q[0]].x, mesh.points[q[0]].y, mesh.points[q[0]].z));
+    const auto corner = [&](int k) { return mesh.points[q[k]]; };
+    auto parts = split_polygon({corner(0), corner(1), corner(2), corner(3)});
+    if (!parts) {
+      ++odd;
+      if (norm(corner(2) - corner(0)) <= norm(corner(3) - corner(1)))
+        parts = {{0, 1, 2}, {0, 2, 3}};
+      else
+        parts = {{0, 1, 3}, {1, 2, 3}};
+    }
     for (const auto& t : *parts) mesh.triangles.push_back({q[t[0]], q[t[1]], q[t[2]]});
     mesh.triangle_region.insert(mesh.triangle_region.end(), parts->size(), mesh.quad_region[i]);
   }
   notes.push_back(mesh.quads.size() == 1
                       ? "1 quad was split into triangles"
                       : fmt::format("{} quads were split into triangles", mesh.quads.size()));
+  if (odd > 0)
+    notes.back() +=
+        fmt::format("; along the shorter diagonal where they cross themselves or have no area ({})", odd);
   mesh.quads.clear();
   mesh.quad_region.clear();
 }

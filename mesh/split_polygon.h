@@ -15,8 +15,8 @@ namespace delquad {
 /// Takes time with the square of their number.
 std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
 
-/// Splits every quad into two triangles, as split_polygon(), for surfaces that are to be meshed. Says so in
-/// `notes`. Throws InputError, which begins with `source`, for a quad that crosses itself or has no area.
-void split_quads(Mesh& mesh, const std::string& source, ReadNotes& notes);
+/// Splits every quad into two triangles for surfaces that are to be meshed: as split_polygon(), or along its
+/// shorter diagonal where it crosses itself or has no area. Says so in `notes`.
+void split_quads(Mesh& mesh, ReadNotes& notes);
 
 }  // namespace delquad

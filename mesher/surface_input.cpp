@@ -78,7 +78,7 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   const std::string& source = model.source;
-  split_quads(triangles, source, notes);
+  split_quads(triangles, notes);
   TriangulatedOptions options;
   options.source = source;
   if (spec.feature_angle) options.feature_angle = *spec.feature_angle;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
+#include <tuple>
 #include <utility>
 
 #include "geometry/surface/laplacian.h"
@@ -135,7 +137,41 @@ std::vector<double> levels(const std::vector<double>& u, const std::vector<doubl
   return found;
 }
 
+/// Triangles by their way along sides from the nearest of `seeds`: which seed that is, and the farthest one.
+struct Spread {
+  std::vector<int> seed_of;
+  int farthest = 0;
+};
+
+Spread spread_from(const Chart& chart, const std::vector<int>& seeds) {
+  const auto centroid = [&](int t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    return 1.0 / 3 * (chart.points[a] + chart.points[b] + chart.points[c]);
+  };
+  Spread spread{std::vector<int>(chart.triangles.size(), -1), 0};
+  using Entry = std::tuple<double, int, int>;  // way, triangle, seed
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t i = 0; i < seeds.size(); ++i) queue.emplace(0, seeds[i], static_cast<int>(i));
+  while (!queue.empty()) {
+    const auto [way, t, seed] = queue.top();
+    queue.pop();
+    if (spread.seed_of[t] >= 0) continue;
+    spread.seed_of[t] = seed;
+    spread.farthest = t;
+    for (int u : chart.neighbours[t])
+      if (u >= 0 && spread.seed_of[u] < 0) queue.emplace(way + norm(centroid(u) - centroid(t)), u, seed);
+  }
+  return spread;
+}
+
 }  // namespace
+
+std::vector<char> plan_parting(const Chart& chart) {
+  if (chart.triangles.size() < 2) return {};
+  const int first = spread_from(chart, {0}).farthest, second = spread_from(chart, {first}).farthest;
+  const std::vector<int> seed_of = spread_from(chart, {first, second}).seed_of;
+  return {seed_of.begin(), seed_of.end()};
+}
 
 std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& ends) {
   const std::size_t n = chart.points.size();

@@ -25,4 +25,8 @@ std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vect
 /// handles, rather one that separates nothing.
 std::optional<CutPath> plan_division(const Chart& chart);
 
+/// Parts a chart along edges of its triangles, which is always possible: for each triangle 0 or 1, both parts
+/// connected and of about the same extent. Empty for a single triangle.
+std::vector<char> plan_parting(const Chart& chart);
+
 }  // namespace delquad

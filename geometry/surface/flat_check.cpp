@@ -78,6 +78,7 @@ FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat) {
   quality.sigma_95 = percentile(sigma, 0.95);
   quality.sigma_max = sigma.back().first;
   quality.area_ratio = percentile(scale, 0.99) / percentile(scale, 0.01);
+  quality.extreme_ratio = percentile(scale, 0.999) / percentile(scale, 0.001);
   return quality;
 }
 

@@ -10,6 +10,7 @@ namespace delquad {
 struct FlatQuality {
   double sigma_mean = 1, sigma_95 = 1, sigma_max = 1;  ///< ratio of singular values of triangles, >= 1
   double area_ratio = 1;                               ///< 99th over 1st percentile of the area scale
+  double extreme_ratio = 1;  ///< the same of the 99.9th and .1th: small tips count, too
 };
 
 /// No triangle is flipped or flat, and the boundary neither crosses nor touches itself: exact.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -31,11 +33,14 @@ constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
 constexpr double kShortDivision = 0.5;
 /// Below this a cut to a tip is not worth it.
 constexpr double kMinTipRatio = 2;
-/// After so many rounds of cuts a map is taken when it is one-to-one: first whatever its angles, which cuts
-/// seldom improve, then whatever its areas. The last number only ends what cuts that cannot be made would
-/// keep going: a cut joins two loops, opens a handle or parts a chart, and a face with many holes needs one
-/// for each.
-constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 200;
+/// After so many cuts through charts that had a map, it is taken when it is one-to-one: first whatever its
+/// angles, which cuts seldom improve, then with areas up to kMostAreas: beyond, parts of the face would be
+/// lost between the vertices of the mesh. After the last number charts are parted along their triangles'
+/// edges.
+constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 40;
+constexpr double kMostAreas = 300;
+/// Charts with more loops are divided before any map is tried: one seam after the other would take too long.
+constexpr std::size_t kManyLoops = 8;
 
 struct Map {
   std::vector<Vec2> flat;
@@ -58,33 +63,45 @@ std::optional<Map> checked(const Chart& chart, std::vector<Vec2> flat, const cha
   return Map{std::move(flat), quality, method};
 }
 
-/// What became of a chart: a map, or the cut it needs, or neither.
+/// What became of a chart: a map, or how it is to be cut. Neither only for a triangle without area.
 struct Outcome {
   std::optional<Map> map;
   std::optional<CutPath> cut;
   bool divides = false;
+  std::vector<char> parts = {};  ///< of each triangle, see plan_parting
 };
 
 class ChartWork {
  public:
   ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
-            double tolerance, int round)
-      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), round_(round) {}
+            double tolerance, int tries, bool stuck)
+      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), tries_(tries), stuck_(stuck) {}
 
   Outcome run() const {
+    Outcome outcome = plan();
+    const bool wanted =
+        outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
+    if (wanted && (!outcome.cut || stuck_))
+      return {std::move(outcome.map), std::nullopt, true, plan_parting(chart_)};
+    return outcome;
+  }
+
+ private:
+  Outcome plan() const {
     if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
     if (auto flat = planar_map(chart_, tolerance_))
       if (auto map = checked(chart_, std::move(*flat), "plane")) return {std::move(map), {}, false};
     return chart_.loops.size() > 1 ? flatten_with_holes() : flatten_disk();
   }
 
- private:
   bool acceptable(const FlatQuality& q, double max_area_ratio) const {
-    return (q.area_ratio <= max_area_ratio || round_ >= kAnyAreas) &&
-           (q.sigma_95 <= options_.max_sigma || round_ >= kAnyAngles);
+    return q.extreme_ratio <= kMostAreas && (q.area_ratio <= max_area_ratio || tries_ >= kAnyAreas) &&
+           (q.sigma_95 <= options_.max_sigma || tries_ >= kAnyAngles);
   }
 
   Outcome flatten_with_holes() const {
+    if (chart_.loops.size() > kManyLoops)
+      if (Outcome division = divide(std::nullopt); division.cut) return division;
     const double limit = chart_.loops.size() == 2 ? kMaxUncutAnnulus : kMaxUncutHoles;
     std::optional<Map> map = checked(chart_, spectral_map(chart_), "spectral");
     if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
@@ -126,7 +143,8 @@ class ChartWork {
   const std::vector<CutEnd>& ends_;
   const FlattenOptions& options_;
   double tolerance_;
-  int round_;
+  int tries_;   ///< cuts that were made because its map distorted
+  bool stuck_;  ///< its last cut could not be made
 };
 
 FlatPatch to_patch(const Chart& chart, Map map) {
@@ -141,6 +159,38 @@ FlatPatch to_patch(const Chart& chart, Map map) {
   return patch;
 }
 
+/// Chains of the edges, which end where other than two meet and at marked nodes; the last node of a closed
+/// one is its first.
+template <class IsEnd>
+std::vector<std::vector<int>> chains_of_edges(const std::vector<std::array<int, 2>>& edges, IsEnd is_end) {
+  std::map<int, std::vector<int>> at;  // edges by node
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (int v : edges[e]) at[v].push_back(static_cast<int>(e));
+  std::vector<char> used(edges.size(), 0);
+  const auto ends = [&](int v) { return at.at(v).size() != 2 || is_end(v); };
+  std::vector<std::vector<int>> chains;
+  const auto walk = [&](int from, int first) {
+    std::vector<int> chain = {from};
+    for (int e = first; e >= 0;) {
+      used[e] = 1;
+      const int v = edges[e][0] == chain.back() ? edges[e][1] : edges[e][0];
+      chain.push_back(v);
+      e = -1;
+      if (!ends(v))
+        for (int next : at.at(v))
+          if (!used[next]) e = next;
+    }
+    chains.push_back(std::move(chain));
+  };
+  for (const auto& [v, there] : at)
+    if (ends(v))
+      for (int e : there)
+        if (!used[e]) walk(v, e);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (!used[e]) walk(edges[e][0], static_cast<int>(e));
+  return chains;
+}
+
 /// Rounds of: flatten what is not flat yet, then cut what would not go.
 class Flattener {
  public:
@@ -150,6 +200,8 @@ class Flattener {
         options_(options),
         tolerance_(kPlane * diagonal(mesh_)),
         open_(mesh_.triangles.size(), 1),
+        tries_(mesh_.triangles.size(), 0),
+        stuck_(mesh_.triangles.size(), 0),
         failed_(mesh_.regions.size(), 0) {}
 
   Flattening run() {
@@ -181,14 +233,20 @@ class Flattener {
         charts.size(),
         [&](std::size_t i) {
           const DoingFace face(mesh_.regions[charts[i].face].tag);
-          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, round).run();
+          int tries = 0;
+          bool stuck = round >= kMaxRounds;
+          for (const int t : charts[i].fine_triangle) {
+            tries = std::max(tries, tries_[t]);
+            stuck = stuck || stuck_[t] != 0;
+          }
+          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, tries, stuck).run();
         },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
       check_cancelled();
       Chart& chart = charts[i];
       Outcome& outcome = outcomes[i];
-      if (outcome.cut && round < kMaxRounds) {
+      if (outcome.cut || !outcome.parts.empty()) {
         planned.push_back({std::move(chart), std::move(outcome)});
         continue;
       }
@@ -214,9 +272,14 @@ class Flattener {
     SurfaceEditor editor(model_);
     for (const auto& [chart, outcome] : planned) {
       check_cancelled();
-      apply(editor, chart, outcome);
+      const bool made = outcome.cut ? apply(editor, chart, outcome) : part(editor, chart, outcome.parts);
+      stuck_[chart.fine_triangle.front()] = made ? 0 : 1;
+      if (outcome.map)
+        for (const int t : chart.fine_triangle) ++tries_[t];
     }
     editor.finish();
+    stuck_.resize(mesh_.triangles.size(), 0);
+    tries_.resize(mesh_.triangles.size(), 0);
     // Triangles that cuts of neighbours split are no longer those of their patch.
     open_.resize(mesh_.triangles.size(), 0);
     std::set<int> stale;
@@ -235,7 +298,8 @@ class Flattener {
     model_.corners.erase(first, last);
   }
 
-  void apply(SurfaceEditor& editor, const Chart& chart, const Outcome& outcome) {
+  /// Whether it could be made.
+  bool apply(SurfaceEditor& editor, const Chart& chart, const Outcome& outcome) {
     std::vector<int> chain;
     const CutPath& path = *outcome.cut;
     for (const EdgePoint& p : path.points) {
@@ -245,18 +309,45 @@ class Flattener {
       }
       const int a = chart.fine_node[p.a], b = chart.fine_node[p.b];
       // Split in this round by the cut of a neighbour: the next round makes another plan.
-      if (editor.triangles_on(a, b).empty()) return;
+      if (editor.triangles_on(a, b).empty()) return true;
       chain.push_back(editor.split_edge(a, b, on_surface(editor, chart, p, a, b)));
     }
     if (path.closed) chain.push_back(chain.front());
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       if (editor.triangles_on(chain[i], chain[i + 1]).empty() || editor.line_on(chain[i], chain[i + 1]) >= 0)
-        return;
-    cuts_.push_back({editor.add_curve(chain), chart.face, path.length, outcome.divides});
-    if (!path.closed) {
-      model_.corners.push_back(chain.front());
-      model_.corners.push_back(chain.back());
-    }
+        return false;
+    add_cut(editor, chart, chain, outcome.divides);
+    return true;
+  }
+
+  void add_cut(SurfaceEditor& editor, const Chart& chart, const std::vector<int>& chain, bool divides) {
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      length += norm(mesh_.points[chain[i + 1]] - mesh_.points[chain[i]]);
+    const bool closed = chain.front() == chain.back();
+    for (const int v : chain)
+      if (editor.is_on_line(v) || (!closed && (v == chain.front() || v == chain.back())))
+        model_.corners.push_back(v);
+    cuts_.push_back({editor.add_curve(chain), chart.face, length, divides});
+  }
+
+  /// Makes the edges between both parts cuts.
+  bool part(SurfaceEditor& editor, const Chart& chart, const std::vector<char>& parts) {
+    std::vector<std::array<int, 2>> edges;
+    for (std::size_t t = 0; t < parts.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const int u = chart.neighbours[t][k];
+        if (u >= 0 && parts[t] == 0 && parts[u] != 0)
+          edges.push_back({chart.fine_node[chart.triangles[t][(k + 1) % 3]],
+                           chart.fine_node[chart.triangles[t][(k + 2) % 3]]});
+      }
+    std::set<int> on_boundary;
+    for (const auto& loop : chart.loops)
+      for (int v : loop) on_boundary.insert(chart.fine_node[v]);
+    for (const std::vector<int>& chain :
+         chains_of_edges(edges, [&](int v) { return on_boundary.contains(v); }))
+      add_cut(editor, chart, chain, true);
+    return true;
   }
 
   Vec3 on_surface(const SurfaceEditor& editor, const Chart& chart, const EdgePoint& p, int a, int b) const {
@@ -293,7 +384,9 @@ class Flattener {
   Mesh& mesh_;
   const FlattenOptions& options_;
   double tolerance_;
-  std::vector<char> open_;  ///< triangles that are in no finished patch
+  std::vector<char> open_;   ///< triangles that are in no finished patch
+  std::vector<int> tries_;   ///< of each triangle, cuts through its chart although it had a map
+  std::vector<char> stuck_;  ///< first triangles of charts whose last cut could not be made
   std::vector<char> failed_;
   std::vector<FlatPatch> patches_;
   std::vector<SurfaceCut> cuts_;

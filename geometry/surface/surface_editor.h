@@ -21,6 +21,7 @@ class SurfaceEditor {
   void find_triangles_on(int a, int b, std::vector<int>& found) const;
   /// Index of the line between two nodes, -1: none.
   int line_on(int a, int b) const;
+  bool is_on_line(int node) const { return !lines_at_[node].empty(); }
   std::span<const int> triangles_at(int node) const { return triangles_at_[node]; }
 
   /// Puts a new node on an existing edge; splits its triangles and its line. Returns the node.

@@ -150,21 +150,23 @@ void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
                                  counted(dropped.count, "triangle"), show_point(dropped.first)));
 }
 
-void check_edges(const Mesh& mesh, const std::string& source) {
-  std::string named;
-  int count = 0;
+/// Edges in more than two triangles: shells with ribs, bodies that touch. Where most are, these are the sides
+/// of cells that fill a volume.
+void tell_branches(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
+  int count = 0, n_edges = 0;
+  Vec3 first;
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() <= 2) return;
-    constexpr int kNamed = 4;
-    if (++count > kNamed) return;
-    named +=
-        fmt::format("{}{} to {} ({} triangles)", named.empty() ? "" : ", ",
-                    show_point(mesh.points[edge[0].lo]), show_point(mesh.points[edge[0].hi]), edge.size());
+    ++n_edges;
+    if (edge.size() > 2 && count++ == 0) first = mesh.points[edge[0].lo];
   });
   if (count == 0) return;
-  throw InputError(
-      fmt::format("{}: the surface branches at {}: {}{}: expected one or two triangles at an edge", source,
-                  counted(count, "edge"), named, count > 4 ? ", ..." : ""));
+  if (2 * count > n_edges)
+    throw InputError(fmt::format(
+        "{}: {} of {} edges have three triangles or more (the first at {}): expected a surface, not "
+        "the sides of cells in a volume",
+        source, count, n_edges, show_point(first)));
+  warnings.push_back(fmt::format("the surface branches at {} with three triangles or more (the first at {})",
+                                 counted(count, "edge"), show_point(first)));
 }
 
 /// For each line the number of a side along it. Lines that are no edges go, and those on the edge of an
@@ -197,44 +199,50 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   return side_of_line;
 }
 
+/// Corners of triangles (3 t + k: that at the start of side 3 t + k) that share an edge at their vertex
+/// belong to one fan, also where more than two triangles share it. Returns one corner of each fan, by corner.
+std::vector<int> fans(const Mesh& mesh) {
+  std::vector<int> root(3 * mesh.triangles.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int c) {
+    while (root[c] != c) c = root[c] = root[root[c]];
+    return c;
+  };
+  const auto corner_at = [&](int side, int v) {
+    return side_start(mesh, side) == v ? side : next_side(side);
+  };
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    const int first = side_number(mesh, edge[0]);
+    for (const HalfEdge& half : edge.subspan(1))
+      for (const int v : {half.lo, half.hi}) {
+        const int a = find(corner_at(first, v)), b = find(corner_at(side_number(mesh, half), v));
+        root[std::max(a, b)] = std::min(a, b);
+      }
+  });
+  for (int c = 0; c < static_cast<int>(root.size()); ++c) root[c] = find(c);
+  return root;
+}
+
 /// Gives each fan at a vertex a vertex of its own.
 void split_vertices(Mesh& mesh, std::vector<Warning>& warnings) {
-  const int n_corners = 3 * static_cast<int>(mesh.triangles.size());
-  const std::vector<int> twin = side_twins(mesh);
-  // Corner 3 t + k is that at the start of side 3 t + k; corners that share a side at their vertex are of one
-  // fan.
-  std::vector<int> fan(n_corners, -1);
-  std::vector<int> vertex_of_fan, stack;
+  const std::vector<int> fan = fans(mesh);
+  std::vector<int> vertex_of_fan(fan.size(), -1);
   std::vector<char> used(mesh.points.size(), 0);
   int splits = 0;
   Vec3 first;
-  for (int seed = 0; seed < n_corners; ++seed) {
-    if (fan[seed] >= 0) continue;
-    const int v = side_start(mesh, seed);
-    if (used[v]) {
-      if (splits++ == 0) first = mesh.points[v];
-      vertex_of_fan.push_back(static_cast<int>(mesh.points.size()));
-      mesh.points.push_back(Vec3(mesh.points[v]));
-    } else {
+  for (int c = 0; c < static_cast<int>(fan.size()); ++c) {
+    if (fan[c] != c) continue;
+    int& v = vertex_of_fan[c];
+    v = side_start(mesh, c);
+    if (!used[v]) {
       used[v] = 1;
-      vertex_of_fan.push_back(v);
+      continue;
     }
-    const int number = static_cast<int>(vertex_of_fan.size()) - 1;
-    fan[seed] = number;
-    stack = {seed};
-    while (!stack.empty()) {
-      const int corner = stack.back();
-      stack.pop_back();
-      const int before = next_side(next_side(corner));  // the side that ends at the vertex
-      const int left = twin[before], right = twin[corner] < 0 ? -1 : next_side(twin[corner]);
-      for (const int c : {left, right}) {
-        if (c < 0 || fan[c] >= 0) continue;
-        fan[c] = number;
-        stack.push_back(c);
-      }
-    }
+    if (splits++ == 0) first = mesh.points[v];
+    mesh.points.push_back(Vec3(mesh.points[v]));
+    v = static_cast<int>(mesh.points.size()) - 1;
   }
-  for (int c = 0; c < n_corners; ++c) mesh.triangles[c / 3][c % 3] = vertex_of_fan[fan[c]];
+  for (std::size_t c = 0; c < fan.size(); ++c) mesh.triangles[c / 3][c % 3] = vertex_of_fan[fan[c]];
   if (splits > 0) {
     warnings.push_back(
         fmt::format("parted the surface where it touched itself at a vertex: {} (the first at {})",
@@ -299,7 +307,7 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
   take_out_flat_triangles(mesh, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   take_out_twins(mesh, warnings);
-  check_edges(mesh, source);
+  tell_branches(mesh, source, warnings);
   orient_triangles(mesh, source, warnings);
   const std::vector<int> side_of_line = settle_lines(mesh, warnings);
   split_vertices(mesh, warnings);

@@ -8,9 +8,10 @@
 
 namespace delquad {
 
-/// Makes a surface of triangles as files hold them: each edge in one or two triangles that agree in
-/// orientation, each vertex in one fan, each line on an edge, no quads, no triangle without area, none twice,
-/// no unused point. Each kind of repair adds a line to `warnings`:
+/// Makes a surface of triangles as files hold them: each edge in one triangle, in two that agree in
+/// orientation, or in more, where the surface branches, each vertex in one fan, each line on an edge, no
+/// quads, no triangle without area, none twice, no unused point. Each kind of repair adds a line to
+/// `warnings`:
 /// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, only
 /// a
 ///   warning tells of the gaps;
@@ -23,8 +24,8 @@ namespace delquad {
 ///   turned outwards, unless it lies in the bounding box of the largest one and may be a cavity;
 /// - a vertex where fans touch becomes one vertex a fan;
 /// - lines that are not edges go.
-/// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles, an
-/// edge in three triangles or more, a surface that cannot be oriented.
+/// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles,
+/// more branches than edges between two triangles, a surface that cannot be oriented.
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 

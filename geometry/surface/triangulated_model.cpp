@@ -1,11 +1,16 @@
 #include "geometry/surface/triangulated_model.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "base/box.h"
 #include "geometry/surface/curve_chains.h"
+#include "geometry/surface/feature_noise.h"
 #include "geometry/surface/report_edges.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_repair.h"
@@ -14,8 +19,6 @@
 namespace delquad {
 
 namespace {
-
-constexpr int kNoCut = -2, kNewCut = -1;  // else the index of a given curve
 
 /// Unit normals; that of a sliver is its neighbour's across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
@@ -48,18 +51,29 @@ std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin)
   return steady;
 }
 
-/// For each side what cut lies along it; the same for both sides of an edge.
-std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, double feature_angle) {
-  std::vector<int> cut(twin.size(), kNoCut);
+/// For each side the angle between the normals of its triangles; 0 where there is no twin.
+std::vector<double> side_angles(const Mesh& mesh, const std::vector<int>& twin) {
   const std::vector<Vec3> normal = steady_normals(mesh, twin);
+  std::vector<double> angles(twin.size(), 0.0);
+  for (size_t s = 0; s < twin.size(); ++s) {
+    if (twin[s] < 0) continue;
+    const size_t t = s / 3, u = static_cast<size_t>(twin[s]) / 3;
+    angles[s] = std::atan2(norm(cross(normal[t], normal[u])), dot(normal[t], normal[u]));
+  }
+  return angles;
+}
+
+/// For each side what cut lies along it; the same for both sides of an edge.
+std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, const std::vector<double>& angle,
+                           double feature_angle) {
+  std::vector<int> cut(twin.size(), kNoCut);
   for (size_t s = 0; s < twin.size(); ++s) {
     if (twin[s] < 0) {
       cut[s] = kNewCut;
       continue;
     }
     const size_t t = s / 3, u = static_cast<size_t>(twin[s]) / 3;
-    const double angle = std::atan2(norm(cross(normal[t], normal[u])), dot(normal[t], normal[u]));
-    if (angle > feature_angle || mesh.triangle_region[t] != mesh.triangle_region[u]) cut[s] = kNewCut;
+    if (angle[s] > feature_angle || mesh.triangle_region[t] != mesh.triangle_region[u]) cut[s] = kNewCut;
   }
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for (size_t i = 0; i < mesh.lines.size(); ++i) {
@@ -122,8 +136,10 @@ void make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::v
   Mesh& mesh = model.fine;
   mesh.lines.clear();
   std::vector<int> given;
+  std::set<std::pair<int, int>> seen;  // where the surface branches, no side has a twin
   for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
     if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
+    if (twin[s] < 0 && !seen.insert(std::minmax({side_start(mesh, s), side_end(mesh, s)})).second) continue;
     mesh.lines.push_back({side_start(mesh, s), side_end(mesh, s)});
     given.push_back(cut[s]);
   }
@@ -148,8 +164,15 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   const double weld_tolerance = options.weld_tolerance * diagonal(triangles.points);
   model.fine = repair_triangles(std::move(triangles), weld_tolerance, options.source, model.warnings);
   const std::vector<int> twin = side_twins(model.fine);
-  std::vector<int> cut = find_cuts(model.fine, twin, angle);
-  const int loose = drop_loose_ends(model.fine, twin, cut);
+  const std::vector<double> angles = side_angles(model.fine, twin);
+  std::vector<int> cut = find_cuts(model.fine, twin, angles, angle);
+  int loose = drop_loose_ends(model.fine, twin, cut);
+  const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
+  loose += drop_loose_ends(model.fine, twin, cut);
+  if (noise.islands > 0)
+    model.warnings.push_back(
+        fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",
+                    counted(static_cast<int>(noise.islands), "island"), noise.edges, show_point(noise.at)));
   if (loose > 0) {
     model.warnings.push_back("left out " + counted(loose, "line") +
                              " that only led into a face and ended there");

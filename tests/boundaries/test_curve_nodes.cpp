@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -52,6 +53,32 @@ TEST(EvenCounts, ASeamChangesNothing) {
   EXPECT_EQ(counts[0], 3);
   EXPECT_EQ((counts[1] + counts[2]) % 2, 0);
   EXPECT_TRUE(odd.empty());
+}
+
+/// Curves where three patches meet, as at a rib: they alone can make groups of patches even that share no
+/// other curve.
+TEST(EvenCounts, BranchingCurvesTakePart) {
+  std::mt19937_64 random(5);
+  int helped = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<CurveDemand> curves;
+    const int n_patches = 3 + static_cast<int>(random() % 4);
+    for (int c = 0; c < 2 * n_patches; ++c) {
+      CurveDemand curve{1.5 + 6 * shapes::uniform(random), 1, {}};
+      const int first = static_cast<int>(random() % n_patches);
+      for (int k = 0; k < 3; ++k) curve.patches.push_back((first + k) % n_patches);
+      curves.push_back(curve);
+    }
+    std::vector<int> odd_patches;
+    const auto counts = even_counts(curves, n_patches, *make_primal_dual_solver(), odd_patches);
+    const auto total = totals(curves, counts, n_patches);
+    for (int p = 0; p < n_patches; ++p)
+      EXPECT_EQ(total[p] % 2 != 0, std::ranges::count(odd_patches, p) > 0) << trial;
+    helped += odd_patches.empty();
+    for (size_t c = 0; c < curves.size(); ++c)
+      EXPECT_LE(std::abs(counts[c] - std::max(1.0, std::round(curves[c].integral))), 1) << trial;
+  }
+  EXPECT_GT(helped, 100);
 }
 
 TEST(CurveChains, ClosedCurvesBeginAtTheirCorners) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/surface/surface_model.h"
+#include "mesh/check_invariants.h"
 #include "mesh/half_edges.h"
 
 namespace delquad::testing_support {
@@ -49,7 +50,7 @@ inline void check_chains(const SurfaceModel& model, std::vector<std::string>& wr
 }
 
 /// Faces hang together across sides that are none of these lines.
-inline void check_faces(const Mesh& mesh, const std::set<std::array<int, 2>>& lines,
+inline void check_faces(const Mesh& mesh, const std::map<std::array<int, 2>, int>& lines,
                         std::vector<std::string>& wrong) {
   std::vector<int> part(mesh.triangles.size());
   for (size_t t = 0; t < part.size(); ++t) part[t] = static_cast<int>(t);
@@ -72,10 +73,18 @@ inline void check_faces(const Mesh& mesh, const std::set<std::array<int, 2>>& li
 /// What breaks the promises of SurfaceModel, one line each.
 inline std::vector<std::string> violations(const SurfaceModel& model) {
   const Mesh& mesh = model.fine;
-  std::vector<std::string> wrong = check_invariants(mesh);
-  std::set<std::array<int, 2>> lines;
-  for (const auto& [a, b] : mesh.lines) lines.insert({std::min(a, b), std::max(a, b)});
+  std::map<std::array<int, 2>, int> lines;  // curves
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto& [a, b] = mesh.lines[l];
+    lines[{std::min(a, b), std::max(a, b)}] = mesh.line_curve[l];
+  }
   const auto sides = sorted_half_edges(mesh);
+  std::vector<char> branching(mesh.curves.size(), 0);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const auto at = lines.find({edge[0].lo, edge[0].hi});
+    if (edge.size() > 2 && at != lines.end()) branching[at->second] = 1;
+  });
+  std::vector<std::string> wrong = check_invariants(mesh, branching);
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     const bool inside =
         edge.size() == 2 && mesh.triangle_region[edge[0].element] == mesh.triangle_region[edge[1].element];

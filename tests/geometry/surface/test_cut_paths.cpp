@@ -23,6 +23,40 @@ std::vector<double> heights(const Chart& chart) {
   return u;
 }
 
+/// Triangles of the wanted part that are reached from its first one across sides.
+std::size_t reached(const Chart& chart, const std::vector<char>& parts, char part) {
+  const auto first = std::ranges::find(parts, part) - parts.begin();
+  std::vector<char> seen(parts.size(), 0);
+  std::vector<int> stack = {static_cast<int>(first)};
+  seen[first] = 1;
+  std::size_t n = 0;
+  while (!stack.empty()) {
+    const int t = stack.back();
+    stack.pop_back();
+    ++n;
+    for (const int u : chart.neighbours[t])
+      if (u >= 0 && !seen[u] && parts[u] == part) {
+        seen[u] = 1;
+        stack.push_back(u);
+      }
+  }
+  return n;
+}
+
+TEST(Parting, BothPartsHangTogether) {
+  for (const SurfaceModel& model : {cylinder(24, 10, 1, 2), grid_surface({9, 9}, [](double u, double v) {
+                                      return Vec3{u, v, u * v};
+                                    })}) {
+    const Chart chart = chart_of(model);
+    const std::vector<char> parts = plan_parting(chart);
+    ASSERT_EQ(parts.size(), chart.triangles.size());
+    const auto first = static_cast<std::size_t>(std::ranges::count(parts, 0)), second = parts.size() - first;
+    EXPECT_EQ(reached(chart, parts, 0), first);
+    EXPECT_EQ(reached(chart, parts, 1), second);
+    EXPECT_GT(3 * std::min(first, second), parts.size() / 2);
+  }
+}
+
 TEST(LevelCurves, CirclesOfACylinder) {
   const Chart chart = chart_of(cylinder(24, 10, 1, 2));
   const auto curves = level_curves(chart, heights(chart), 0.9);
