@@ -164,7 +164,7 @@ const TomlKeys& source_keys() {
 }
 
 const TomlKeys& size_keys() {
-  static const TomlKeys keys = {{"base", "a number, an expression or \"boundary\"", kExpression},
+  static const TomlKeys keys = {{"base", "a number, an expression or \"boundary\"", kSize},
                                 {"source", "points and segments with sizes", "", source_keys, true},
                                 {"gradation", "the most that sizes grow by per length", kPositive},
                                 {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
@@ -188,7 +188,7 @@ TomlKeys case_keys() {
                    {"model", "a model file, a surface or an MSH file", kText},
                    {"data", "a surface or MSH file in the folder of --data", kText},
                    {"surface", "what becomes of a surface's faces", "", surface_keys},
-                   {"size", "wanted edge length", kExpression, size_keys},
+                   {"size", "wanted edge length", kSize, size_keys},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
                    {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {

@@ -28,6 +28,7 @@ inline const std::string kText = R"({"type": "string"})";
 inline const std::string kFlag = R"({"type": "boolean"})";
 inline const std::string kNumber = R"({"type": "number"})";
 inline const std::string kPositive = R"({"type": "number", "exclusiveMinimum": 0})";
+inline const std::string kSize = R"({"type": ["number", "string"], "exclusiveMinimum": 0})";
 inline const std::string kExpression = R"({"type": ["number", "string"]})";
 inline const std::string kTexts = R"({"type": "array", "items": {"type": "string"}})";
 /// A number, or integer, that is at least `least`.

@@ -56,6 +56,7 @@ Json table_json(const Table& table) {
   if (table.rows.empty()) return Json();
   Json json = json_without_rows(table);
   json["files"] = table_files_json(table);
+  if (!table.shown.empty()) json["shown"] = table.shown;
   for (const TableRow& row : table.rows) {
     Json marks = Json::object();
     for (const auto& [key, mark] : row.marks) marks[key] = mark == Mark::kBest ? "best" : "as good";

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "base/activity.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "mesh/check_invariants.h"
@@ -189,6 +190,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
       peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
   const std::string output = "output" + peer.output;
   const auto words = peer_command(task, input, output, field);
+  const DoingStage meshing("the peer");
   PeerRun result;
   result.program = run_program(words, folder, log);
   check_end(peer, words[0], result.program, log);

@@ -86,7 +86,8 @@ struct ReferenceCell {
 /// number, or what they are at the nodes of F. Where the peer is calibrated its size is changed, and with it
 /// the boundary that it gets, until it has the reference's number of quads; see calibrate_scale(). Works in
 /// the folder `scratch`, made anew, where peer.log has what it printed. `label` as in finish_meshing().
-/// Throws NotApplicable and PeerError. A mesh whose elements are not sound, see check_elements(), is a result
+/// Throws NotApplicable, PeerError, and JobFailed where the word that it is calibrated to fails: then it is
+/// not run. A mesh whose elements are not sound, see check_elements(), is a result
 /// that says so.
 RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
                    const std::filesystem::path& scratch, const ReferenceCell& reference = {});

@@ -1,14 +1,19 @@
 #include "sweep/peer_reference.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/activity.h"
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "mesher/runner.h"
 #include "sweep/calibration.h"
+#include "sweep/process_tree.h"
+#include "sweep/scratch_folder.h"
 
 namespace delquad {
 namespace {
@@ -22,6 +27,29 @@ std::optional<Json> valid_record(const ReferenceCell& cell) {
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object() || json.value("key", "") != cell.key) return std::nullopt;
   return json;
+}
+
+/// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
+std::optional<double> quads_of_word(const PreparedProblem& prepared, const std::string& word) {
+  const DoingStage counting("our word that the peer is calibrated to");
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch.path() / "quads";
+  std::optional<ProcessFailure> failure;
+  std::optional<Job> job(std::in_place);
+  job->work = [&] {
+    std::ofstream(file) << fmt::format("{}", count_of_quads(run_word(prepared, parse_word(word)).mesh));
+  };
+  job->failed = [&](const ProcessFailure& why) { failure = why; };
+  run_jobs([&] { return std::exchange(job, std::nullopt); }, {});
+  if (failure && failure->kind == "bad input") return std::nullopt;
+  if (failure)
+    throw JobFailed(
+        {failure->kind, fmt::format("our word {}, whose number of quads it was to have, failed: {}; "
+                                    "the peer was not run",
+                                    word, failure->reason)});
+  double quads = 0;
+  if (!(std::ifstream(file) >> quads)) throw InputError(file.string() + ": cannot be written");
+  return quads;
 }
 
 class ScaledSize final : public SizeField {
@@ -43,11 +71,7 @@ std::optional<double> reference_quads(const PreparedProblem& prepared, const std
     const Json& metrics = record->at("metrics");
     return metrics.at("n_quads").get<double>() + 0.5 * metrics.at("n_triangles").get<double>();
   }
-  try {
-    return count_of_quads(run_word(prepared, parse_word(word)).mesh);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+  return quads_of_word(prepared, word);
 }
 
 PreparedProblem prepare_scaled(const Case& c, double scale) {

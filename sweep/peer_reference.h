@@ -8,8 +8,8 @@
 namespace delquad {
 
 /// The number of quads that a word makes of a case, see count_of_quads(): by the record of its cell, or,
-/// where that is not there or of something else, by running it here, which gives the same number. Nothing
-/// where the word has no mesh of the case.
+/// where that is not there or of something else, by running it in a process of its own, which gives the same
+/// number. Nothing where the word has no mesh of the case. Throws JobFailed where that process crashes.
 std::optional<double> reference_quads(const PreparedProblem& prepared, const std::string& word,
                                       const ReferenceCell& cell);
 

@@ -188,6 +188,8 @@ class Family {
       fail(kNotApplicable, error.what());
     } catch (const PeerError& error) {
       fail("peer", error.what());
+    } catch (const JobFailed& error) {
+      fail(error.kind().c_str(), error.what());
     } catch (const std::bad_alloc&) {
       fail("memory", limits_.bytes > 0
                          ? "out of memory: more than " + bytes_text(limits_.bytes) + " (--memory)"

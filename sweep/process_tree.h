@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,16 @@ struct ProcessFailure {
   /// a scheduler does: this says nothing of the work
   std::string kind;
   std::string reason;  ///< for people
+};
+
+/// Thrown by work that cannot go on, since a job of its own failed: it has failed for that reason.
+class JobFailed : public std::runtime_error {
+ public:
+  explicit JobFailed(const ProcessFailure& why) : std::runtime_error(why.reason), kind_(why.kind) {}
+  const std::string& kind() const { return kind_; }
+
+ private:
+  std::string kind_;
 };
 
 /// Something that runs in a process of its own, and what follows from it.

@@ -20,14 +20,15 @@ const kColumnsOnPaper = 7;
 class TableView {
   constructor(table, metrics, name) {
     Object.assign(this, { table, metrics, sort: null, terms: [] });
-    this.columns = table.columns.filter((c) => table.rows.some((r) => c.key in r.values || c.key in r.published));
+    this.all = table.columns.filter((c) => table.rows.some((r) => [r.values, r.published, r.texts || {}].some((of) => c.key in of)));
+    this.chosen = (table.shown || []).flatMap((key) => this.all.filter((c) => c.key === key));
     this.body = el("tbody");
+    this.headRow = el("tr");
     this.count = el("output", { class: "hint" });
-    this.heads = [...table.heads.map((title, i) => this.head(title, i === 0 ? "group" : "name")), ...this.columns.map((c) => this.head(c.title, c.key))];
     this.node = el("div", { class: "table" }, this.tools(name), el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": table.title },
-      el("table", {}, el("thead", {}, el("tr", {}, this.heads)), this.body)),
+      el("table", {}, el("thead", {}, this.headRow), this.body)),
       table.notes.length > 0 ? el("ul", { class: "notes" }, table.notes.map((note) => el("li", {}, note))) : null);
-    this.show();
+    this.showColumns(this.chosen.length > 0 ? this.chosen : this.all);
   }
   tools(name) {
     const filter = el("input", { type: "search", placeholder: "Filter by case or pipeline", "aria-label": `Filter rows of ${this.table.title}`,
@@ -38,7 +39,22 @@ class TableView {
     const titles = { csv: "CSV", tex: "LaTeX", md: "Markdown" };
     const formats = Object.entries(this.table.files).map(([extension, packed]) => [titles[extension] || extension,
       { extension, make: async () => new Blob([await inflate(packed)], { type: "text/plain" }) }]);
-    return el("div", { class: "table-tools" }, filter, this.count, buttonsOf(name, Object.fromEntries(formats)));
+    return el("div", { class: "table-tools" }, filter, this.columnChoice(), this.count, buttonsOf(name, Object.fromEntries(formats)));
+  }
+  /// Those of the table in print, which the experiment may ask for, come first.
+  columnChoice() {
+    if (this.chosen.length === 0 || this.chosen.length === this.all.length) return null;
+    const choice = el("select", { "data-choice": "columns", change: () => this.showColumns(choice.value === "all" ? this.all : this.chosen) },
+      el("option", { value: "chosen" }, "as in print"), el("option", { value: "all" }, `all ${this.all.length}`));
+    return el("label", { class: "hint" }, "Columns ", choice);
+  }
+  showColumns(columns) {
+    this.columns = columns;
+    const { heads } = this.table;
+    this.heads = [...heads.map((title, i) => this.head(title, i === 0 ? "group" : "name")), ...columns.map((c) => this.head(c.title, c.key))];
+    this.headRow.replaceChildren(...this.heads);
+    if (this.sort && !this.heads.some((head) => head.dataset.key === this.sort.key)) this.sort = null;
+    this.showSort();
   }
   head(title, key) {
     const metric = this.metrics[key];
@@ -49,6 +65,9 @@ class TableView {
   /// Up, down, and as the table was.
   sortBy(key) {
     this.sort = !this.sort || this.sort.key !== key ? { key, sign: 1 } : this.sort.sign === 1 ? { key, sign: -1 } : null;
+    this.showSort();
+  }
+  showSort() {
     for (const head of this.heads) {
       if (this.sort && head.dataset.key === this.sort.key) head.setAttribute("aria-sort", this.sort.sign === 1 ? "ascending" : "descending");
       else head.removeAttribute("aria-sort");

@@ -124,6 +124,37 @@ TEST_F(PageTools, FiltersByCaseAndPipeline) {
   EXPECT_EQ(seen[3][0].size(), 6u);
 }
 
+/// The columns that the experiment asks for, which fit a common screen; all of them on demand.
+TEST_F(PageTools, ShowsTheColumnsOfTheExperiment) {
+  make_page("columns = [\"tau\", \"n_quads\", \"eta_mean\", \"warp_max\"]\nstep_times = true\n" +
+            kSeedsExperiment);
+  const Json seen = ask(R"(
+    const table = document.querySelector(".table"), heads = () => all("thead th", table).map((th) => th.dataset.key), looks = [];
+    const choice = table.querySelector("[data-choice=columns]"), scroll = table.querySelector(".scroll");
+    const look = () => looks.push({ heads: heads(), cells: table.querySelectorAll("tbody tr")[1].querySelectorAll("td").length, fits: scroll.scrollWidth <= scroll.clientWidth,
+                                    sorted: all("[aria-sort]", table).map((th) => th.dataset.key) });
+    look();
+    table.querySelector('[data-key="tau"] button').click();
+    choose(choice, "all"), look();
+    table.querySelector('[data-key="d4"] button').click();
+    choose(choice, "chosen"), look();
+    return { looks, pairs: all(".pairs thead th").map((th) => th.dataset.key) };
+  )",
+                        {"--window-size=1280,900"});
+  const Json wanted = {"group", "name", "n", "tau", "n_quads", "eta_mean", "warp_max"};
+  const Json& looks = seen.at("looks");
+  EXPECT_EQ(looks[0]["heads"], wanted);
+  EXPECT_EQ(looks[0]["cells"], 5);
+  EXPECT_TRUE(looks[0]["fits"]);
+  EXPECT_GT(looks[1]["heads"].size(), 15u);
+  EXPECT_EQ(looks[1]["cells"], looks[1]["heads"].size() - 2);
+  EXPECT_EQ(looks[1]["sorted"], Json{"tau"});
+  EXPECT_EQ(looks[2]["heads"], wanted);
+  EXPECT_EQ(looks[2]["sorted"], Json::array());
+  EXPECT_EQ(seen["pairs"].back(), "first_is") << "a column of words: " << seen["pairs"];
+  EXPECT_EQ(std::ranges::count(seen["pairs"], "low"), 0);
+}
+
 TEST_F(PageTools, SavesTablesAsTheRunWroteThem) {
   make_page();
   const Json saved = ask(R"(

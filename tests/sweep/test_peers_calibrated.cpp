@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
+#include "delquad/extend.h"
 #include "io/mesh_io.h"
 #include "sweep/rerun.h"
 #include "sweep/result_records.h"
@@ -103,6 +105,22 @@ TEST_F(CalibratedPeers, NeedNoRecordOfOurs) {
   const std::string record = read_text(out() / "square" / "grid" / "mesh.msh");
   run_experiment(experiment(text), folder_ / "both");
   EXPECT_EQ(read_text(folder_ / "both" / "square" / "grid" / "mesh.msh"), record);
+}
+
+/// Its failure is not told as the peer's, which is not run.
+TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
+  add_stage({'X', "crash", PatchForm::kQuads, PatchForm::kQuads,
+             [](const StageInput&, PatchMesh&, StageLog&) { raise(SIGKILL); }});
+  const std::string text = "pipelines = [\"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"DBX\"\n" +
+                           peer("grid", kCoarserGrid) + kSquare;
+  EXPECT_EQ(run_experiment(experiment(text), out()).others_failed, 1);
+  const CellRecord cell = records().at("grid");
+  EXPECT_EQ(cell.kind, "crash");
+  EXPECT_EQ(cell.reason.find("our word DBX, whose number of quads it was to have, failed: ended by signal 9"),
+            0u)
+      << cell.reason;
+  EXPECT_NE(cell.reason.find("; the peer was not run"), std::string::npos) << cell.reason;
+  EXPECT_FALSE(fs::exists(out() / "square" / "grid" / "peer.log"));
 }
 
 TEST_F(CalibratedPeers, AreOtherCellsForAnotherWord) {

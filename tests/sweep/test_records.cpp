@@ -178,7 +178,7 @@ TEST_F(Records, WhatIsWellIsSaidToBe) {
   run("pipelines = [\"D\", \"DBCO\"]\n[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = { base = 0.5, "
       "curvature "
       "= 24 }\n" +
-      kSquare + "size = \"0.1 + 0.1*x\"\n[[case]]\nname = \"bad\"\nsize = -1\n" +
+      kSquare + "size = \"0.1 + 0.1*x\"\n[[case]]\nname = \"bad\"\nsize = \"x - 5\"\n" +
       "loop = { circle = { centre = [0, 0], radius = 1 } }\n");
   const Verification result = verify_results(out(), folder_ / "data");
   EXPECT_EQ(result.cells, 6u);
