@@ -19,6 +19,7 @@ void Load::change(int by) {
 Load::Shares Load::shares() {
   const std::scoped_lock lock(mutex_);
   advance();
+  shares_.now = std::chrono::duration<double>(until_.time_since_epoch()).count();
   return shares_;
 }
 

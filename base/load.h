@@ -9,6 +9,7 @@ namespace delquad {
 class Load {
  public:
   struct Shares {
+    double now = 0;    ///< seconds of the clock when they were read
     double clock = 0;  ///< seconds that a thread at work has had for its part so far: where N are, an Nth
     double alone = 0;  ///< seconds in which one thread was at work
   };

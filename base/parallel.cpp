@@ -37,10 +37,13 @@ double read_clock(clockid_t clock) {
 
 /// What the clocks say, as if this thread had worked all the time and no other for it.
 TimeSpent clocks() {
+  const double cpu = read_clock(CLOCK_THREAD_CPUTIME_ID);
+  if (Run* run = current_run()) {
+    const Load::Shares shares = run->load().shares();
+    return {shares.now, cpu, shares.clock, shares.alone};
+  }
   const double now = read_clock(CLOCK_MONOTONIC);
-  const Load::Shares shares =
-      current_run() != nullptr ? current_run()->load().shares() : Load::Shares{now, now};
-  return {now, read_clock(CLOCK_THREAD_CPUTIME_ID), shares.clock, shares.alone};
+  return {now, cpu, now, now};
 }
 
 /// What others spent for this thread, without its own clocks while it waited for them.
@@ -84,9 +87,11 @@ class Team {
     spent_ = spent_ + (idle_since_ + by_others - before);
     if (--at_work_ > 0 && run_ != nullptr) run_->load().end_thread();
   }
+  /// On whichever thread that was: the processor time of two of them has no difference.
   void add_waiting(const TimeSpent& end) {
-    spent_.clock += end.clock - idle_since_.clock;
-    spent_.alone += end.alone - idle_since_.alone;
+    TimeSpent waited = end - idle_since_;
+    waited.cpu = 0;
+    spent_ = spent_ + waited;
   }
 
   Run* run_;
