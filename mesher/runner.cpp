@@ -297,11 +297,14 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   TimeSpent metrics_time, report_time, soundness_time;
   // A place that is not finite is nowhere near a surface.
   const bool has_report = prepared.surface && has_finite_points(result.mesh);
+  const Stopwatch sorting;
+  const std::vector<HalfEdge> sides = sorted_half_edges(result.mesh);
+  const TimeSpent sorted = sorting.time();
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
-        result.metrics =
-            evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
+        result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(),
+                                          prepared.options, sides);
         metrics_time = watch.time();
       },
       [&] {
@@ -309,16 +312,16 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
         if (has_report) {
           const PreparedSurface& surface = *prepared.surface;
           result.surface =
-              report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
+              report_surface(surface.model, surface.cuts, left_out, result.mesh, sides, surface.size.get());
           report_time = watch.time();
         }
         const Stopwatch checking;
         result.soundness =
-            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
+            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr, sides);
         soundness_time = checking.time();
       }};
   parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
-  result.log.add_time("metrics", metrics_time);
+  result.log.add_time("metrics", sorted + metrics_time);
   if (has_report) result.log.add_time("surface report", report_time);
   result.log.add_time("soundness", soundness_time);
 }
