@@ -109,7 +109,7 @@ int mesh_command(const MeshArguments& arguments) {
     const Uninterrupted whole;
     const Stopwatch writing;
     write_mesh(arguments.output, result.mesh, arguments.msh);
-    result.log.add_seconds("write", writing.work_seconds());
+    result.log.add_time("write", writing.time());
     if (!arguments.json.empty())
       write_file_atomically(arguments.json,
                             [&](std::ostream& out) { out << run_record(c, prepared, word, result); });

@@ -21,16 +21,22 @@ void print_metrics(const MeshMetrics& metrics) {
 }
 
 void print_seconds(const PreparedProblem& prepared, const StageLog& log) {
-  auto seconds = prepared.seconds;
-  seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
-  std::string list;
-  double sum = 0;
-  for (const auto& [step, s] : seconds) {
-    list += fmt::format("{}{} {:.2f}", list.empty() ? "" : ", ", step, s);
-    sum += s;
+  StepTimes times = prepared.times;
+  times.insert(times.end(), log.times.begin(), log.times.end());
+  std::string work, clock;
+  TimeSpent all;
+  for (const auto& [step, time] : times) {
+    const char* comma = work.empty() ? "" : ", ";
+    work += fmt::format("{}{} {:.2f}", comma, step, time.work);
+    clock += fmt::format("{}{} {:.2f} ({:.2f})", comma, step, time.clock, time.alone);
+    all = all + time;
   }
-  fmt::print("  seconds: {}; all {:.2f}{}\n", list, sum,
-             thread_count() > 1 ? fmt::format(" (of {} threads, added up)", thread_count()) : "");
+  const int threads = thread_count();
+  fmt::print("  seconds: {}; all {:.2f}{}\n", work, all.work,
+             threads > 1 ? fmt::format(" (of {} threads, added up)", threads) : "");
+  if (threads > 1)
+    fmt::print("  on the clock (while one thread worked alone): {}; all {:.2f} ({:.2f})\n", clock, all.clock,
+               all.alone);
 }
 
 }  // namespace delquad

@@ -3,11 +3,12 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <time.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <exception>
+#include <mutex>
 #include <numeric>
 #include <vector>
 
@@ -28,27 +29,90 @@ std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::
   return order;
 }
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double read_clock(clockid_t clock) {
+  timespec t = {};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-thread_local double surplus = 0;
+/// What the clocks say, as if this thread had worked all the time and no other for it.
+TimeSpent clocks() {
+  const double cpu = read_clock(CLOCK_THREAD_CPUTIME_ID);
+  if (Run* run = current_run()) {
+    const Load::Shares shares = run->load().shares();
+    return {shares.now, cpu, shares.clock, shares.alone};
+  }
+  const double now = read_clock(CLOCK_MONOTONIC);
+  return {now, cpu, now, now};
+}
+
+/// What others spent for this thread, without its own clocks while it waited for them.
+thread_local TimeSpent by_others;
+
+/// Adds up what the threads spend that work in a parallel_for() call of this one. In the run's load they take
+/// its place: while none is at work, as before the first begins, they count as one that waits.
+class Team {
+ public:
+  Team() : run_(current_run()), by_others_before_(by_others), begin_(clocks()), idle_since_(begin_) {}
+  ~Team() {
+    const TimeSpent end = clocks();
+    add_waiting(end);
+    by_others = by_others_before_ + spent_ - (end - begin_);
+  }
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  /// Calls work() on a thread of the team; it throws nothing.
+  template <class Work>
+  void add(const Work& work) {
+    const TimeSpent before = begin_thread();
+    work();
+    end_thread(before);
+  }
+
+ private:
+  // The clocks are read once where one thing ends and another begins, so that nothing is lost between.
+  TimeSpent begin_thread() {
+    const std::scoped_lock lock(mutex_);
+    const TimeSpent now = clocks();
+    if (at_work_++ == 0)
+      add_waiting(now);
+    else if (run_ != nullptr)
+      run_->load().begin_thread();
+    return now + by_others;
+  }
+  void end_thread(const TimeSpent& before) {
+    const std::scoped_lock lock(mutex_);
+    idle_since_ = clocks();
+    spent_ = spent_ + (idle_since_ + by_others - before);
+    if (--at_work_ > 0 && run_ != nullptr) run_->load().end_thread();
+  }
+  /// On whichever thread that was: the processor time of two of them has no difference.
+  void add_waiting(const TimeSpent& end) {
+    TimeSpent waited = end - idle_since_;
+    waited.cpu = 0;
+    spent_ = spent_ + waited;
+  }
+
+  Run* run_;
+  TimeSpent by_others_before_, begin_, idle_since_, spent_;
+  std::mutex mutex_;
+  int at_work_ = 0;
+};
 /// In the process: finish_threads() has nothing to do without them.
 std::atomic<bool> threads_started = false;
 
-/// Calls run(worker) for each worker on the threads of the run, or of an arena of their own outside of runs.
-void work_together(int workers, const std::function<void(int)>& run) {
+/// Calls run() for each worker on the threads of the run, or of an arena of their own outside of runs.
+void work_together(int workers, const std::function<void()>& run) {
   threads_started = true;
   const ThreadState state = this_thread();
   const auto all = [&] {
     tbb::parallel_for(
         0, workers,
-        [&](int worker) {
+        [&](int) {
           const WorksFor works(state.run);
           this_thread().in_arena = true;
-          run(worker);
+          run();
         },
         tbb::simple_partitioner());
   };
@@ -65,7 +129,7 @@ void work_together(int workers, const std::function<void(int)>& run) {
 
 }  // namespace
 
-double parallel_surplus() { return surplus; }
+TimeSpent time_spent() { return clocks() + by_others; }
 
 void finish_threads() {
   if (!threads_started.exchange(false)) return;
@@ -85,12 +149,7 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
   const std::vector<std::size_t> order = by_cost(n, cost);
   std::vector<std::exception_ptr> errors(n);
   std::atomic<std::size_t> next = 0;
-  const Clock::time_point begin = Clock::now();
-  const double surplus_before = surplus;
-  std::vector<double> worked(static_cast<std::size_t>(std::max(workers, 1)), 0);
-  const auto run = [&](int worker) {
-    const Clock::time_point start = Clock::now();
-    const double before = surplus;
+  const auto run = [&] {
     for (std::size_t k = next++; k < n; k = next++) {
       try {
         check_cancelled();
@@ -100,14 +159,13 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
         if (is_cancelled()) next = n;
       }
     }
-    worked[static_cast<std::size_t>(worker)] = seconds_since(start) + (surplus - before);
   };
   if (workers <= 1) {
-    run(0);
+    run();
   } else {
-    work_together(workers, run);
+    Team team;
+    work_together(workers, [&] { team.add(run); });
   }
-  surplus = surplus_before + std::accumulate(worked.begin(), worked.end(), 0.0) - seconds_since(begin);
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
 }

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "delquad/time_spent.h"
+
 namespace delquad {
 
 /// Threads that parallel_for() uses here: those of the run (see context.h); outside of runs as many as the
@@ -26,8 +28,9 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
 /// Calls work(begin, end) for ranges of a fixed length, the last one excepted, that make up [0, n).
 void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// Seconds by which the parallel_for() calls of this thread so far took longer than the clock on the wall
-/// says, when the times of their work(i) are added up (nested calls included). For measuring: see Stopwatch.
-double parallel_surplus();
+/// What this thread, and others while they worked in its parallel_for() calls (nested ones included), have
+/// spent so far: differences mean something. Outside of runs `clock` and `alone` know nothing of other
+/// threads. For measuring: see Stopwatch.
+TimeSpent time_spent();
 
 }  // namespace delquad

@@ -8,6 +8,7 @@
 
 #include "base/activity.h"
 #include "base/context.h"
+#include "base/load.h"
 
 namespace delquad {
 
@@ -29,8 +30,10 @@ class Run {
   double end;  ///< of the steady clock, in seconds; infinite: none
   std::optional<Activities> own_activities;
   Activities* activities;
+  Load& load() noexcept { return around != nullptr ? around->load() : load_; }
 
  private:
+  Load load_;
   std::optional<tbb::global_control> more_than_cores_;
   std::optional<tbb::task_arena> arena_;
 };

@@ -11,14 +11,15 @@ class Stopwatch {
  public:
   /// Wall-clock.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// The same, with the times of all threads added up while parallel_for() ran: what one thread would have
-  /// needed.
-  double work_seconds() const { return seconds() + parallel_surplus() - surplus_; }
+  /// With that of the threads that worked for this one while parallel_for() ran.
+  TimeSpent time() const { return time_spent() - spent_; }
+  /// What one thread would have needed.
+  double work_seconds() const { return time().work; }
 
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
-  double surplus_ = parallel_surplus();
+  TimeSpent spent_ = time_spent();
 };
 
 }  // namespace delquad

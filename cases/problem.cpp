@@ -149,11 +149,11 @@ void check_formulas(const Case& c) {
 PreparedProblem prepare_case(const Case& c) {
   const Stopwatch reading;
   const MeshProblem problem = make_problem(c);
-  const double seconds = reading.seconds();
+  const TimeSpent time = reading.time();
   PreparedProblem prepared = prepare(problem);
-  if (prepared.seconds.empty() || prepared.seconds.front().first != "read")
-    prepared.seconds.insert(prepared.seconds.begin(), {"read", 0});
-  prepared.seconds.front().second += seconds;
+  StepTimes& times = prepared.times;
+  if (times.empty() || times.front().first != "read") times.insert(times.begin(), {"read", {}});
+  times.front().second = times.front().second + time;
   return prepared;
 }
 

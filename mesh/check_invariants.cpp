@@ -63,7 +63,8 @@ void check_no_twins(std::vector<std::array<int, N>> elements, const char* kind, 
   }
 }
 
-void check_edges(const Mesh& mesh, const std::vector<char>& branching, Report& wrong) {
+void check_edges(const Mesh& mesh, const std::vector<char>& branching, std::span<const HalfEdge> sides,
+                 Report& wrong) {
   struct Line {
     std::array<int, 2> ends;
     bool branches;
@@ -87,14 +88,13 @@ void check_edges(const Mesh& mesh, const std::vector<char>& branching, Report& w
     return branches;
   };
 
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
-    const HalfEdge& e = sides[0];
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const HalfEdge& e = edge[0];
     if (pass({e.lo, e.hi})) return;
-    if (sides.size() > 2)
-      wrong.push_back(fmt::format("edge {}, {}: in {} elements", e.lo, e.hi, sides.size()));
-    if (sides.size() == 2 && sides[0].forward == sides[1].forward) {
+    if (edge.size() > 2) wrong.push_back(fmt::format("edge {}, {}: in {} elements", e.lo, e.hi, edge.size()));
+    if (edge.size() == 2 && edge[0].forward == edge[1].forward) {
       wrong.push_back(fmt::format("edge {}, {}: elements {} and {} run along it the same way", e.lo, e.hi,
-                                  sides[0].element, sides[1].element));
+                                  edge[0].element, edge[1].element));
     }
   });
   const int past_the_end = static_cast<int>(mesh.points.size());
@@ -112,12 +112,8 @@ void check_all_used(const Mesh& mesh, Report& wrong) {
   }
 }
 
-}  // namespace
-
-std::vector<std::string> check_invariants(const Mesh& mesh) { return check_invariants(mesh, {}); }
-
-std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching) {
-  Report wrong;
+/// All that does not need the indices to be in range; returns whether they are.
+bool check_elements(const Mesh& mesh, Report& wrong) {
   check_entities(mesh.curves, "curve", wrong);
   check_entities(mesh.regions, "region", wrong);
   const size_t n = mesh.points.size();
@@ -128,9 +124,30 @@ std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<ch
   check_no_twins(mesh.lines, "line", wrong);
   check_no_twins(mesh.triangles, "triangle", wrong);
   check_no_twins(mesh.quads, "quad", wrong);
-  if (!lines || !triangles || !quads) return wrong;  // what follows reads by these indices
-  if (!mesh.triangles.empty() || !mesh.quads.empty()) check_edges(mesh, branching, wrong);
+  return lines && triangles && quads;
+}
+
+void check_connections(const Mesh& mesh, const std::vector<char>& branching, std::span<const HalfEdge> sides,
+                       Report& wrong) {
+  if (!mesh.triangles.empty() || !mesh.quads.empty()) check_edges(mesh, branching, sides, wrong);
   check_all_used(mesh, wrong);
+}
+
+}  // namespace
+
+std::vector<std::string> check_invariants(const Mesh& mesh) { return check_invariants(mesh, {}); }
+
+std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching) {
+  Report wrong;
+  if (check_elements(mesh, wrong)) check_connections(mesh, branching, sorted_half_edges(mesh), wrong);
+  return wrong;
+}
+
+std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
+                                          std::span<const HalfEdge> sides) {
+  Report wrong;
+  check_elements(mesh, wrong);
+  check_connections(mesh, branching, sides, wrong);
   return wrong;
 }
 

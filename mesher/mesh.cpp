@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "base/context.h"
 #include "delquad/mesher.h"
 #include "mesher/prepare.h"
@@ -33,8 +35,8 @@ MeshResult result_of(const PreparedProblem& prepared, RunResult run) {
   result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
   result.failures = std::move(run.failures);
   result.surface = std::move(run.surface);
-  result.seconds = prepared.seconds;
-  result.seconds.insert(result.seconds.end(), run.log.seconds.begin(), run.log.seconds.end());
+  for (const StepTimes* times : {&prepared.times, &std::as_const(run.log.times)})
+    for (const auto& [step, time] : *times) result.seconds.emplace_back(step, time.work);
   result.wall_seconds = run.seconds;
   result.expected_quads = prepared.expected_quads;
   return result;

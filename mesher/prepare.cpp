@@ -197,7 +197,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
   const Stopwatch reading;
   const DoingStage stage("reading");
   SurfaceModel model = make_surface(problem);
-  const double read_seconds = reading.seconds();
+  const TimeSpent read = reading.time();
   const SampleDomain domain = {Box<Vec3>::around(model.fine.points), &model.fine};
   std::vector<Warning> warnings;
   const auto size = make_size(problem.size, domain, warnings, [&] {
@@ -209,7 +209,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
   });
   PreparedProblem p =
       prepare_surface(problem, std::move(model), size, [&](double quads) { check_count(quads, problem); });
-  p.seconds.insert(p.seconds.begin(), {"read", read_seconds});
+  p.times.insert(p.times.begin(), {"read", read});
   p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
   return p;
 }
@@ -242,7 +242,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
          }});
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);
-  p.seconds.emplace_back("fields", fields.work_seconds());
+  p.times.emplace_back("fields", fields.time());
 }
 
 PreparedProblem prepare_planar(const MeshProblem& problem) {
@@ -264,7 +264,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem) {
   if (problem.seed != 0) turn(problem, domain, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);
-  p.seconds.emplace_back("curves", watch.seconds());
+  p.times.emplace_back("curves", watch.time());
   prepare_patches(problem, cross, std::move(domain), p);
   return p;
 }

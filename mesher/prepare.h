@@ -11,6 +11,7 @@
 #include "base/warning.h"
 #include "boundaries/surface_domain.h"
 #include "delquad/mesher.h"
+#include "delquad/time_spent.h"
 #include "fields/fields.h"
 #include "geometry/planar/planar_model.h"
 
@@ -62,7 +63,7 @@ struct PreparedProblem {
   double expected_quads = 0;                       ///< integral of dA/delta^2
   std::vector<Warning> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.
-  std::vector<std::pair<std::string, double>> seconds;
+  StepTimes times;
 };
 
 /// Tells that this thread works on a patch.

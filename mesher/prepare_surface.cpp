@@ -131,7 +131,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
   const WantedSize wanted = wanted_size(problem.size, model, std::move(size));
-  const double size_seconds = sizes.work_seconds();
+  const TimeSpent size_time = sizes.time();
 
   const Stopwatch maps;
   const DoingStage flattening_faces("maps");
@@ -141,7 +141,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   Failures failures(problem);
   for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
   add_unflattened(flattening, model, failures);
-  p.seconds.emplace_back("maps", maps.work_seconds());
+  p.times.emplace_back("maps", maps.time());
 
   const Stopwatch curves;
   const DoingStage meshing_curves("boundary");
@@ -166,13 +166,13 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   warn_of_coarse_turns(wanted, *surface, p.warnings);
   p.boundary = surface->domain.boundary;
   p.sharp_corners = surface->domain.sharp_corners;
-  p.seconds.emplace_back("curves", curves.work_seconds());
+  p.times.emplace_back("curves", curves.time());
 
   const Stopwatch fields;
   const DoingStage making_fields("fields");
   prepare_patches(surface, p);
   if (size_aware) make_crosses_size_aware(p);
-  p.seconds.emplace_back("fields", size_seconds + fields.work_seconds());
+  p.times.emplace_back("fields", size_time + fields.time());
   return p;
 }
 

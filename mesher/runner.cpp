@@ -222,7 +222,7 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
       lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();
   add_summary(log, summary);
-  log.add_seconds("lifting", summary.seconds);
+  log.add_time("lifting", watch.time());
 }
 
 }  // namespace
@@ -262,7 +262,7 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
   }
   if (prepared.surface) add_caps(prepared.surface->domain, patches, left_out, mesh);
   if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
-  if (log != nullptr) log->add_seconds("projection", projection.work_seconds());
+  if (log != nullptr) log->add_time("projection", projection.time());
   return mesh;
 }
 
@@ -294,33 +294,36 @@ void check_insertion(const PreparedProblem& prepared, const StageLog& log) {
 /// Metrics and, at the same time, the report of a surface and what is sound.
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
   const DoingStage measuring("report");
-  double metrics_seconds = 0, report_seconds = 0, soundness_seconds = 0;
+  TimeSpent metrics_time, report_time, soundness_time;
   // A place that is not finite is nowhere near a surface.
   const bool has_report = prepared.surface && has_finite_points(result.mesh);
+  const Stopwatch sorting;
+  const std::vector<HalfEdge> sides = sorted_half_edges(result.mesh);
+  const TimeSpent sorted = sorting.time();
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
-        result.metrics =
-            evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
-        metrics_seconds = watch.work_seconds();
+        result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(),
+                                          prepared.options, sides);
+        metrics_time = watch.time();
       },
       [&] {
         const Stopwatch watch;
         if (has_report) {
           const PreparedSurface& surface = *prepared.surface;
           result.surface =
-              report_surface(surface.model, surface.cuts, left_out, result.mesh, surface.size.get());
-          report_seconds = watch.work_seconds();
+              report_surface(surface.model, surface.cuts, left_out, result.mesh, sides, surface.size.get());
+          report_time = watch.time();
         }
         const Stopwatch checking;
         result.soundness =
-            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr);
-        soundness_seconds = checking.work_seconds();
+            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr, sides);
+        soundness_time = checking.time();
       }};
   parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
-  result.log.add_seconds("metrics", metrics_seconds);
-  if (has_report) result.log.add_seconds("surface report", report_seconds);
-  result.log.add_seconds("soundness", soundness_seconds);
+  result.log.add_time("metrics", sorted + metrics_time);
+  if (has_report) result.log.add_time("surface report", report_time);
+  result.log.add_time("soundness", soundness_time);
 }
 
 }  // namespace
@@ -359,9 +362,9 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   if (prepared.surface && repair_options(prepared.options).part_twins) {
     const Stopwatch parting;
     PartingSummary parted = part_twins(all);
-    parted.seconds = parting.seconds();
+    parted.seconds = parting.work_seconds();
     add_summary(state.log, parted);
-    state.log.add_seconds("parting", parted.seconds);
+    state.log.add_time("parting", parting.time());
   }
   if (stage.finish) stage.finish(all, state.log);
   state.seconds += watch.seconds();

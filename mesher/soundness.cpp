@@ -126,13 +126,13 @@ void compare_euler(int mesh, int model, Soundness& result) {
 }
 
 /// Returns how many edges are wrong.
-int check_planar(const PreparedProblem& prepared, const Mesh& mesh, Soundness& result) {
+int check_planar(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
+                 Soundness& result) {
   const std::map<Edge, int> wanted = patches_at_edges(prepared);
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   Places wrong;
   std::size_t found = 0;
   auto next = wanted.begin();  // both are sorted
-  for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     const Edge ends{edge[0].lo, edge[0].hi};
     while (next != wanted.end() && next->first < ends) ++next;
     const bool is_wanted = next != wanted.end() && next->first == ends;
@@ -185,13 +185,14 @@ Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {
   return result;
 }
 
-Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report) {
+Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
+                          std::span<const HalfEdge> sides) {
   std::vector<char> irregular;
   if (prepared.surface) irregular = irregular_curves(prepared.surface->model.fine);
-  const std::vector<std::string> violations = check_invariants(mesh, irregular);
+  const std::vector<std::string> violations = check_invariants(mesh, irregular, sides);
   Soundness result = check_elements(prepared, mesh);
   int wrong_edges = 0;
-  if (!prepared.surface) wrong_edges = check_planar(prepared, mesh, result);
+  if (!prepared.surface) wrong_edges = check_planar(prepared, mesh, sides, result);
   if (report != nullptr) {
     check_surface(mesh, *report, result);
     wrong_edges = report->nonconforming_edges.count;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "mesh/half_edges.h"
 #include "mesher/prepare.h"
 #include "metrics/surface/surface_report.h"
 
@@ -16,7 +18,9 @@ bool has_finite_points(const Mesh& mesh);
 Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh);
 
 /// All of them, of a mesh with the curves and regions of its case. `report`: of surfaces, without the faces
-/// that were left out; null of a mesh with points that are not finite.
-Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report);
+/// that were left out; null of a mesh with points that are not finite. `sides`: the mesh's
+/// sorted_half_edges().
+Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
+                          std::span<const HalfEdge> sides);
 
 }  // namespace delquad

@@ -36,7 +36,7 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
   patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
   patch.form = PatchForm::kTriangles;
   add_summary(log, summary);
-  log.add_seconds("insertion", watch.seconds());
+  log.add_time("insertion", watch.time());
 }
 
 void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -48,7 +48,7 @@ void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.triangles =
       smooth_points(patch.triangles, in.cross, in.size, *minimiser, options.smoothing, &summary);
   add_summary(log, summary);
-  log.add_seconds("smoothing", watch.work_seconds());
+  log.add_time("smoothing", watch.time());
 }
 
 /// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
@@ -76,7 +76,7 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
   add_summary(log, summary);
-  log.add_seconds("matching", recombination.seconds());
+  log.add_time("matching", recombination.time());
   if (options.treatment == Treatment::kNone) return;
 
   const Stopwatch treatment;
@@ -94,16 +94,17 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   patch.quads = std::move(result);
   add_summary(log, DiscardSummary{.treatments = discarded});
   add_summary(log, treated);
-  log.add_seconds("treatment", treatment.work_seconds());
+  log.add_time("treatment", treatment.time());
 }
 
 void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& options) {
+  const Stopwatch watch;
   RecombineSummary summary;
   patch.quads = recombine_greedily(patch.triangles, options, &summary);
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
   add_summary(log, summary);
-  log.add_seconds("matching", summary.merge_seconds);
+  log.add_time("matching", watch.time());
 }
 
 void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -111,19 +112,21 @@ void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const RecombinationOptions options = recombination_options(in.options);
   if (options.treatment == Treatment::kNone) return;
   const DoingStage treating("treatment");
+  const Stopwatch watch;
   TreatmentSummary treated;
   patch.quads = treat_by_degrees(patch.quads, in.size, options.treatment_options, &treated);
   add_summary(log, treated);
-  log.add_seconds("treatment", treated.seconds);
+  log.add_time("treatment", watch.time());
 }
 
 void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
   AdaptationOptions options;
   options.max_points = in.max_points;
   AdaptationSummary summary;
   patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
   add_summary(log, summary);
-  log.add_seconds("adaptation", summary.seconds);
+  log.add_time("adaptation", watch.time());
   constexpr double kGoodPair = 0.5;  // eta
   merge_greedily(patch, log, {kGoodPair, true, 0});
 }
@@ -143,7 +146,7 @@ void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   }
   add_summary(log, summary);
   add_summary(log, DiscardSummary{.cleanups = discarded});
-  log.add_seconds("clean-up", watch.work_seconds());
+  log.add_time("clean-up", watch.time());
 }
 
 void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -151,7 +154,7 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   OptimisationSummary summary;
   summary.untangled = untangle_flat(patch.quads, in.size);
   add_summary(log, summary);
-  log.add_seconds("optimisation", watch.seconds());
+  log.add_time("optimisation", watch.time());
 }
 
 OptimisationSummary optimise_surface(const AllPatches& in) {
@@ -197,7 +200,7 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
   OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
   summary.seconds = watch.work_seconds();
   add_summary(log, summary);
-  log.add_seconds("optimisation", watch.work_seconds());
+  log.add_time("optimisation", watch.time());
 }
 
 /// Pointers to its entries stay good when more are added.

@@ -91,17 +91,16 @@ double Summaries::number(const std::string& step, const std::string& key) const 
   throw std::out_of_range("'" + key + "' of step '" + step + "' is no number");
 }
 
-void StageLog::add_seconds(const std::string& step, double s) {
-  const auto at =
-      std::find_if(seconds.begin(), seconds.end(), [&](const auto& entry) { return entry.first == step; });
-  if (at == seconds.end())
-    seconds.emplace_back(step, s);
+void StageLog::add_time(const std::string& step, const TimeSpent& time) {
+  const auto at = std::ranges::find(times, step, &StepTimes::value_type::first);
+  if (at == times.end())
+    times.emplace_back(step, time);
   else
-    at->second += s;
+    at->second = at->second + time;
 }
 
 void StageLog::add(const StageLog& other) {
-  for (const auto& [step, s] : other.seconds) add_seconds(step, s);
+  for (const auto& [step, time] : other.times) add_time(step, time);
   summaries.add(other.summaries);
 }
 

@@ -171,6 +171,11 @@ void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
 
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
                              const Options& options) {
+  return evaluate_metrics(mesh, size, given, options, sorted_half_edges(mesh));
+}
+
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                             const Options& options, std::span<const HalfEdge> sides) {
   MeshMetrics metrics;
   for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
   metrics.eta = {0, 1, std::vector<long long>(20, 0)};
@@ -183,7 +188,6 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   metrics.values["n_elements"] = n_elements;
   if (n_elements > 0) metrics.values["percent_quads"] = 100 * n_quads / n_elements;
 
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   measure_shapes(mesh, metrics);
   measure_proportions(mesh, metrics.values);
   measure_topology(mesh, sides, metrics);

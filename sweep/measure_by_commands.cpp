@@ -25,7 +25,7 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
     failures.push_back(fmt::format("no '{}': {}", metric->metric.key, outcome.failure));
     result.metrics.failures[metric->metric.key] = outcome.failure;
   }
-  result.log.add_seconds("metrics by command", watch.seconds());
+  result.log.add_time("metrics by command", watch.time());
   return failures;
 }
 
@@ -41,7 +41,7 @@ std::vector<std::string> measure_by_solvers(const CellIdentity& cell, RunResult&
     failures.push_back(fmt::format("no '{}': {}", solver, outcome.undefined));
     result.metrics.failures[solver] = outcome.undefined;
   }
-  result.log.add_seconds("solvers", watch.seconds());
+  result.log.add_time("solvers", watch.time());
   return failures;
 }
 

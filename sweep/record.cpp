@@ -17,10 +17,22 @@ using Json = nlohmann::ordered_json;
 
 Json point_json(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-Json seconds_json(const std::vector<std::pair<std::string, double>>& seconds) {
-  Json json = Json::object();
-  for (const auto& [step, s] : seconds) json[step] = s;
-  return json;
+/// Where only the clock was read, nothing but the work is known.
+bool is_known(const TimeSpent& time) { return time.cpu > 0 || time.clock > 0; }
+
+void add_times(Json& json, const StepTimes& times) {
+  Json work = Json::object(), cpu = Json::object(), clock = Json::object(), alone = Json::object();
+  for (const auto& [step, time] : times) {
+    work[step] = time.work;
+    if (!is_known(time)) continue;
+    cpu[step] = time.cpu;
+    clock[step] = time.clock;
+    alone[step] = time.alone;
+  }
+  json["seconds"] = work;
+  json["cpu_seconds"] = cpu;
+  json["clock_seconds"] = clock;
+  json["alone_seconds"] = alone;
 }
 
 Json size_json(const SizeText& size) {
@@ -370,10 +382,10 @@ std::string run_record(const Case& c, const PreparedProblem& prepared, const Wor
   const StageLog& log = result.log;
   json["bad_quads"] = bad_quads_json(prepared, result);
   const bool is_peer = cell != nullptr && cell->peer != nullptr;
-  auto seconds = is_peer ? StageLog{}.seconds : prepared.seconds;
-  seconds.insert(seconds.end(), log.seconds.begin(), log.seconds.end());
+  StepTimes times = is_peer ? StepTimes{} : prepared.times;
+  times.insert(times.end(), log.times.begin(), log.times.end());
   json["threads"] = thread_count();
-  json["seconds"] = seconds_json(seconds);
+  add_times(json, times);
   // A peer's time has reading and writing in it: not to be set beside this.
   json["meshing_seconds"] = is_peer ? Json() : Json(result.seconds);
   if (is_peer) json["peer_seconds"] = result.seconds;

@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// The steps of a run that tables count as its time.
-double total_seconds(const std::vector<std::pair<std::string, double>>& seconds) {
+double total_seconds(const StepTimes& times) {
   double total = 0;
-  for (const auto& [step, s] : seconds) {
-    const auto counts = [&](const StepTime& time) { return time.step == step; };
-    if (step == "peer" || std::ranges::any_of(step_times_of_tables(), counts)) total += s;
+  for (const auto& [step, time] : times) {
+    const auto counts = [&](const StepTime& column) { return column.step == step; };
+    if (step == "peer" || std::ranges::any_of(step_times_of_tables(), counts)) total += time.work;
   }
   return total;
 }
@@ -120,9 +120,9 @@ class RepeatedVariant {
     const RunResult result =
         peer != nullptr ? run_peer(*peer, case_, prepared, case_.name + " " + word.text, scratch() / "peer")
                         : run_word(prepared, word);
-    std::vector<std::pair<std::string, double>> seconds = result.log.seconds;
-    if (peer == nullptr) seconds.insert(seconds.end(), prepared.seconds.begin(), prepared.seconds.end());
-    Json json = {{"seconds_total", total_seconds(seconds)}};
+    StepTimes times = result.log.times;
+    if (peer == nullptr) times.insert(times.end(), prepared.times.begin(), prepared.times.end());
+    Json json = {{"seconds_total", total_seconds(times)}};
     if (peer == nullptr) json["seconds"] = result.seconds;
     write_file_atomically(file_of(cell, round), [&](std::ostream& out) { out << json.dump(); });
   }

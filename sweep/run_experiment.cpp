@@ -119,7 +119,7 @@ struct Work {
       write_msh(at / "mesh.msh", result.mesh);
       write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
       if (pictures) draw(at, label, result);
-      result.log.add_seconds("write", writing.work_seconds());
+      result.log.add_time("write", writing.time());
       CellIdentity identity = cell.identity;
       identity.files = marks_of(at);
       write_file_atomically(at / "record.json", [&](std::ostream& out) {

@@ -14,6 +14,7 @@
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
 #include "delquad/options.h"
+#include "delquad/time_spent.h"
 
 // What can be added from outside: strategies of insertion and stages of any kind here; see add_options() for
 // their keys, add_matching_solver() and add_metric() for the rest. All of it has to be added before anything
@@ -115,11 +116,11 @@ struct StageInput {
 
 /// What the stages did: on one patch, or on all of them.
 struct StageLog {
-  /// By step, in order of first use: the times of all threads added up, so that they can be compared whatever
-  /// the number of threads.
-  std::vector<std::pair<std::string, double>> seconds = {};
+  StepTimes times = {};
   Summaries summaries = {};
-  void add_seconds(const std::string& step, double s);
+  void add_time(const std::string& step, const TimeSpent& time);
+  /// Where only the clock was read, by one thread.
+  void add_seconds(const std::string& step, double s) { add_time(step, {.work = s}); }
   /// Adds what was done on another patch.
   void add(const StageLog& other);
 };

@@ -87,13 +87,14 @@ std::vector<int> elements_on_curves(const Mesh& mesh) {
 class Comparison {
  public:
   Comparison(const SurfaceModel& model, std::span<const SurfaceCut> cuts, const std::vector<char>& left_out,
-             const Mesh& mesh, const SizeField* size)
+             const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField* size)
       : projector_(model.projector.get()),
         size_(size),
         fine_(without(model.fine, left_out)),
         mesh_(mesh),
         diagonal_(diagonal(model.fine)),
         lines_(mesh),
+        sides_(sides),
         is_cut_(model.fine.curves.size(), 0) {
     for (const SurfaceCut& cut : cuts) is_cut_[cut.curve] = 1;
     if (projector_ == nullptr) triangles_.emplace_back(fine_.points, fine_.triangles);
@@ -101,7 +102,6 @@ class Comparison {
 
   SurfaceReport run() {
     report_.model = topology_of(fine_);
-    sides_ = sorted_half_edges(mesh_);
     report_.mesh = topology_of(mesh_, sides_);
     std::optional<NearestElement> elements;
     const std::function<void()> parts[] = {[&] { elements.emplace(mesh_); }, [&] { measure_elements(); },
@@ -298,7 +298,7 @@ class Comparison {
   const Mesh& mesh_;
   double diagonal_;
   LineIndex lines_;
-  std::vector<HalfEdge> sides_;  ///< of the mesh
+  std::span<const HalfEdge> sides_;  ///< of the mesh
   std::vector<char> is_cut_;
   std::vector<NearestTriangle> triangles_;  ///< one, of a model without a projector
   SurfaceReport report_;
@@ -368,7 +368,13 @@ MapReport report_maps(std::span<const FlatPatch* const> maps) {
 
 SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
                              const std::vector<char>& left_out, const Mesh& mesh, const SizeField* size) {
-  return Comparison(model, cuts, left_out, mesh, size).run();
+  return report_surface(model, cuts, left_out, mesh, sorted_half_edges(mesh), size);
+}
+
+SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
+                             const std::vector<char>& left_out, const Mesh& mesh,
+                             std::span<const HalfEdge> sides, const SizeField* size) {
+  return Comparison(model, cuts, left_out, mesh, sides, size).run();
 }
 
 }  // namespace delquad

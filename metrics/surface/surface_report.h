@@ -38,7 +38,11 @@ MapReport report_maps(std::span<const FlatPatch* const> maps);
 /// triangles so large that only plane faces have them, a 50th of the diagonal apart; against the elements, a
 /// quad being four triangles around its centre. `cuts`: curves that
 /// flatten() added, which belong to no true curve. `left_out`: faces, by index, that were not meshed; they do
-/// not count. `size`: delta, that distances are compared with; may be null. Points must be finite.
+/// not count. `sides`: the mesh's sorted_half_edges(). `size`: delta, that distances are compared with; may
+/// be null. Points must be finite.
+SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
+                             const std::vector<char>& left_out, const Mesh& mesh,
+                             std::span<const HalfEdge> sides, const SizeField* size);
 SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
                              const std::vector<char>& left_out, const Mesh& mesh,
                              const SizeField* size = nullptr);

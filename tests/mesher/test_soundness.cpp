@@ -36,7 +36,7 @@ class SoundCube : public testing::Test {
     const PreparedSurface& surface = *prepared_.surface;
     const SurfaceReport report =
         report_surface(surface.model, surface.cuts, left_out, mesh_, surface.size.get());
-    return check_soundness(prepared_, mesh_, &report);
+    return check_soundness(prepared_, mesh_, &report, sorted_half_edges(mesh_));
   }
   /// A quad on the lid, and one of its vertices, all of which are inside of it.
   int inner_quad() const {
@@ -69,7 +69,7 @@ TEST_F(SoundCube, PointsMustBeFinite) {
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
     corner(0, 0).y = bad;
     EXPECT_FALSE(has_finite_points(mesh_));
-    const Soundness soundness = check_soundness(prepared_, mesh_, nullptr);
+    const Soundness soundness = check_soundness(prepared_, mesh_, nullptr, sorted_half_edges(mesh_));
     EXPECT_TRUE(has(soundness, "1 point is not finite: face ")) << soundness.text();
   }
 }
@@ -191,7 +191,7 @@ class SoundDomain : public testing::Test {
     result_ = run_word(prepared_, parse_word("DB"));
     mesh_ = result_.mesh;
   }
-  Soundness check() const { return check_soundness(prepared_, mesh_, nullptr); }
+  Soundness check() const { return check_soundness(prepared_, mesh_, nullptr, sorted_half_edges(mesh_)); }
 
   testing_support::TemporaryFolder folder_;
   Case c_;

@@ -165,7 +165,9 @@ TEST(Records, HaveEveryCounterOfEveryStep) {
       }
     }
   });
-  for (const char* step : {"parting", "lifting"}) EXPECT_TRUE(record["seconds"].contains(step)) << step;
+  for (const char* times : {"seconds", "cpu_seconds", "clock_seconds", "alone_seconds"})
+    for (const char* step : {"parting", "lifting"})
+      EXPECT_TRUE(record[times].contains(step)) << times << step;
   EXPECT_EQ(record["sound"], true);
   EXPECT_FALSE(record.contains("unsound"));
 }
