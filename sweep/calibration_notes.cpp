@@ -16,8 +16,11 @@ double excess(const CalibrationRecord& c) { return c.quads / c.wanted - 1; }
 /// The cells of one peer on one case, all seeds and variants.
 struct Calibrations {
   std::string name, pipeline;
-  std::vector<const CalibrationRecord*> cells;
+  std::vector<const CellRecord*> cells;
 };
+
+const CalibrationRecord& calibration_of(const CellRecord* cell) { return *cell->calibration; }
+double miss(const CellRecord* cell) { return std::abs(excess(calibration_of(cell))); }
 
 std::vector<Calibrations> grouped(const std::vector<CellRecord>& records) {
   std::vector<Calibrations> groups;
@@ -27,32 +30,37 @@ std::vector<Calibrations> grouped(const std::vector<CellRecord>& records) {
       return g.name == record.name && g.pipeline == record.pipeline;
     });
     if (at == groups.end()) at = groups.insert(at, {record.name, record.pipeline, {}});
-    at->cells.push_back(&*record.calibration);
+    at->cells.push_back(&record);
   }
   return groups;
 }
 
-std::string factors(const std::vector<const CalibrationRecord*>& cells) {
-  const auto [least, most] = std::ranges::minmax(cells, {}, &CalibrationRecord::size_factor);
-  const std::string low = fmt::format("{:.3g}", least->size_factor),
-                    high = fmt::format("{:.3g}", most->size_factor);
+std::string factors(const std::vector<const CellRecord*>& cells) {
+  const auto factor = [](const CellRecord* cell) { return calibration_of(cell).size_factor; };
+  const auto [least, most] = std::ranges::minmax(cells, {}, factor);
+  const std::string low = fmt::format("{:.3g}", factor(least)), high = fmt::format("{:.3g}", factor(most));
   return low == high ? low : low + " to " + high;
 }
 
 std::string note(const Calibrations& group) {
   const std::string head = group.name + " " + group.pipeline;
-  const std::string& word = group.cells[0]->to;
-  std::vector<const CalibrationRecord*> cells = group.cells;
-  std::erase_if(cells, [](const CalibrationRecord* c) { return !(c->wanted > 0); });
+  const std::string& word = calibration_of(group.cells[0]).to;
+  std::vector<const CellRecord*> cells = group.cells;
+  std::erase_if(cells, [](const CellRecord* cell) { return !(calibration_of(cell).wanted > 0); });
   if (cells.empty()) return fmt::format("{}: size as given, for {} has no mesh to compare with", head, word);
-  const CalibrationRecord& worst = *std::ranges::max(cells, {}, [](auto* c) { return std::abs(excess(*c)); });
-  if (std::abs(excess(worst)) <= kEquallyMany)
-    return fmt::format("{}: size times {}, so that it has {}'s number of quads within 1 %", head,
-                       factors(cells), word);
-  std::string text =
-      fmt::format("{}: size times {}, and yet {:.3g} % {} quads than {} after {} runs", head, factors(cells),
-                  100 * std::abs(excess(worst)), excess(worst) > 0 ? "more" : "fewer", word, worst.runs);
-  return worst.ended_by.empty() ? text : text + ": " + worst.ended_by;
+  const auto missed = std::ranges::count_if(cells, [](auto* cell) { return miss(cell) > kEquallyMany; });
+  const std::string text = fmt::format("{}: size times {}, so that it has {}'s number of quads within 1 %",
+                                       head, factors(cells), word);
+  if (missed == 0) return text;
+  const CellRecord& worst = *std::ranges::max(cells, {}, miss);
+  const CalibrationRecord& c = *worst.calibration;
+  const std::string by =
+      fmt::format("{:.3g} % {} after {} runs{}", 100 * miss(&worst), excess(c) > 0 ? "more" : "fewer", c.runs,
+                  c.ended_by.empty() ? "" : ": " + c.ended_by);
+  if (cells.size() == 1) return text + fmt::format("; missed, {}", by);
+  const std::string where = worst.group.substr(std::min(worst.name.size() + 1, worst.group.size()));
+  return text + fmt::format("; missed in {} of {} runs, at most by {} ({})", missed, cells.size(), by,
+                            where.empty() ? worst.name : where);
 }
 
 }  // namespace

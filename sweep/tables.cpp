@@ -11,6 +11,7 @@
 #include "io/mesh_io.h"
 #include "sweep/calibration_notes.h"
 #include "sweep/cell_text.h"
+#include "sweep/fairness_notes.h"
 #include "sweep/inference.h"
 #include "sweep/statistics.h"
 #include "sweep/times.h"
@@ -44,6 +45,10 @@ class Tabulation {
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
+    for (const std::string& note : fairness_notes(records_)) {
+      table.notes.push_back(note);
+      if (!outcome_.pairs.rows.empty()) outcome_.pairs.notes.push_back(note);
+    }
     return std::move(outcome_);
   }
 

@@ -5,6 +5,7 @@
 #include "mesher/prepare.h"
 #include "sweep/calibration.h"
 #include "sweep/calibration_notes.h"
+#include "sweep/fairness_notes.h"
 #include "sweep/peer_reference.h"
 #include "tests/support/temporary_folder.h"
 
@@ -115,11 +116,46 @@ TEST(CalibrationNotes, SayTheWorstOfTheCells) {
       calibration_notes({calibrated({"DB", 1.08, 100, 100.5, 2}), calibrated({"DB", 1.1, 100, 99.5, 2})}),
       (std::vector<std::string>{
           "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
+  EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 100, 100, 1}), calibrated({"DB", 1, 100, 104, 8})}),
+            (std::vector<std::string>{
+                "plate other: size times 1, so that it has DB's number of quads within 1 %; missed in 1 "
+                "of 2 runs, at most by 4 % more after 8 runs (plate)"}));
+  CellRecord one = calibrated({"DB", 1, 100, 104, 8});
+  one.group = "plate@seed=2";
   EXPECT_EQ(
-      calibration_notes({calibrated({"DB", 1, 100, 100, 1}), calibrated({"DB", 1, 100, 104, 8})}),
-      (std::vector<std::string>{"plate other: size times 1, and yet 4 % more quads than DB after 8 runs"}));
+      calibration_notes({one}),
+      (std::vector<std::string>{"plate other: size times 1, so that it has DB's number of quads within 1 %; "
+                                "missed, 4 % more after 8 runs"}));
+  EXPECT_NE(calibration_notes({calibrated({"DB", 1, 100, 100, 1}), one})[0].find("(seed=2)"),
+            std::string::npos);
   EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 0, 0, 1})}),
             (std::vector<std::string>{"plate other: size as given, for DB has no mesh to compare with"}));
+}
+
+CellRecord mesh_of(const std::string& name, const std::string& pipeline, double quads, double triangles) {
+  CellRecord record;
+  record.name = record.group = name;
+  record.pipeline = pipeline;
+  record.values = {{"n_quads", quads}, {"n_triangles", triangles}};
+  return record;
+}
+
+TEST(FairnessNotes, SayWhatIsNotComparedLikeWithLike) {
+  std::vector<CellRecord> records = {mesh_of("a", "DB", 100, 0),    mesh_of("b", "DB", 100, 0),
+                                     mesh_of("a", "FB", 103, 0),    mesh_of("b", "FB", 117, 0),
+                                     mesh_of("a", "other", 100, 4), mesh_of("b", "other", 100, 0)};
+  const std::string triangles =
+      "other leaves triangles in 1 case (a): it is not compared with others in measures of quads (eta, d4 "
+      "and "
+      "the like)";
+  EXPECT_EQ(fairness_notes(records), std::vector<std::string>{triangles}) << "nothing was calibrated";
+  for (std::size_t i : {4, 5}) records[i].calibration = CalibrationRecord{"DB", 1, 100, 100, 1};
+  EXPECT_EQ(fairness_notes(records),
+            (std::vector<std::string>{
+                triangles,
+                "FB has 3 % more to 17 % more quads than DB, to whose number the other meshers were "
+                "brought"}));
+  EXPECT_TRUE(fairness_notes({records[0], records[1]}).empty());
 }
 
 }  // namespace
