@@ -56,3 +56,4 @@ python: packages
 
 bench: build
 	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done
+	python3 benchmarks/cleanup_cost.py --counts 60000 250000 --words DB DBCO DLBCO --delquad build/$(PRESET)/delquad --data $(DATA)

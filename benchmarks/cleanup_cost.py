@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Time a quad of every step of DBCO, how that of treatment, C and O grows, and what a second thread is worth.
 
-Runs `delquad mesh` with DBCO on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the steps are
-microseconds a quad on one thread, and come from one run: their ratio to insertion's means something on a busy machine, too. The last line of
-each model has the power of the number of quads by which each grows. "meshing" is seconds on the clock from the boundary to the mesh. A model
-that is missing is skipped with a reason.
+Runs `delquad mesh` with DBCO (or --words) on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the
+steps are processor microseconds a quad on one thread, and come from one run: their ratio to insertion's, in the row below, means something on
+a busy machine, too. The third row has what two threads are worth: one thread's seconds on the clock over theirs, on a quiet machine only. The
+fourth is what it can be at most, by the part of the step that one of two threads does alone (Amdahl); where a step has many short loops (L, O in
+one block) a busy machine makes it less, for the other thread comes too late. The last line of each model has the power of
+the number of quads by which steps grow. "meshing" is seconds on the clock from the boundary to the mesh. A model that is missing is skipped with a reason.
 """
 
 import argparse
@@ -15,16 +17,16 @@ import tempfile
 from pathlib import Path
 
 COUNTS = [5000, 10000, 20000, 40000, 80000, 250000]
-STEPS = ["insertion", "matching", "treatment", "clean-up", "optimisation", "lifting", "projection", "metrics", "soundness", "write"]
+STEPS = ["insertion", "smoothing", "matching", "treatment", "clean-up", "optimisation", "lifting", "projection", "metrics", "soundness", "write"]
 GROWING = ["treatment", "clean-up", "optimisation"]
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def mesh(delquad, model, size, threads):
+def mesh(delquad, model, word, size, threads):
     """The record of a run."""
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "record.json"
-        subprocess.run([delquad, "mesh", model, "-o", Path(folder) / "mesh.msh", "--size", repr(size), "--pipeline", "DBCO",
+        subprocess.run([delquad, "mesh", model, "-o", Path(folder) / "mesh.msh", "--size", repr(size), "--pipeline", word,
                         "--threads", str(threads), "--json", record], check=True, capture_output=True)
         return json.loads(record.read_text())
 
@@ -36,30 +38,49 @@ def power(rows, column):
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
 
 
-def print_table(delquad, name, model, size, counts):
+def at_most(step, two):
+    """What two threads can be worth to a step, of which one of them does a part alone."""
+    alone = two["alone_seconds"].get(step, 0) / (two["seconds"].get(step, 0) or math.inf)
+    return 2 / (1 + min(alone, 1))
+
+
+def print_ratios(name, one, two):
+    """Below the times of a mesh: over insertion's, of one thread over those of two, and what that can be at most."""
+    cpu, clock, clock_two = one["cpu_seconds"], one["clock_seconds"], two["clock_seconds"]
+    rows = [("/ insertion", lambda s: cpu[s] / cpu["insertion"]), ("two threads", lambda s: clock[s] / max(clock_two[s], 1e-9)),
+            ("at most", lambda s: at_most(s, two))]
+    for title, ratio in rows:
+        cells = (f" {ratio(s):.2f} |" if s in cpu and s in clock_two else " |" for s in STEPS)
+        print(f"| {name} | {title} |" + "".join(cells) + " | | |", flush=True)
+
+
+def print_table(delquad, name, model, word, size, counts):
     rows = []
     for count in counts:
         size *= math.sqrt((rows[-1][0] if rows else count) / count)
         while True:  # sizes near features follow rules of their own
-            one = mesh(delquad, model, size, 1)
+            one = mesh(delquad, model, word, size, 1)
             quads = one["metrics"]["n_quads"]
             if abs(quads / count - 1) < 0.1:
                 break
             size *= math.sqrt(quads / count)
-        two = mesh(delquad, model, size, 2)
-        seconds = [one["seconds"].get(step, 0) for step in STEPS]
+        two = mesh(delquad, model, word, size, 2)
+        seconds = [one["cpu_seconds"].get(step, 0) for step in STEPS]
         rows.append([quads] + [seconds[STEPS.index(step)] for step in GROWING])
         clock = one["meshing_seconds"], two["meshing_seconds"]
         print(f"| {name} | {quads:.0f} |" + "".join(f" {1e6 * s / quads:.2f} |" for s in seconds) +
               f" {clock[0]:.2f} | {clock[1]:.2f} | {clock[0] / clock[1]:.2f} |", flush=True)
+        print_ratios(name, one, two)
     if len(rows) > 1:
-        print(f"{name}, power: " + ", ".join(f"{step} {power(rows, i + 1):.2f}" for i, step in enumerate(GROWING)), flush=True)
+        print(f"{name}, power: " + ", ".join(f"{step} {power(rows, i + 1):.2f}" for i, step in enumerate(GROWING) if all(row[i + 1] for row in rows)),
+              flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--delquad", type=Path, default=ROOT / "build/release/delquad")
     parser.add_argument("--data", type=Path, default=ROOT.parent / "shared/data")
+    parser.add_argument("--words", nargs="+", default=["DBCO"])
     parser.add_argument("--counts", type=int, nargs="+", default=COUNTS, help="numbers of quads")
     arguments = parser.parse_args()
     if not arguments.delquad.exists():
@@ -68,10 +89,11 @@ def main():
     print("| " + " | ".join(header) + " |\n|---|" + "---:|" * (len(header) - 1))
     for name, model, size in (("plate", ROOT / "experiments/models/plate_16_holes.toml", 0.0247),
                               ("part.step", arguments.data / "cad/part.step", 3.1)):
-        if model.exists():
-            print_table(arguments.delquad, name, model, size, arguments.counts)
-        else:
+        if not model.exists():
             print(f"| {name} | skipped: {model} not found |")
+            continue
+        for word in arguments.words:
+            print_table(arguments.delquad, f"{name} {word}", model, word, size, arguments.counts)
 
 
 if __name__ == "__main__":
