@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "delquad/time_spent.h"
+#include "delquad/options.h"
 
 namespace delquad {
 

@@ -11,7 +11,6 @@
 #include "base/warning.h"
 #include "boundaries/surface_domain.h"
 #include "delquad/mesher.h"
-#include "delquad/time_spent.h"
 #include "fields/fields.h"
 #include "geometry/planar/planar_model.h"
 

@@ -14,7 +14,6 @@
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
 #include "delquad/options.h"
-#include "delquad/time_spent.h"
 
 // What can be added from outside: strategies of insertion and stages of any kind here; see add_options() for
 // their keys, add_matching_solver() and add_metric() for the rest. All of it has to be added before anything
