@@ -49,18 +49,17 @@ std::string note(const Calibrations& group) {
   std::erase_if(cells, [](const CellRecord* cell) { return !(calibration_of(cell).wanted > 0); });
   if (cells.empty()) return fmt::format("{}: size as given, for {} has no mesh to compare with", head, word);
   const auto missed = std::ranges::count_if(cells, [](auto* cell) { return miss(cell) > kEquallyMany; });
-  const std::string text = fmt::format("{}: size times {}, so that it has {}'s number of quads within 1 %",
-                                       head, factors(cells), word);
-  if (missed == 0) return text;
+  const std::string times = fmt::format("{}: size times {}", head, factors(cells));
+  if (missed == 0) return fmt::format("{}, so that it has {}'s number of quads within 1 %", times, word);
   const CellRecord& worst = *std::ranges::max(cells, {}, miss);
   const CalibrationRecord& c = *worst.calibration;
-  const std::string by =
-      fmt::format("{:.3g} % {} after {} runs{}", 100 * miss(&worst), excess(c) > 0 ? "more" : "fewer", c.runs,
-                  c.ended_by.empty() ? "" : ": " + c.ended_by);
-  if (cells.size() == 1) return text + fmt::format("; missed, {}", by);
+  const std::string by = fmt::format("{:.3g} % {} quads than {} after {} runs", 100 * miss(&worst),
+                                     excess(c) > 0 ? "more" : "fewer", word, c.runs),
+                    why = c.ended_by.empty() ? "" : ": " + c.ended_by;
+  if (cells.size() == 1) return times + ", and yet " + by + why;
   const std::string where = worst.group.substr(std::min(worst.name.size() + 1, worst.group.size()));
-  return text + fmt::format("; missed in {} of {} runs, at most by {} ({})", missed, cells.size(), by,
-                            where.empty() ? worst.name : where);
+  return fmt::format("{}; 1 % missed in {} of {} cells, at worst {} ({}){}", times, missed, cells.size(), by,
+                     where.empty() ? worst.name : where, why);
 }
 
 }  // namespace
