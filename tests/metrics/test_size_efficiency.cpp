@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -24,7 +25,7 @@ struct SizeBy final : SizeField {
     return delta(x);
   }
   std::function<double(const Vec3&)> delta;
-  mutable long long evaluations = 0;
+  mutable std::atomic<long long> evaluations = 0;  ///< by all threads
 };
 
 TEST(AdimensionalLength, IsLengthOverSizeWhereSizeIsConstant) {
