@@ -14,6 +14,7 @@
 #include "sweep/inference.h"
 #include "sweep/statistics.h"
 #include "sweep/times.h"
+#include "sweep/triangle_notes.h"
 
 namespace delquad {
 namespace {
@@ -39,11 +40,16 @@ class Tabulation {
     const auto rows = std::span(table.rows).subspan(first);
     inference_.marking().mark(inference_.family(), rows);
     note_claims(rows);
+    add_notes(triangle_notes(records_,
+                             "there it does not compete in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              table);
     note_times();
     note_cells();
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
+    note_pairs();
     return std::move(outcome_);
   }
 
@@ -123,12 +129,24 @@ class Tabulation {
     const ClaimFamily& family = inference_.family();
     const std::vector<std::string> notes = inference_.marking().notes(family, rows);
     if (notes.empty()) return;
-    outcome_.table.notes.insert(outcome_.table.notes.end(), notes.begin(), notes.end());
+    add_notes(notes, outcome_.table);
     if (family.counted() > 0)
       outcome_.table.notes.push_back(
           "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
           "repeated runs. " +
           family.note());
+  }
+
+  static void add_notes(const std::vector<std::string>& notes, Table& table) {
+    table.notes.insert(table.notes.end(), notes.begin(), notes.end());
+  }
+
+  /// What pairs lack, and why.
+  void note_pairs() {
+    add_notes(triangle_notes(records_,
+                             "no pair with it is compared in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              outcome_.pairs);
   }
 
   void note_times() {

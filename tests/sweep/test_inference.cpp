@@ -267,7 +267,29 @@ TEST(Marks, WordsThatLeaveTrianglesDoNotCompeteInMeasuresOfQuads) {
   EXPECT_EQ(outcome.table.rows[2].marks.at("tau"), Mark::kBest);
   for (const TableRow& row : outcome.pairs.rows)
     EXPECT_FALSE(row.group.find('G') != row.group.npos && row.name == "eta mean") << row.group;
-  EXPECT_NE(to_markdown(outcome.table).find("Words that leave triangles"), std::string::npos);
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
+  StudyResults results = make_study({{"A", "B", "G", "H"}, 12, 2, {"eta_mean", "tau"}},
+                                    [](int word, int, int seed) { return word + 0.001 * seed; });
+  for (CellRecord& record : results.records) {
+    if (record.pipeline == "G" && record.name.size() == 7) record.values["n_triangles"] = 7;
+    if (record.pipeline == "H" && record.group == "domain11@seed=2") record.values["n_triangles"] = 1;
+  }
+  const Outcome outcome = make_tables(results);
+  const std::string g =
+      "G leaves triangles in 10 of 12 cases (domain0, domain1, domain2, domain3, domain4 and 5 more): ";
+  const std::string h = "H leaves triangles in 1 of 12 cases (domain11): ";
+  for (const auto print : {to_markdown, to_json}) {
+    const std::string table = print(outcome.table), pairs = print(outcome.pairs);
+    EXPECT_TRUE(says(table, g + "there it does not compete in measures of quads")) << table;
+    EXPECT_TRUE(says(table, h + "there it does not compete")) << table;
+    EXPECT_TRUE(says(pairs, g + "no pair with it is compared in measures of quads (eta, d4")) << pairs;
+    EXPECT_TRUE(says(pairs, h + "no pair with it")) << pairs;
+    EXPECT_FALSE(says(table, "A leaves")) << table;
+  }
 }
 
 TEST(Times, OneRunOfEachSaysNothing) {
