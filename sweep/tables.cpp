@@ -45,6 +45,7 @@ class Tabulation {
                              "which the triangles are missing"),
               table);
     note_times();
+    add_notes(quad_count_notes(records_), table);
     note_cells();
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
@@ -147,6 +148,7 @@ class Tabulation {
                              "no pair with it is compared in measures of quads (eta, d4 and the like), from "
                              "which the triangles are missing"),
               outcome_.pairs);
+    add_notes(quad_count_notes(records_), outcome_.pairs);
   }
 
   void note_times() {
