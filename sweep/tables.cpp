@@ -131,11 +131,14 @@ class Tabulation {
     const std::vector<std::string> notes = inference_.marking().notes(family, rows);
     if (notes.empty()) return;
     add_notes(notes, outcome_.table);
-    if (family.counted() > 0)
+    if (inference_.marking().can_prove(family))
       outcome_.table.notes.push_back(
           "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
           "repeated runs. " +
           family.note());
+    if (study_.cases.size() < kFewestDomains)
+      outcome_.table.notes.push_back(fmt::format(
+          "With fewer than {} domains (cases) nothing can be proven over domains.", kFewestDomains));
   }
 
   static void add_notes(const std::vector<std::string>& notes, Table& table) {

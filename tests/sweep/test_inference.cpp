@@ -271,6 +271,23 @@ TEST(Marks, WordsThatLeaveTrianglesDoNotCompeteInMeasuresOfQuads) {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
+TEST(Notes, SayThatFewDomainsProveNothing) {
+  const auto tables_of = [](int domains, int seeds) {
+    return make_tables(make_study({{"A", "B"}, domains, seeds, {"eta_mean"}},
+                                  [](int word, int, int seed) { return word + 0.001 * seed; }));
+  };
+  const std::string few = "fewer than 6 domains (cases) nothing can be proven over domains";
+  const Outcome seeds = tables_of(2, 20), cases = tables_of(12, 1), nothing = tables_of(3, 4);
+  EXPECT_TRUE(says(to_markdown(seeds.table), "Proven: ")) << "of single cases";
+  EXPECT_TRUE(says(to_markdown(seeds.table), few));
+  EXPECT_FALSE(says(to_markdown(seeds.pairs), "Holm")) << to_markdown(seeds.pairs);
+  EXPECT_TRUE(says(to_markdown(cases.pairs), "Corrected (Holm) over 1 test,")) << to_markdown(cases.pairs);
+  EXPECT_FALSE(says(to_markdown(cases.table), "Proven: ")) << "in the pairs alone";
+  EXPECT_FALSE(says(to_markdown(cases.table), few));
+  EXPECT_FALSE(says(to_markdown(nothing.table), "Holm"));
+  EXPECT_TRUE(says(to_markdown(nothing.table), few));
+}
+
 TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
   StudyResults results = make_study({{"A", "B", "G", "H"}, 12, 2, {"eta_mean", "tau"}},
                                     [](int word, int, int seed) { return word + 0.001 * seed; });
