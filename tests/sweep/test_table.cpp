@@ -90,6 +90,32 @@ TEST(Tables, WideOnesAreBrokenIntoTabularsOverTheSameRows) {
   for (int k = 0; k < 20; ++k) EXPECT_TRUE(holds(text, "column " + std::to_string(k) + " ")) << k;
 }
 
+/// A tabular would run off the page, and in a float it would do so without a word.
+TEST(Tables, LongOnesGoOverPagesInTex) {
+  Table table = example();
+  while (table.rows.size() < 40) table.rows.push_back(table.rows[0]);
+  EXPECT_FALSE(holds(to_tex(table), "longtable"));
+  table.rows.push_back(table.rows[0]);
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text,
+                    "\\begin{longtable}[l]{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d4 "
+                    "\\\\\n\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "not in a float, with booktabs and longtable")) << text;
+  EXPECT_FALSE(holds(text, "{tabular}")) << text;
+}
+
+TEST(Tables, WordsOfNotesAreNotBrokenInTex) {
+  Table table = example();
+  table.notes = {"Wilcoxon's signed-rank test over administratively-named (see `a_b`) seeds.",
+                 "/home/of/somebody/with/a_long/path/to/the/model.step is missing"};
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text, "Wilcoxon's signed-rank test over administratively-named (see `a\\_b`) seeds."))
+      << text;
+  EXPECT_TRUE(holds(text, "/\\allowbreak{}home/\\allowbreak{}of/\\allowbreak{}somebody/")) << text;
+  EXPECT_TRUE(holds(text, " is missing")) << text;
+}
+
 TEST(Tables, JsonHoldsValuesAndReasons) {
   const std::string text = to_json(example());
   EXPECT_TRUE(holds(text, "\"difference\": {")) << text;
