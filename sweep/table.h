@@ -65,8 +65,8 @@ struct TableFormat {
 const std::vector<TableFormat>& table_formats();
 
 /// A cell of ours with a published counterpart reads "ours (published, difference)". Values that have a
-/// half-width are shown with two significant digits of it; where that leaves the range of the column, the ends
-/// of what the range leaves of the interval stand in its place.
+/// half-width are shown with two significant digits of it; where that leaves the range of the column, the
+/// ends of what the range leaves of the interval stand in its place.
 std::string to_markdown(const Table& table);
 /// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
 /// the notes below them. More than 40 rows go over pages, by longtable.
