@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <ostream>
 
@@ -20,6 +21,9 @@ namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// In place of a family.
+constexpr const char* kAll = "all";
 
 /// What a program made of the cases, by their names.
 struct Program {
@@ -40,7 +44,8 @@ std::vector<fs::path> result_folders(const fs::path& results) {
   return folders;
 }
 
-/// Whether a peer that may be absent is absent here: there is nothing to rank.
+/// Whether all of its cells are not applicable, as those of a peer that is absent here: there is nothing to
+/// rank.
 bool is_absent(const Program& program) {
   return !program.records.empty() && std::ranges::all_of(program.records, [](const auto& record) {
     return record.second.kind == kNotApplicable;
@@ -61,7 +66,6 @@ std::vector<Program> read_programs(const fs::path& results) {
         if (record.pipeline == name) programs.back().records[record.name] = std::move(record);
     }
   }
-  std::erase_if(programs, is_absent);
   return programs;
 }
 
@@ -116,7 +120,7 @@ TableRow row_of(const Program& program, const SuiteFamily* family) {
     }
   }
   TableRow row;
-  row.group = family != nullptr ? name_of(*family) : "all";
+  row.group = family != nullptr ? name_of(*family) : kAll;
   row.name = program.name;
   row.values = sums.values();
   return row;
@@ -129,10 +133,24 @@ void add_rows(const std::vector<Program>& programs, const SuiteFamily* family, T
   table.rows.insert(table.rows.end(), rows.begin(), rows.end());
 }
 
+/// A row below those that are ranked, and a note with the reason.
+void add_absent(const Program& program, Table& table) {
+  TableRow row;
+  row.group = kAll;
+  row.name = program.name;
+  row.skipped = kNotApplicable;
+  table.rows.push_back(std::move(row));
+  table.notes.push_back(
+      fmt::format("{} is not applicable: {}", program.name, program.records.begin()->second.reason));
+}
+
 }  // namespace
 
 Table rank_programs(const fs::path& results) {
-  const std::vector<Program> programs = read_programs(results);
+  std::vector<Program> programs = read_programs(results);
+  const auto absent = std::ranges::stable_partition(programs, std::not_fn(is_absent));
+  const std::vector<Program> not_ranked(absent.begin(), absent.end());
+  programs.erase(absent.begin(), absent.end());
   Table table;
   table.title = suite_title() + ", ranked";
   table.group_title = "family";
@@ -143,13 +161,15 @@ Table rank_programs(const fs::path& results) {
                    {"eta_mean", "eta mean", 3}, {"d4", "d4", 1},
                    {"tau", "tau", 1},           {"seconds_total", "CPU s", 1}};
   add_rows(programs, nullptr, table);
+  for (const Program& program : not_ranked) add_absent(program, table);
   for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
     add_rows(programs, &family, table);
-  table.notes = {
+  const std::vector<std::string> legend = {
       "score: mean over all cases of mean eta x tau x share of quads, 0 for a case without a sound mesh, in "
       "percent",
       "solved: sound and quads only; failed: no mesh, or one that is not sound or not of its model",
       "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known"};
+  table.notes.insert(table.notes.begin(), legend.begin(), legend.end());
   return table;
 }
 

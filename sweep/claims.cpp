@@ -49,6 +49,9 @@ void ClaimFamily::decide() {
 
 std::string ClaimFamily::note() const {
   if (tests_.empty()) return "Nothing is tested: that takes several seeds or domains.";
+  if (counted_ == 0)
+    return fmt::format("Nothing can be proven: {} test{}, with too few samples.", tests_.size(),
+                       tests_.size() == 1 ? "" : "s");
   std::string text = fmt::format(
       "Corrected (Holm) over {} test{}, which are all of this study that could prove a difference at 5 %",
       counted_, counted_ == 1 ? "" : "s");

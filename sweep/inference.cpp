@@ -59,6 +59,15 @@ std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::
   return measures;
 }
 
+/// What no value of a measure of the project's own can leave.
+Interval range_of(const std::string& key) {
+  if (key.starts_with("eta_")) return {0, 1};
+  if (key.starts_with("scaled_jacobian_")) return {-1, 1};
+  static const std::vector<std::string> percentages = {"d4", "tau", kTauGiven, "percent_quads"};
+  if (std::ranges::find(percentages, key) != percentages.end()) return {0, 100};
+  return TableColumn().range;
+}
+
 void add_times(const StudyFile& study, std::vector<TableColumn>& columns) {
   const bool repeated = study.repeat_times > 0;
   if (study.step_times)
@@ -93,6 +102,8 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
     for (const StepTime& step : step_times_of_tables())
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});
   }
+  for (TableColumn& column : columns)
+    if (find_metric(column.key) != nullptr) column.range = range_of(column.key);
   return columns;
 }
 

@@ -52,11 +52,18 @@ RankTest Marking::test(const TestedMeasure& measure, std::size_t first, std::siz
   return wilcoxon(pair_by_run(samples_[first].done, samples_[second].done, key));
 }
 
+bool Marking::can_prove(const ClaimFamily& family, const Contest& contest) {
+  return std::ranges::any_of(contest.duels,
+                             [&](const Duel& d) { return family.finding(d.test) != Finding::kTooFew; });
+}
+
+bool Marking::can_prove(const ClaimFamily& family) const {
+  return std::ranges::any_of(contests_, [&](const Contest& c) { return can_prove(family, c); });
+}
+
 void Marking::mark(const ClaimFamily& family, std::span<TableRow> rows) const {
   for (const Contest& contest : contests_) {
-    if (std::ranges::all_of(contest.duels,
-                            [&](const Duel& d) { return family.finding(d.test) == Finding::kTooFew; }))
-      continue;
+    if (!can_prove(family, contest)) continue;
     const auto [low, high] = std::ranges::minmax_element(contest.values);
     if (*low == *high) continue;
     std::size_t best = 0;
@@ -77,17 +84,12 @@ void Marking::mark(const ClaimFamily& family, std::span<TableRow> rows) const {
 
 std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<const TableRow> rows) const {
   if (contests_.empty()) return {};
-  bool best = false, as_good = false, too_few = false, mixed = false, single = true;
+  bool best = false, as_good = false, single = true;
   for (const TableRow& row : rows)
     for (const auto& [key, mark] : row.marks) (mark == Mark::kBest ? best : as_good) = true;
-  for (const Contest& contest : contests_)
-    too_few = too_few || std::ranges::all_of(contest.duels, [&](const Duel& d) {
-                return family.finding(d.test) == Finding::kTooFew;
-              });
-  for (const Samples& row : samples_) {
-    single = single && row.done.size() < 2;
-    mixed = mixed || std::ranges::any_of(row.done, [](const CellRecord* r) { return leaves_triangles(*r); });
-  }
+  const bool too_few =
+      std::ranges::any_of(contests_, [&](const Contest& c) { return !can_prove(family, c); });
+  for (const Samples& row : samples_) single = single && row.done.size() < 2;
   std::vector<std::string> notes;
   if (best) notes.push_back("Bold: proven to be the best of its group, at 5 %.");
   if (as_good) notes.push_back("~: the best of its group, or not proven to be worse than it.");
@@ -97,10 +99,6 @@ std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<con
         "little. Nothing is marked as the best; that takes several seeds.");
   else if (too_few)
     notes.push_back("Where nothing is marked, all are alike or there are too few seeds to tell.");
-  if (mixed)
-    notes.push_back(
-        "Words that leave triangles do not compete in measures of quads (eta, d4 and the like), "
-        "from which the triangles are missing.");
   return notes;
 }
 

@@ -32,6 +32,8 @@ class Marking {
   /// better than every rival; else it and what is not proven to be worse are marked as good; nothing is
   /// marked where there were too few runs to tell anything.
   void mark(const ClaimFamily& family, std::span<TableRow> rows) const;
+  /// Whether any of its tests could prove a difference.
+  bool can_prove(const ClaimFamily& family) const;
   /// For people: what the marks of these rows mean, and why there are none.
   std::vector<std::string> notes(const ClaimFamily& family, std::span<const TableRow> rows) const;
 
@@ -49,6 +51,7 @@ class Marking {
     std::vector<Duel> duels;
   };
 
+  static bool can_prove(const ClaimFamily& family, const Contest& contest);
   void add_group(std::size_t first, std::size_t last, const TestedMeasure& measure, ClaimFamily& family);
   RankTest test(const TestedMeasure& measure, std::size_t first, std::size_t second) const;
 

@@ -96,21 +96,16 @@ Table pairs_table(const std::string& title, const std::vector<PairComparison>& p
                    {"p_corrected", "p corrected", 4},
                    {"first_is", "first is", 0}};
   table.shown = {"domains", "runs", "better", "worse", "effect", "p", "p_corrected", "first_is"};
-  bool few = false, enough = false;
-  for (const PairComparison& pair : pairs) {
-    table.rows.push_back(row_of(pair, family));
-    const bool is_small = pair.domains.names.size() < kFewestDomains;
-    few = few || is_small;
-    enough = enough || !is_small;
-  }
+  const auto has_few = [](const PairComparison& pair) { return pair.domains.names.size() < kFewestDomains; };
+  for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family));
   if (pairs.empty()) return table;
   table.notes = {
       "First minus second, averaged over the seeds and variants of each domain (case); domains are the "
       "sample. Better, worse: on how many of them the first is. Difference: the mean of the domains, "
       "with its 95 % bootstrap interval (percentiles of 2000 resamples of domains, then seeds).",
       "p: Wilcoxon's signed-rank test over the domains, two-sided." +
-          (enough ? " " + family.note() : std::string())};
-  if (few)
+          (std::ranges::all_of(pairs, has_few) ? "" : " " + family.note())};
+  if (std::ranges::any_of(pairs, has_few))
     table.notes.push_back(fmt::format("With fewer than {} domains nothing can be proven.", kFewestDomains));
   return table;
 }

@@ -145,8 +145,11 @@ nlohmann::ordered_json json_without_rows(const Table& table) {
                {"columns", Json::array()},
                {"rows", Json::array()},
                {"notes", table.notes}};
-  for (const TableColumn& column : table.columns)
+  for (const TableColumn& column : table.columns) {
     json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
+    if (std::isfinite(column.range.low) && std::isfinite(column.range.high))
+      json["columns"].back()["range"] = {column.range.low, column.range.high};
+  }
   return json;
 }
 
@@ -234,8 +237,11 @@ Table read_table(const std::filesystem::path& file) {
     table.group_title = json.at("heads").at(0);
     table.name_title = json.at("heads").at(1);
     json.at("notes").get_to(table.notes);
-    for (const Json& column : json.at("columns"))
+    for (const Json& column : json.at("columns")) {
       table.columns.push_back({column.at("key"), column.at("title"), column.at("digits")});
+      if (column.contains("range"))
+        table.columns.back().range = {column["range"].at(0), column["range"].at(1)};
+    }
     for (const Json& line : json.at("rows")) {
       TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};
       if (line.at("status") != "ok")

@@ -1,17 +1,21 @@
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "sweep/bootstrap.h"
+
 namespace delquad {
 
 struct TableColumn {
-  std::string key;    ///< in CSV and JSON
-  std::string title;  ///< for people
-  int digits = 0;     ///< after the decimal point
+  std::string key;                         ///< in CSV and JSON
+  std::string title;                       ///< for people
+  int digits = 0;                          ///< after the decimal point
+  Interval range = {-HUGE_VAL, HUGE_VAL};  ///< that no value leaves
 };
 
 enum class Mark {
@@ -61,10 +65,11 @@ struct TableFormat {
 const std::vector<TableFormat>& table_formats();
 
 /// A cell of ours with a published counterpart reads "ours (published, difference)". Values that have a
-/// half-width are shown with two significant digits of it.
+/// half-width are shown with two significant digits of it; where that leaves the range of the column, the
+/// ends of what the range leaves of the interval stand in its place.
 std::string to_markdown(const Table& table);
 /// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
-/// the notes below them.
+/// the notes below them. More than 40 rows go over pages, by longtable.
 std::string to_tex(const Table& table);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);

@@ -18,6 +18,8 @@ constexpr double kBold = 1.15;        ///< times as wide
 constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
 constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
+constexpr std::size_t kLongestWord = 30;   ///< characters of a note without one
+constexpr std::size_t kMostRows = 40;      ///< that fit on a page, with head and notes
 
 /// The next character of UTF-8 and its bytes; U+FFFD for what is none.
 std::pair<char32_t, std::size_t> decode(std::string_view text) {
@@ -112,8 +114,9 @@ double width_of(const std::string& text) {
   return kFigure * figures * (is_bold ? kBold : 1);
 }
 
-/// With places where a long name may be broken: after what is no letter or figure, and in long words.
-std::string breakable(const std::string& text) {
+/// With places where a long name may be broken: after what is no letter or figure, and in words of more than
+/// `longest` characters.
+std::string breakable(const std::string& text, std::size_t longest) {
   std::string result;
   std::size_t piece = 0;
   for (std::size_t i = 0; i < text.size();) {
@@ -131,11 +134,22 @@ std::string breakable(const std::string& text) {
     while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
     const bool plain = std::isalnum(static_cast<unsigned char>(text[i])) != 0;
     result += text.substr(i, end - i);
-    if (text[i] != ' ' && (!plain || ++piece == kLongestPiece)) {
+    if (text[i] != ' ' && (!plain || ++piece == longest)) {
       result += "\\allowbreak{}";
       piece = 0;
     }
     i = end;
+  }
+  return result;
+}
+
+/// Only what is too long for a word, such as a path, may be broken anywhere but at spaces.
+std::string breakable_note(const std::string& note) {
+  std::string result;
+  for (std::size_t begin = 0, end; begin <= note.size(); begin = end + 1) {
+    end = std::min(note.find(' ', begin), note.size());
+    const std::string word = note.substr(begin, end - begin);
+    result += (begin > 0 ? " " : "") + (word.size() > kLongestWord ? breakable(word, kLongestWord) : word);
   }
   return result;
 }
@@ -165,14 +179,15 @@ class TexTable {
 
   std::string text() const {
     std::string text = fmt::format(
-        "% {}\n% Set at 8 points; to be input between paragraphs or in a float, with "
-        "booktabs.\n\\begingroup\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}%\n",
-        in_one_line(title_));
+        "% {}\n% Set at 8 points; to be input between paragraphs{}.\n"
+        "\\begingroup\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}%\n",
+        in_one_line(title_),
+        is_long() ? ", not in a float, with booktabs and longtable" : " or in a float, with booktabs");
     for (const Block& block : blocks()) text += tabular(block) + "\\par\\medskip\n";
     if (!rendered_.notes.empty()) {
       text += "{\\raggedright\n";
       for (const std::string& note : rendered_.notes)
-        text += fmt::format("\\noindent {}\\par\n", breakable(tex_escaped(in_one_line(note))));
+        text += fmt::format("\\noindent {}\\par\n", breakable_note(tex_escaped(in_one_line(note))));
       text += "}\n";
     }
     return text + "\\endgroup\n";
@@ -196,7 +211,7 @@ class TexTable {
   }
 
   std::string name(std::size_t k, const std::string& text) const {
-    return broken_[k] ? breakable(text) : text;
+    return broken_[k] ? breakable(text, kLongestPiece) : text;
   }
 
   std::string line(const RenderedTable::Line& line, const Block& block) const {
@@ -213,13 +228,17 @@ class TexTable {
     return text + " \\\\\n";
   }
 
+  bool is_long() const { return rendered_.lines.size() > kMostRows; }
+
+  /// One that is long runs over pages, with its head on each of them.
   std::string tabular(const Block& block) const {
-    std::string text = "\\noindent\\begin{tabular}{@{}";
+    std::string text = is_long() ? "\\begin{longtable}[l]{@{}" : "\\noindent\\begin{tabular}{@{}";
     for (std::size_t k = 0; k < 2; ++k) text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
     text += std::string(block.last - block.first, 'r') + "@{}}\n\\toprule\n" + line(rendered_.head, block) +
             "\\midrule\n";
+    if (is_long()) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
     for (const auto& l : rendered_.lines) text += line(l, block);
-    return text + "\\bottomrule\n\\end{tabular}";
+    return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");
   }
 
   std::string title_;

@@ -11,10 +11,10 @@
 #include "io/mesh_io.h"
 #include "sweep/calibration_notes.h"
 #include "sweep/cell_text.h"
-#include "sweep/fairness_notes.h"
 #include "sweep/inference.h"
 #include "sweep/statistics.h"
 #include "sweep/times.h"
+#include "sweep/triangle_notes.h"
 
 namespace delquad {
 namespace {
@@ -40,15 +40,17 @@ class Tabulation {
     const auto rows = std::span(table.rows).subspan(first);
     inference_.marking().mark(inference_.family(), rows);
     note_claims(rows);
+    add_notes(triangle_notes(records_,
+                             "there it does not compete in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              table);
     note_times();
+    add_notes(quad_count_notes(records_), table);
     note_cells();
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
-    for (const std::string& note : fairness_notes(records_)) {
-      table.notes.push_back(note);
-      if (!outcome_.pairs.rows.empty()) outcome_.pairs.notes.push_back(note);
-    }
+    note_pairs();
     return std::move(outcome_);
   }
 
@@ -128,12 +130,28 @@ class Tabulation {
     const ClaimFamily& family = inference_.family();
     const std::vector<std::string> notes = inference_.marking().notes(family, rows);
     if (notes.empty()) return;
-    outcome_.table.notes.insert(outcome_.table.notes.end(), notes.begin(), notes.end());
-    if (family.counted() > 0)
+    add_notes(notes, outcome_.table);
+    if (inference_.marking().can_prove(family))
       outcome_.table.notes.push_back(
           "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
           "repeated runs. " +
           family.note());
+    if (study_.cases.size() < kFewestDomains)
+      outcome_.table.notes.push_back(fmt::format(
+          "With fewer than {} domains (cases) nothing can be proven over domains.", kFewestDomains));
+  }
+
+  static void add_notes(const std::vector<std::string>& notes, Table& table) {
+    table.notes.insert(table.notes.end(), notes.begin(), notes.end());
+  }
+
+  /// What pairs lack, and why.
+  void note_pairs() {
+    add_notes(triangle_notes(records_,
+                             "no pair with it is compared in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              outcome_.pairs);
+    add_notes(quad_count_notes(records_), outcome_.pairs);
   }
 
   void note_times() {

@@ -38,9 +38,9 @@ const kMeansOf = ["n_quads", "eta_worst", "eta_mean", "d4", "tau", "seconds"];
 /// Means over the seeds, a row for each word.
 function meansNode(means, columns) {
   const shown = columns.filter(({ key }) => kMeansOf.includes(key) && means.some((m) => key in m.values));
-  const cell = (line, { key, digits }) => {
+  const cell = (line, { key, digits, range }) => {
     if (!(key in line.values)) return el("td", {}, "\u2013");
-    const [value, around] = shownNumber(line.values[key], line.half_widths[key], digits);
+    const [value, around] = shownNumber(line.values[key], line.half_widths[key], digits, range);
     return el("td", {}, value, around ? el("span", { class: "beside" }, around) : null);
   };
   return el("div", { class: "scroll means", tabindex: 0, role: "region", "aria-label": "Means over the seeds" }, el("table", {}, el("thead", {}, el("tr", {}, ["mean of", "seeds", ...shown.map((c) => c.title)].map((t) => el("th", { scope: "col" }, t)))),

@@ -1,15 +1,25 @@
 // Tables that can be sorted, filtered, saved and printed whole.
 
-/// With as many digits as the interval leaves certain: two of its half-width; else those of the column.
+/// With as many digits as the interval leaves certain: two of its half-width; else, and where that is next to nothing, those of the column.
 function shownDigits(half, digits) {
-  if (!(half > 0) || half === Infinity) return digits;
-  return Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(half))));
+  const most = Math.max(6, digits + 3);
+  if (!(half >= 0.5 * 10 ** -most) || half === Infinity) return digits;
+  return Math.min(most, Math.max(0, 1 - Math.floor(Math.log10(half))));
+}
+
+/// What stands beside a mean: half the width of its interval, or the ends of what the range of the measure leaves of it.
+function shownSpread(value, half, places, [low, high]) {
+  const unit = 10 ** -places;
+  if (half > 0 && half < unit / 2) return `\u00b1 < ${fixed(unit, places)}`;
+  const leaves = value >= low && value <= high && (value - half < low || value + half > high);
+  if (!leaves) return `\u00b1 ${fixed(half, places)}`;
+  return `[${fixed(Math.max(value - half, low), places)}, ${fixed(Math.min(value + half, high), places)}]`;
 }
 
 /// Text of a number and of its half-width, if any.
-function shownNumber(value, half, digits) {
+function shownNumber(value, half, digits, range = [-Infinity, Infinity]) {
   const places = shownDigits(half, digits);
-  return [fixed(value, places), half === undefined ? null : `\u00b1 ${fixed(half, places)}`];
+  return [fixed(value, places), half === undefined ? null : shownSpread(value, half, places, range)];
 }
 
 const byText = (a, b) => a.localeCompare(b, "en", { numeric: true });
@@ -103,10 +113,10 @@ class TableView {
       return [el("td", { colspan: columns.length, class: `reason ${row.failure ? "failed" : "skipped"}` }, row.failure ? `failed: ${row.failure}` : `skipped: ${row.skipped}`)];
     return columns.map((column) => this.cell(row, column));
   }
-  cell(row, { key, digits }) {
+  cell(row, { key, digits, range }) {
     const ours = row.values[key], published = row.published[key];
     const stands = row.texts && row.texts[key];  // for a value, as the table's own files have it
-    const [text, around] = stands ? [stands, null] : ours === undefined ? ["\u2013", null] : shownNumber(ours, row.half_widths[key], digits);
+    const [text, around] = stands ? [stands, null] : ours === undefined ? ["\u2013", null] : shownNumber(ours, row.half_widths[key], digits, range);
     const content = (row.marks[key] === "as good" ? "~" : "") + text;
     const beside = published === undefined ? null : el("span", { class: "beside" },
       ours === undefined ? `published ${published}` : `${published}, ${ours >= published ? "+" : ""}${fixed(ours - published, digits)}`);

@@ -75,6 +75,27 @@ TEST(Latex, DefaultColumnsFitAPage) {
   EXPECT_EQ(to_tex(outcome.table).find("scriptsize"), std::string::npos);
 }
 
+TEST(Latex, LongTablesBreakOverPages) {
+  if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
+  const TemporaryFolder folder;
+  Table table;
+  table.title = "Long";
+  table.columns = {{"eta_mean", "eta mean", 3}, {"d4", "d4", 1}};
+  for (int k = 0; k < 120; ++k)
+    table.rows.push_back(
+        {"case_" + std::to_string(k / 3), "DB", {{"eta_mean", 0.5}, {"d4", 80}}, {}, "", ""});
+  table.notes = {
+      "/home/of/somebody/with/a_long/path/that/goes/on/and/on/for_more/than/a/line/of/text/is/"
+      "wide/to/the/model.step is missing"};
+  write_text(folder / "table.tex", to_tex(table));
+  write_text(
+      folder / "t.tex",
+      "\\documentclass[a4paper]{article}\\usepackage{booktabs,longtable}\\begin{document}\nBefore it.\n\n"
+      "\\input{table}\n\\end{document}\n");
+  EXPECT_EQ(compile(folder.path(), "t.tex"), "");
+  EXPECT_NE(read_text(folder / "t.log").find("t.pdf (3 pages"), std::string::npos);
+}
+
 TEST(Latex, TextsThatMeanSomethingToIt) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   const TemporaryFolder folder;

@@ -78,7 +78,7 @@ TEST(Ranking, CountsWhatIsMissingAsFailed) {
   EXPECT_FALSE(table.rows[5].values.contains("eta_mean"));
 }
 
-TEST(Ranking, LeavesOutWhatIsNotInstalled) {
+TEST(Ranking, ShowsWhatIsNotInstalledWithoutARank) {
   const TemporaryFolder folder;
   write_study_of(folder / "a", "absent", suite_title());
   write_study_of(folder / "b", "failing", suite_title());
@@ -87,8 +87,12 @@ TEST(Ranking, LeavesOutWhatIsNotInstalled) {
   write_cell(folder / "b", "gear_1", "failing",
              {{"status", "failed"}, {"kind", "peer"}, {"reason", "crashed"}});
   const Table table = rank_programs(folder.path());
-  ASSERT_EQ(table.rows.size(), 4u);
-  for (const TableRow& row : table.rows) EXPECT_EQ(row.name, "failing");
+  ASSERT_EQ(table.rows.size(), 5u);
+  for (const TableRow& row : table.rows) EXPECT_EQ(row.name == "absent", row.skipped == "not applicable");
+  EXPECT_EQ(table.rows[1].group, "all");
+  EXPECT_EQ(table.rows[1].name, "absent");
+  EXPECT_EQ(table.notes.back(), "absent is not applicable: not installed");
+  EXPECT_NE(to_csv(table).find("all,absent,not applicable,"), std::string::npos) << to_csv(table);
 }
 
 TEST(Ranking, RefusesResultsOfSomethingElse) {

@@ -5,7 +5,6 @@
 #include "mesher/prepare.h"
 #include "sweep/calibration.h"
 #include "sweep/calibration_notes.h"
-#include "sweep/fairness_notes.h"
 #include "sweep/peer_reference.h"
 #include "tests/support/temporary_folder.h"
 
@@ -103,52 +102,70 @@ TEST(ReferenceQuads, AreThoseOfAValidRecord) {
   EXPECT_EQ(quads(R"({"key": "abc", "status": "failed", "reason": "no"})"), std::nullopt);
 }
 
-CellRecord calibrated(const CalibrationRecord& calibration) {
+CellRecord calibrated(const CalibrationRecord& calibration, const std::string& seed = "") {
   CellRecord record;
   record.name = "plate";
   record.pipeline = "other";
   record.calibration = calibration;
+  if (!seed.empty()) record.variant = {{"seed", seed}};
   return record;
 }
 
-TEST(CalibrationNotes, SayTheWorstOfTheCells) {
-  const auto note = [](const std::vector<CellRecord>& records) { return calibration_notes(records).at(0); };
-  EXPECT_EQ(note({calibrated({"DB", 1.08, 100, 100.5, 2}), calibrated({"DB", 1.1, 100, 99.5, 2})}),
-            "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %");
-  CellRecord one = calibrated({"DB", 1, 100, 104, 8});
-  one.group = "plate@seed=2";
-  EXPECT_EQ(note({one}), "plate other: size times 1, and yet 4 % more quads than DB after 8 runs");
-  EXPECT_EQ(note({calibrated({"DB", 1, 100, 100, 1}), one}),
-            "plate other: size times 1; 1 % missed in 1 of 2 cells, at worst 4 % more quads than DB after 8 "
-            "runs (seed=2)");
-  EXPECT_EQ(note({calibrated({"DB", 1, 0, 0, 1})}),
-            "plate other: size as given, for DB has no mesh to compare with");
+TEST(CalibrationNotes, SayHowCloseTheNumberCame) {
+  EXPECT_EQ(
+      calibration_notes({calibrated({"DB", 1.08, 100, 100.5, 2}), calibrated({"DB", 1.1, 100, 99.5, 2})}),
+      (std::vector<std::string>{
+          "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
+  EXPECT_EQ(
+      calibration_notes({calibrated({"DB", 1, 100, 104, 8})}),
+      (std::vector<std::string>{"plate other: size times 1, and yet 4 % more quads than DB after 8 runs"}));
+  EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 0, 0, 1})}),
+            (std::vector<std::string>{"plate other: size as given, for DB has no mesh to compare with"}));
 }
 
-CellRecord mesh_of(const std::string& name, const std::string& pipeline, double quads, double triangles) {
-  CellRecord record;
-  record.name = record.group = name;
-  record.pipeline = pipeline;
-  record.values = {{"n_quads", quads}, {"n_triangles", triangles}};
-  return record;
+/// Tables show means over the seeds: one of them being off is not all of them being off.
+TEST(CalibrationNotes, SayInHowManySeedsItWasMissed) {
+  std::vector<CellRecord> cells = {
+      calibrated({"DB", 1, 10000, 10000, 1}, "1"), calibrated({"DB", 1, 10000, 9497, 8}, "2"),
+      calibrated({"DB", 1, 10000, 10050, 1}, "3"), calibrated({"DB", 1.1, 10000, 10200, 8}, "4")};
+  EXPECT_EQ(calibration_notes(cells),
+            (std::vector<std::string>{"plate other: size times 1 to 1.1 for DB's number of quads; 1 % missed "
+                                      "in 2 of 4 seeds, by 5.03 % at most (seed 2, fewer quads)"}));
+  for (CellRecord& cell : cells) cell.variant.insert(cell.variant.begin(), {"size", "0.1"});
+  EXPECT_NE(calibration_notes(cells)[0].find("in 2 of 4 runs, by 5.03 % at most (size=0.1, seed=2, fewer"),
+            std::string::npos)
+      << calibration_notes(cells)[0];
 }
 
-TEST(FairnessNotes, SayWhatIsNotComparedLikeWithLike) {
-  std::vector<CellRecord> records = {mesh_of("a", "DB", 100, 0),    mesh_of("b", "DB", 100, 0),
-                                     mesh_of("a", "FB", 103, 0),    mesh_of("b", "FB", 117, 0),
-                                     mesh_of("a", "other", 100, 4), mesh_of("b", "other", 100, 0)};
-  const std::string triangles =
-      "other leaves triangles in 1 case (a): it is not compared with others in measures of quads (eta, d4 "
-      "and "
-      "the like)";
-  EXPECT_EQ(fairness_notes(records), std::vector<std::string>{triangles}) << "nothing was calibrated";
-  for (std::size_t i : {4, 5}) records[i].calibration = CalibrationRecord{"DB", 1, 100, 100, 1};
-  EXPECT_EQ(fairness_notes(records),
+/// Records of a word on cases, with these numbers of quads.
+void add_cells(const std::string& word, const std::vector<double>& quads, std::vector<CellRecord>& records) {
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    CellRecord record;
+    record.name = record.group = "case" + std::to_string(i);
+    record.pipeline = word;
+    record.values = {{"n_quads", quads[i]}, {"n_triangles", 0}};
+    records.push_back(record);
+  }
+}
+
+/// Only peers are brought to the word's number: the study's other words have their own.
+TEST(QuadCountNotes, SayHowMuchTheOtherWordsDiffer) {
+  std::vector<CellRecord> records;
+  add_cells("FB", {103, 117}, records);
+  add_cells("DBCO", {100, 100}, records);
+  EXPECT_TRUE(quad_count_notes(records).empty());
+  add_cells("few", {98, 95}, records);
+  add_cells("both", {98, 110}, records);
+  add_cells("alike", {100.5, 99.5}, records);
+  add_cells("peer", {101, 120}, records);
+  for (std::size_t i = records.size() - 2; i < records.size(); ++i)
+    records[i].calibration = CalibrationRecord{"DBCO", 1, 100, 101, 2};
+  EXPECT_EQ(quad_count_notes(records),
             (std::vector<std::string>{
-                triangles,
-                "FB has 3 % more to 17 % more quads than DB, to whose number the other meshers were "
-                "brought"}));
-  EXPECT_TRUE(fairness_notes({records[0], records[1]}).empty());
+                "Calibrated, by their sizes, to DBCO's number of quads: peer",
+                "FB has 3 % to 17 % more quads than DBCO, to which the others were brought",
+                "few has 2 % to 5 % fewer quads than DBCO, to which the others were brought",
+                "both has from 2 % fewer to 10 % more quads than DBCO, to which the others were brought"}));
 }
 
 }  // namespace

@@ -267,7 +267,46 @@ TEST(Marks, WordsThatLeaveTrianglesDoNotCompeteInMeasuresOfQuads) {
   EXPECT_EQ(outcome.table.rows[2].marks.at("tau"), Mark::kBest);
   for (const TableRow& row : outcome.pairs.rows)
     EXPECT_FALSE(row.group.find('G') != row.group.npos && row.name == "eta mean") << row.group;
-  EXPECT_NE(to_markdown(outcome.table).find("Words that leave triangles"), std::string::npos);
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(Notes, SayThatFewDomainsProveNothing) {
+  const auto tables_of = [](int domains, int seeds) {
+    return make_tables(make_study({{"A", "B"}, domains, seeds, {"eta_mean"}},
+                                  [](int word, int, int seed) { return word + 0.001 * seed; }));
+  };
+  const std::string few = "fewer than 6 domains (cases) nothing can be proven over domains";
+  const Outcome seeds = tables_of(2, 20), cases = tables_of(12, 1), nothing = tables_of(3, 4);
+  EXPECT_TRUE(says(to_markdown(seeds.table), "Proven: ")) << "of single cases";
+  EXPECT_TRUE(says(to_markdown(seeds.table), few));
+  EXPECT_FALSE(says(to_markdown(seeds.pairs), "Holm")) << to_markdown(seeds.pairs);
+  EXPECT_TRUE(says(to_markdown(cases.pairs), "Corrected (Holm) over 1 test,")) << to_markdown(cases.pairs);
+  EXPECT_FALSE(says(to_markdown(cases.table), "Proven: ")) << "in the pairs alone";
+  EXPECT_FALSE(says(to_markdown(cases.table), few));
+  EXPECT_FALSE(says(to_markdown(nothing.table), "Holm"));
+  EXPECT_TRUE(says(to_markdown(nothing.table), few));
+}
+
+TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
+  StudyResults results = make_study({{"A", "B", "G", "H"}, 12, 2, {"eta_mean", "tau"}},
+                                    [](int word, int, int seed) { return word + 0.001 * seed; });
+  for (CellRecord& record : results.records) {
+    if (record.pipeline == "G" && record.name.size() == 7) record.values["n_triangles"] = 7;
+    if (record.pipeline == "H" && record.group == "domain11@seed=2") record.values["n_triangles"] = 1;
+  }
+  const Outcome outcome = make_tables(results);
+  const std::string g =
+      "G leaves triangles in 10 of 12 cases (domain0, domain1, domain2, domain3, domain4 and 5 more): ";
+  const std::string h = "H leaves triangles in 1 of 12 cases (domain11): ";
+  for (const auto print : {to_markdown, to_json}) {
+    const std::string table = print(outcome.table), pairs = print(outcome.pairs);
+    EXPECT_TRUE(says(table, g + "there it does not compete in measures of quads")) << table;
+    EXPECT_TRUE(says(table, h + "there it does not compete")) << table;
+    EXPECT_TRUE(says(pairs, g + "no pair with it is compared in measures of quads (eta, d4")) << pairs;
+    EXPECT_TRUE(says(pairs, h + "no pair with it")) << pairs;
+    EXPECT_FALSE(says(table, "A leaves")) << table;
+  }
 }
 
 TEST(Times, OneRunOfEachSaysNothing) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -91,6 +92,10 @@ TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
       to_markdown(outcome.table).find("- square grid: size times 0.8, so that it has DB's number of quads"),
       std::string::npos)
       << to_markdown(outcome.table);
+  for (const Table* table : {&outcome.table, &outcome.pairs})
+    for (const char* note : {"Calibrated, by their sizes, to DB's number of quads: grid",
+                             "plain has 36 % fewer quads than DB, to which the others were brought"})
+      EXPECT_EQ(std::ranges::count(table->notes, note), 1) << table->title;
   EXPECT_TRUE(rerun_record(out() / "square" / "grid" / "record.json").same_mesh);
 }
 

@@ -110,13 +110,28 @@ TEST(CellText, DigitsFollowTheInterval) {
   EXPECT_EQ(decimals_of(4321, 1), 0);
   EXPECT_EQ(decimals_of(0, 3), 3);
   EXPECT_EQ(decimals_of(std::nan(""), 1), 1);
-  EXPECT_EQ(half_width_text(1e-12, decimals_of(1e-12, 3)), "< 0.000000001") << "hidden by no rounding";
+  EXPECT_EQ(half_width_text(1e-12, decimals_of(1e-12, 3)), "< 0.001") << "hidden by no rounding";
+  EXPECT_EQ(decimals_of(3e-6, 3), 6);
+  EXPECT_EQ(half_width_text(3e-6, 6), "0.000003");
+  EXPECT_EQ(decimals_of(3e-12, 12), 13) << "of small measures";
   EXPECT_EQ(interval_text(-0.0001, {-0.04, 0.05}, 4), "0.000 [-0.040, 0.050]");
   EXPECT_EQ(p_text(3e-8), "< 0.0001") << "never 0";
   EXPECT_EQ(p_text(0.0123), "0.0123");
   EXPECT_EQ(seconds_text(0.000785432), "0.000785");
   EXPECT_EQ(seconds_text(12.346), "12.35");
   EXPECT_EQ(interval_text(0.01234, {0.01, 0.0149}, 4), "0.0123 [0.0100, 0.0149]");
+}
+
+/// As toFixed() of JavaScript does: the page shows the same.
+TEST(CellText, HalvesAreRoundedAwayFromZero) {
+  EXPECT_EQ(number_text(160.5, 0), "161");
+  EXPECT_EQ(number_text(161.5, 0), "162");
+  EXPECT_EQ(number_text(-2.5, 0), "-3");
+  EXPECT_EQ(number_text(88.25, 1), "88.3");
+  EXPECT_EQ(number_text(0.0625, 3), "0.063");
+  EXPECT_EQ(number_text(0.15, 1), "0.1") << "which is less than .15";
+  EXPECT_EQ(number_text(2.4999, 0), "2");
+  EXPECT_EQ(number_text(-0.01, 1), "0.0");
 }
 
 /// By trying every choice of signs.

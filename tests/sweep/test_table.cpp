@@ -24,7 +24,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 TEST(Tables, MarkdownShowsPublishedAndDifference) {
   const std::string text = to_markdown(example());
   EXPECT_TRUE(holds(text, "| 0.875 (0.75, +0.125) |")) << text;
-  EXPECT_TRUE(holds(text, "88.2 |")) << text;
+  EXPECT_TRUE(holds(text, "88.3 |")) << text;
   EXPECT_TRUE(holds(text, " - |")) << text;
   EXPECT_TRUE(holds(text, "case\\|2")) << text;
   EXPECT_TRUE(holds(text, " failed |")) << text;
@@ -49,7 +49,7 @@ TEST(Tables, TexIsEscapedBooktabs) {
                     "\\begin{tabular}{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d\\_4 \\% "
                     "\\\\\n\\midrule\n"))
       << text;
-  EXPECT_TRUE(holds(text, "case\\_1 & DB & 0.875 (0.75, +0.125) & 88.2 \\\\\n")) << text;
+  EXPECT_TRUE(holds(text, "case\\_1 & DB & 0.875 (0.75, +0.125) & 88.3 \\\\\n")) << text;
   EXPECT_TRUE(holds(text, "\\bottomrule\n\\end{tabular}")) << text;
 }
 
@@ -90,6 +90,32 @@ TEST(Tables, WideOnesAreBrokenIntoTabularsOverTheSameRows) {
   for (int k = 0; k < 20; ++k) EXPECT_TRUE(holds(text, "column " + std::to_string(k) + " ")) << k;
 }
 
+/// A tabular would run off the page, and in a float it would do so without a word.
+TEST(Tables, LongOnesGoOverPagesInTex) {
+  Table table = example();
+  while (table.rows.size() < 40) table.rows.push_back(table.rows[0]);
+  EXPECT_FALSE(holds(to_tex(table), "longtable"));
+  table.rows.push_back(table.rows[0]);
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text,
+                    "\\begin{longtable}[l]{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d4 "
+                    "\\\\\n\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "not in a float, with booktabs and longtable")) << text;
+  EXPECT_FALSE(holds(text, "{tabular}")) << text;
+}
+
+TEST(Tables, WordsOfNotesAreNotBrokenInTex) {
+  Table table = example();
+  table.notes = {"Wilcoxon's signed-rank test over administratively-named (see `a_b`) seeds.",
+                 "/home/of/somebody/with/a_long/path/to/the/model.step is missing"};
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text, "Wilcoxon's signed-rank test over administratively-named (see `a\\_b`) seeds."))
+      << text;
+  EXPECT_TRUE(holds(text, "/\\allowbreak{}home/\\allowbreak{}of/\\allowbreak{}somebody/")) << text;
+  EXPECT_TRUE(holds(text, " is missing")) << text;
+}
+
 TEST(Tables, JsonHoldsValuesAndReasons) {
   const std::string text = to_json(example());
   EXPECT_TRUE(holds(text, "\"difference\": {")) << text;
@@ -103,13 +129,13 @@ TEST(Tables, MarksAndSpreadsAreShown) {
   table.rows[0].marks["d4"] = Mark::kBest;
   table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
   const std::string markdown = to_markdown(table), tex = to_tex(table), json = to_json(table);
-  EXPECT_TRUE(holds(markdown, "**88.2** ± 1.2 |")) << markdown;
+  EXPECT_TRUE(holds(markdown, "**88.3** ± 1.3 |")) << markdown;
   EXPECT_TRUE(holds(markdown, "~0.500 |")) << markdown;
-  EXPECT_TRUE(holds(tex, "\\textbf{88.2} $\\pm$ 1.2")) << tex;
+  EXPECT_TRUE(holds(tex, "\\textbf{88.3} $\\pm$ 1.3")) << tex;
   EXPECT_TRUE(holds(tex, "$\\sim$0.500")) << tex;
   EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
   EXPECT_TRUE(holds(json, "\"d4\": \"best\"")) << json;
-  EXPECT_TRUE(holds(json, "\"d4\": \"88.2 ± 1.2\"")) << json;
+  EXPECT_TRUE(holds(json, "\"d4\": \"88.3 ± 1.3\"")) << json;
 }
 
 TEST(Tables, RoundingHidesNoInterval) {
@@ -119,6 +145,23 @@ TEST(Tables, RoundingHidesNoInterval) {
   table.rows[0].half_widths["d_max"] = 0.43;
   EXPECT_TRUE(holds(to_markdown(table), "5.38 ± 0.43")) << to_markdown(table);
   EXPECT_TRUE(holds(to_tex(table), "5.38 $\\pm$ 0.43")) << to_tex(table);
+}
+
+TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
+  Table table = example();
+  table.columns[0].range = {0, 1};
+  table.columns[1].range = {0, 100};
+  table.rows[0].half_widths = {{"eta_mean", 0.25}, {"d4", 1.25}};
+  table.rows[1].half_widths = {{"eta_mean", 1e-16}};
+  table.rows[1].values["eta_mean"] = 1;
+  const testing_support::TemporaryFolder folder;
+  const Table read = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
+  for (const std::string& text : {to_markdown(table), to_json(table), to_markdown(read)}) {
+    EXPECT_TRUE(holds(text, "0.88 [0.63, 1.00]")) << text;
+    EXPECT_TRUE(holds(text, "88.3 ± 1.3")) << text;
+    EXPECT_TRUE(holds(text, "1.000 ± < 0.001")) << text;
+  }
+  EXPECT_TRUE(holds(to_csv(table), "0.875,0.25,")) << "has the half-width";
 }
 
 TEST(Tables, JsonCanBeReadAgain) {

@@ -1,0 +1,58 @@
+#include "sweep/triangle_notes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <span>
+
+#include "sweep/samples.h"
+
+namespace delquad {
+namespace {
+
+constexpr std::size_t kMostNamed = 5;
+
+/// The cases on which a word has quads, and those of them on which it leaves triangles.
+struct Cases {
+  std::string word;
+  std::vector<std::string> all, with_triangles;
+};
+
+void add_once(const std::string& name, std::vector<std::string>& names) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+std::vector<Cases> cases_by_word(const std::vector<CellRecord>& records) {
+  std::vector<Cases> words;
+  for (const CellRecord& record : records) {
+    if (!record.reason.empty() || !makes_quads(record)) continue;
+    auto at = std::ranges::find(words, record.pipeline, &Cases::word);
+    if (at == words.end()) at = words.insert(at, {record.pipeline, {}, {}});
+    add_once(record.name, at->all);
+    if (leaves_triangles(record)) add_once(record.name, at->with_triangles);
+  }
+  return words;
+}
+
+std::string named(const std::vector<std::string>& names) {
+  const std::size_t shown = std::min(names.size(), kMostNamed);
+  const std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
+  return shown == names.size() ? text : fmt::format("{} and {} more", text, names.size() - shown);
+}
+
+}  // namespace
+
+std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
+                                        const std::string& consequence) {
+  std::vector<std::string> notes;
+  const std::vector<Cases> words = cases_by_word(records);
+  if (words.size() < 2) return notes;
+  for (const auto& [word, all, with_triangles] : words)
+    if (!with_triangles.empty())
+      notes.push_back(fmt::format("{} leaves triangles in {} of {} cases ({}): {}", word,
+                                  with_triangles.size(), all.size(), named(with_triangles), consequence));
+  return notes;
+}
+
+}  // namespace delquad

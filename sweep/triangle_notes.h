@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sweep/result_records.h"
+
+namespace delquad {
+
+/// For each word that leaves triangles among its quads: on how many of its cases and on which (five at most
+/// by name), then `consequence`.
+std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
+                                        const std::string& consequence);
+
+}  // namespace delquad
