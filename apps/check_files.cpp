@@ -4,7 +4,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "sweep/run_experiment.h"
+#include "sweep/cell_folder.h"
 
 namespace delquad {
 namespace {

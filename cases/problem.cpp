@@ -1,6 +1,9 @@
 #include "cases/problem.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -141,7 +144,9 @@ MeshProblem make_problem(const Case& c) {
   return problem;
 }
 
-void check_formulas(const Case& c) {
+void check_case(const Case& c) {
+  if (const auto& file = model_path(c); !c.may_be_absent && !file.empty() && !std::filesystem::exists(file))
+    throw InputError(fmt::format("{}: case '{}': there is no file '{}'", c.where, c.name, file.string()));
   make_size(c);
   make_cross(c.cross);
 }

@@ -21,9 +21,9 @@ std::string text_of(CrossKind kind);
 /// line.
 MeshProblem make_problem(const Case& c);
 
-/// Throws InputError with file and line where formulas of a case's size or crosses cannot be read, without
-/// its model.
-void check_formulas(const Case& c);
+/// Throws InputError with file and line where the model's file is missing (but for data that cases are
+/// skipped without) or formulas of size or crosses cannot be read: what is known before anything is meshed.
+void check_case(const Case& c);
 
 /// Boundary, background mesh and fields of a case: prepare(make_problem(c)), with the time of reading.
 PreparedProblem prepare_case(const Case& c);

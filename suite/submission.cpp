@@ -20,7 +20,6 @@
 #include "sweep/digest.h"
 #include "sweep/folder_lock.h"
 #include "sweep/machine.h"
-#include "sweep/run_experiment.h"
 #include "sweep/study_file.h"
 #include "sweep/tables.h"
 

@@ -1,7 +1,10 @@
 #include "sweep/cell_folder.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -95,6 +98,20 @@ void write_cell(const fs::path& folder, const std::function<void(const fs::path&
   } catch (const fs::filesystem_error& error) {
     throw InputError(folder.string() + ": cannot be written: " + error.code().message());
   }
+}
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
+  std::string probe = (folder / ".delquad-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0)
+    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
+                                 std::generic_category().message(errno)));
+  close(file);
+  fs::remove(probe, status);
 }
 
 }  // namespace delquad

@@ -16,4 +16,7 @@ void remove_cell(const std::filesystem::path& folder);
 void write_cell(const std::filesystem::path& folder,
                 const std::function<void(const std::filesystem::path&)>& write);
 
+/// Makes the folder, or throws InputError when it cannot be made or written to.
+void prepare_folder(const std::filesystem::path& folder);
+
 }  // namespace delquad

@@ -326,7 +326,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     const std::string name = experiment.cases_[i].text("name");
     check_folder_name(experiment.cases_[i], name, names);
     names.push_back(name);
-    for (std::size_t v = 0; v < experiment.n_variants(); ++v) check_formulas(experiment.read_variant(i, v));
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) check_case(experiment.read_variant(i, v));
   }
   return experiment;
 }

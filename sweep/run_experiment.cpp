@@ -1,175 +1,29 @@
 #include "sweep/run_experiment.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
-#include <ostream>
-#include <system_error>
 #include <utility>
 
-#include "base/activity.h"
-#include "base/stopwatch.h"
-#include "cases/case_pictures.h"
 #include "cases/problem.h"
 #include "console/progress.h"
 #include "delquad/error.h"
-#include "io/mesh_io.h"
-#include "io/picture.h"
 #include "mesher/runner.h"
-#include "metrics/solve/solver_metrics.h"
 #include "sweep/cell_folder.h"
 #include "sweep/cells.h"
-#include "sweep/digest.h"
 #include "sweep/experiment_copy.h"
 #include "sweep/folder_lock.h"
 #include "sweep/linf_study.h"
-#include "sweep/measure_by_commands.h"
 #include "sweep/repeat_times.h"
 #include "sweep/study_file.h"
 #include "sweep/sweep_progress.h"
+#include "sweep/variant_work.h"
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
-
-void say(const std::string& text) {
-  // In one piece: several processes may speak at once.
-  fmt::print(stderr, "{}\n", (isatty(STDERR_FILENO) != 0 ? "\r\x1b[2K" : "") + text);
-}
-
-struct Cell {
-  const Word* word;
-  CellIdentity identity;
-  fs::path folder;
-  ReferenceCell reference = {};  ///< that a peer is calibrated to
-};
-
-/// Where peers and measures by command work.
-fs::path scratch_of(const fs::path& cell) {
-  return cell.parent_path() / ("." + cell.filename().string() + ".work");
-}
-
-/// Those of a folder that need not be there.
-void move_files(const fs::path& from, const fs::path& to) {
-  if (!fs::exists(from)) return;
-  for (const auto& entry : fs::directory_iterator(from)) fs::rename(entry, to / entry.path().filename());
-}
-
-bool is_done(const Cell& cell) {
-  const std::string state = state_of_cell(cell.folder, cell.identity.key);
-  return state == "done" || state == kNotApplicable;
-}
-
-/// A variant of a case with the cells that are to be made from it, in the process that works on it: each
-/// process has its own.
-struct Work {
-  Case c;
-  fs::path folder;  ///< of the experiment
-  std::vector<Cell> cells;
-  SweepProgress* progress;
-  bool allow_unsound;
-  bool pictures;
-  std::optional<PreparedProblem> prepared;
-  MeshingState state;
-
-  void prepare() {
-    const DoingStage preparing("fields");
-    prepared = prepare_case(c);
-    for (const std::string& line : lines_of(prepared->warnings)) say("warning: " + line);
-    state = begin_meshing(*prepared);
-    if (!pictures) return;
-    try {
-      prepare_folder(folder / c.folder);
-      draw_case(*prepared, c.folder, folder / c.folder);
-    } catch (const InputError& error) {
-      say(fmt::format("error: {}: no pictures of its fields: {}", c.folder, error.what()));
-    }
-  }
-
-  void finish(const Cell& cell) {
-    const DoingStage finishing("writing");
-    const std::string label = c.folder + " " + cell.word->text;
-    const fs::path scratch = scratch_of(cell.folder);
-    const std::string name = c.name + " " + cell.word->text;
-    RunResult result = cell.identity.peer != nullptr
-                           ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
-                           : finish_meshing(*prepared, name, std::move(state));
-    if (const std::string& why = cell.identity.no_peer_version; !why.empty())
-      result.warnings.push_back(name + ": its version is unknown: " + why);
-    for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
-    // What others make is shown as it is.
-    if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
-    if (!result.soundness.sound())
-      say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
-    for (const std::string& failure : measure_by_solvers(cell.identity, result))
-      say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
-    // Before anything of the cell is in place: it may take long.
-    if (cell.identity.peer == nullptr) fs::remove_all(scratch);
-    for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
-      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
-    write_cell(cell.folder, [&](const fs::path& at) {
-      move_files(scratch, at);
-      const Stopwatch writing;
-      write_msh(at / "mesh.msh", result.mesh);
-      write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
-      if (pictures) draw(at, label, result);
-      result.log.add_time("write", writing.time());
-      CellIdentity identity = cell.identity;
-      identity.files = marks_of(at);
-      write_file_atomically(at / "record.json", [&](std::ostream& out) {
-        out << run_record(c, *prepared, *cell.word, result, &identity);
-      });
-    });
-    remove_scratch(cell);
-    progress->done();
-  }
-
-  void draw(const fs::path& folder_of_cell, const std::string& label, const RunResult& result) const {
-    (prepared->background ? draw_mesh : draw_surface)(folder_of_cell / "picture.svg", result.mesh, label);
-    if (result.log.summaries.has("smoothing"))
-      draw_convergence(folder_of_cell / "convergence.svg", result.log.summaries, label + ": smoothing");
-  }
-
-  void remove_scratch(const Cell& cell) const {
-    std::error_code ignored;
-    fs::remove_all(scratch_of(cell.folder), ignored);
-  }
-
-  /// A cell whose process did not get to its end.
-  void fail(const Cell& cell, const ProcessFailure& why) const {
-    give_up(cell, why.kind == kNotApplicable ? kNotApplicable : "failed", why);
-  }
-
-  /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
-  /// interrupted: it is to be made yet.
-  void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const {
-    if (why.kind != "interrupted") try {
-        write_cell(cell.folder, [&](const fs::path& at) {
-          if (cell.identity.peer != nullptr) move_files(scratch_of(cell.folder), at);
-          CellIdentity identity = cell.identity;
-          identity.files = marks_of(at);
-          write_file_atomically(at / "record.json", [&](std::ostream& out) {
-            out << failure_record(c, *cell.word, status, why.kind, why.reason, &identity);
-          });
-        });
-      } catch (const InputError& error) {
-        say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
-      }
-    remove_scratch(cell);
-    if (why.kind == "interrupted")
-      progress->interrupted();
-    else if (status == "failed")
-      progress->failed();
-    else
-      progress->done();
-  }
-};
 
 /// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows. Peers
 /// come right after the root, without a stage, and last: those that are calibrated ask for a word's record.
@@ -213,7 +67,7 @@ void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& 
 }
 
 /// What reports a failure for all cells of a branch that were not done.
-std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<Work>& work,
+std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<VariantWork>& work,
                                                       const Branch& branch) {
   return [work, &branch](const ProcessFailure& why) {
     std::vector<const Cell*> cells;
@@ -225,7 +79,7 @@ std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<Work
 }
 
 /// Runs a branch up to where it forks.
-Job job_of(const std::shared_ptr<Work>& work, const Branch& branch) {
+Job job_of(const std::shared_ptr<VariantWork>& work, const Branch& branch) {
   const Branch& end = end_of_stretch(branch);
   const bool is_leaf = end.next.empty();
   Job job;
@@ -292,7 +146,7 @@ class Sweep {
   std::optional<Job> next_job() {
     while (next_ < n_works()) {
       const std::size_t i = next_++;
-      auto work = std::make_shared<Work>();
+      auto work = std::make_shared<VariantWork>();
       work->c = experiment_.read_variant(i / experiment_.n_variants(), i % experiment_.n_variants());
       work->folder = folder_;
       work->progress = &progress_;
@@ -314,7 +168,7 @@ class Sweep {
     return std::nullopt;
   }
 
-  void add_cells(std::size_t i, bool absent, Work& work) {
+  void add_cells(std::size_t i, bool absent, VariantWork& work) {
     std::string model;
     try {
       model = absent ? "" : model_digest(work.c);
@@ -344,7 +198,7 @@ class Sweep {
     return {cell_folder(folder_, c, *at), identify(experiment_, c, model, *at).key};
   }
 
-  void skip(const Work& work) {
+  void skip(const VariantWork& work) {
     const ProcessFailure why = {"data not found", "data not found, skipped: " + model_path(work.c).string()};
     say(work.c.folder + ": " + why.reason);
     for (const Cell& cell : work.cells) work.give_up(cell, "skipped", why);
@@ -413,20 +267,6 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
       }
     }
   return text;
-}
-
-void prepare_folder(const fs::path& folder) {
-  std::error_code status;
-  fs::create_directories(folder, status);
-  if (!fs::is_directory(folder))
-    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
-  std::string probe = (folder / ".delquad-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0)
-    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
-                                 std::generic_category().message(errno)));
-  close(file);
-  fs::remove(probe, status);
 }
 
 }  // namespace delquad

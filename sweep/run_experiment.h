@@ -43,7 +43,4 @@ Outcome run_experiment(const Experiment& experiment, const std::filesystem::path
 /// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// Makes the folder, or throws InputError when it cannot be made or written to.
-void prepare_folder(const std::filesystem::path& folder);
-
 }  // namespace delquad

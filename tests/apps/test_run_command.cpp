@@ -149,6 +149,9 @@ TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
   refused("[[case]]\nname = \"a\"\nsize = 1\ncross = \"bonudary\"\n" + kSquare, "did you mean 'boundary'?");
   refused("[matrix]\nsize = [0.1, \"x +\"]\n[[case]]\nname = \"a\"\n" + kSquare,
           "e.toml:2: expression 'x +', position");
+  refused(
+      "[[case]]\nname = \"good\"\nsize = 1\n" + kSquare + "[[case]]\nname = \"a\"\nmodel = \"gone.step\"\n",
+      "e.toml:5: case 'a': there is no file '");
   refused("reference = \"none.toml\"\n[[case]]\nname = \"a\"\nsize = 1\n" + kSquare, "none.toml");
 }
 
