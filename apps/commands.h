@@ -64,8 +64,8 @@ int merge_command(const MergeArguments& arguments);
 
 struct MeshArguments {
   std::filesystem::path model, output, json;
-  std::optional<std::string> size;  ///< else as the model says
-  std::string cross, compound;      ///< empty: as the model says
+  std::optional<std::string> size;    ///< else as the model says
+  std::string cross, compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string quality = kDefaultQuality;

@@ -198,9 +198,10 @@ void add_schema(CLI::App& app, bool& options) {
 
 void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
-  mesh->add_option("model", arguments.model,
-                   "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off) or CAD "
-                   "(.step, .stp, .brep)")
+  mesh->add_option(
+          "model", arguments.model,
+          "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off, .ply, .3mf) or CAD "
+          "(.step, .stp, .iges, .igs, .brep)")
       ->required();
   mesh->add_option("-o,--output", arguments.output,
                    "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
@@ -223,6 +224,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "degrees by which triangles must turn for a curve between them, and curves for a corner");
   mesh->add_option("--weld", arguments.weld_tolerance,
                    "join ends of open edges of a triangulation up to this part of its diagonal");
+  mesh->add_option("--unit", arguments.unit,
+                   "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
   std::string qualities;
   for (const Quality& q : quality_registry())
     qualities +=
@@ -280,9 +283,9 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
 
 void add_info(CLI::App& app, InfoArguments& arguments, CommonArguments& common) {
   CLI::App* info = app.add_subcommand("info", "Tell what a model consists of and what is hard to mesh in it");
-  info->add_option(
-          "model", arguments.model,
-          "CAD (.step, .stp, .brep), triangles (.stl, .obj, .off, .msh) or a planar model (.toml, .msh)")
+  info->add_option("model", arguments.model,
+                   "CAD (.step, .stp, .iges, .igs, .brep), triangles (.stl, .obj, .off, .ply, .3mf, .msh) or "
+                   "a planar model (.toml, .msh)")
       ->required();
   add_size(*info, arguments.size, "wanted edge length, a number: name what is smaller");
   info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");

@@ -59,7 +59,7 @@ void print_overview(const ModelInfo& info) {
   const ModelReport& r = info.report;
   const Mesh& mesh = info.model.fine;
   fmt::print("{}\n", info.model.source);
-  fmt::print("  lengths in   {}\n", info.model.unit.empty() ? "the file's own unit" : info.model.unit);
+  fmt::print("  lengths in   {}\n", mesh.unit.empty() ? "the file's own unit" : mesh.unit);
   fmt::print("  box          {} to {}\n  diagonal     {:.6g}\n", show_point(r.low), show_point(r.high),
              r.diagonal);
   fmt::print("  area         {:.6g}\n", r.area);

@@ -9,6 +9,8 @@
 #include "apps/print_surface_report.h"
 #include "base/activity.h"
 #include "base/context.h"
+#include "base/length_unit.h"
+#include "base/located.h"
 #include "base/stopwatch.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
@@ -32,6 +34,8 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
   }
   if (arguments.feature_angle)
     surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
+  if (!arguments.unit.empty())
+    surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
   if (arguments.weld_tolerance)
     surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
 }

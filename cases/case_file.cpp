@@ -106,8 +106,8 @@ void read_data(const TomlTable& table, Case& target) {
     throw InputError(table.where("data") + ": 'data' is for cases of experiments: expected 'model'");
   const std::filesystem::path file = target.data_folder / table.text("data");
   if (!set_model_file(file, target))
-    throw InputError(table.where("data") + ": '" + file.string() +
-                     "' is no data: expected a .msh, .step, .stp, .brep, .stl, .obj or .off file");
+    throw InputError(table.where("data") + ": '" + file.string() + "' is no data: expected a .msh, " +
+                     surface_files() + " file");
   target.may_be_absent = true;
 }
 
@@ -180,8 +180,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (set_model_file(file, result)) return result;
   if (kind_of_file(file) != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
-                     "'; known: .toml (curves and loops), .msh (lines or triangles), .step, .stp, .brep, "
-                     ".stl, .obj, .off");
+                     "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files());
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
     throw InputError(table.where("case") +

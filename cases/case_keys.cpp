@@ -149,7 +149,8 @@ const TomlKeys& surface_keys() {
       {"merge_curves", "shorter curves become one with a neighbour", kPositive},
       {"feature_angle", "degrees", above(0, 180)},
       {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
-      {"mirror", "the model is one half", "", mirror_keys}};
+      {"mirror", "the model is one half", "", mirror_keys},
+      {"unit", "of lengths: um, mm, cm, m, km, in or ft", kText}};
   return keys;
 }
 

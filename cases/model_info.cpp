@@ -149,7 +149,7 @@ std::string info_record(const ModelInfo& info, double size) {
   const ModelReport& report = info.report;
   const Mesh& mesh = info.model.fine;
   Json json = {{"model", info.model.source},
-               {"unit", info.model.unit.empty() ? Json() : Json(info.model.unit)},
+               {"unit", mesh.unit.empty() ? Json() : Json(mesh.unit)},
                {"box", {point_json(report.low), point_json(report.high)}},
                {"diagonal", report.diagonal},
                {"area", report.area},

@@ -1,6 +1,7 @@
 #include "cases/problem.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -23,8 +24,8 @@
 namespace delquad {
 namespace {
 
-const std::set<std::string> kCadFiles = {".step", ".stp", ".brep"};
-const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off"};
+const std::set<std::string> kCadFiles = {".step", ".stp", ".iges", ".igs", ".brep"};
+const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off", ".ply", ".3mf"};
 
 constexpr const char* kFromBoundary = "boundary";
 constexpr const char* kFromGradient = "gradient";
@@ -113,6 +114,10 @@ Model read_model(const Case& c) {
 
 bool is_surface_file(const std::filesystem::path& path) {
   return kCadFiles.count(kind_of_file(path)) + kTriangleFiles.count(kind_of_file(path)) > 0;
+}
+
+std::string surface_files() {
+  return fmt::format("{}, {}", fmt::join(kCadFiles, ", "), fmt::join(kTriangleFiles, ", "));
 }
 
 std::string text_of(CrossKind kind) {

@@ -10,9 +10,10 @@
 
 namespace delquad {
 
-/// Whether the file holds a surface by its extension: CAD (.step, .stp, .brep) or triangles (.stl, .obj,
-/// .off).
+/// Whether the file holds a surface by its extension: CAD or triangles.
 bool is_surface_file(const std::filesystem::path& path);
+/// These extensions, for messages.
+std::string surface_files();
 
 /// How cases write it: "boundary", "size-aware", "gradient"; "angle" of fields.
 std::string text_of(CrossKind kind);

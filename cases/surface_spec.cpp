@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/length_unit.h"
+#include "base/located.h"
 #include "cases/case_keys.h"
 #include "delquad/error.h"
 #include "geometry/surface/compound.h"
@@ -57,6 +59,10 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
         checked_weld_tolerance(table.number("weld_tolerance"), table.where("weld_tolerance"));
   if (const auto mirror = table.optional_table("mirror"))
     spec.mirror = read_mirror(*mirror, spec.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance));
+  if (table.has("unit")) {
+    spec.unit = table.text("unit");
+    located(table.where("unit"), [&] { length_unit(spec.unit); });
+  }
   table.finish(surface_keys());
   return spec;
 }

@@ -77,6 +77,7 @@ class InpWriter {
 
   void write() {
     out_ << "*HEADING\nQuad mesh by Delquad\n";
+    if (!mesh_.unit.empty()) out_ << "** lengths in " << mesh_.unit << '\n';
     write_renamed();
     write_nodes();
     int n = 0;

@@ -29,6 +29,7 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh) {
   write_file_atomically(path, [&](std::ostream& stream) {
     TextWriter out(stream);
     out << "MeshVersionFormatted 2\n";
+    if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
     write_names(out, "curve", mesh.curves);
     write_names(out, "region", mesh.regions);
     out << "Dimension\n3\nVertices\n" << mesh.points.size() << '\n';

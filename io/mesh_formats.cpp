@@ -58,10 +58,12 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
   if (kind == ".obj") return read_obj(path, notes);
   if (kind == ".off") return read_off(path, notes);
   if (kind == ".stl") return read_stl(path);
+  if (kind == ".ply") return read_ply(path, notes);
+  if (kind == ".3mf") return read_3mf(path, notes);
   if (kind == ".vtu") return read_vtu(path);
   if (kind == ".inp") return read_inp(path);
   if (kind == ".mesh") return read_medit(path);
-  unknown(path, ".msh, .obj, .off, .stl, .vtu, .inp or .mesh");
+  unknown(path, ".msh, .obj, .off, .stl, .ply, .3mf, .vtu, .inp or .mesh");
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options) {

@@ -49,13 +49,21 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nu
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
 Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
-/// Reads Object File Format text, with or without colours and normals, which are ignored. Faces of more than
-/// four vertices are split into triangles.
+/// Reads Object File Format, text or binary, with or without colours and normals, which are ignored. Faces of
+/// more than four vertices are split into triangles.
 Mesh read_off(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Reads STL, text or binary, by content. Points with the same coordinates become one. Each solid of a text
 /// file is a region with its name.
 Mesh read_stl(const std::filesystem::path& path);
+
+/// Reads the Polygon File Format (Stanford), text or binary of either byte order. Faces of one colour are a
+/// region with its name ("colour #rrggbb"), unless there are more than 64 colours; other properties are left
+/// out. Faces of more than four vertices are split into triangles.
+Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+/// Reads 3MF: what the model's build holds, in its unit. Each object is a region with its name, or one for
+/// each of its colours, unless there are more than 64. Throws InputError with the line of the model inside.
+Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Reads VTK XML of an unstructured grid: lines, triangles and quads; arrays as text or base64, inline or
 /// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
@@ -72,13 +80,13 @@ Mesh read_medit(const std::filesystem::path& path);
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
 /// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
 /// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
-/// gets that number as its tag.
+/// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {});
 /// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
 /// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there
 /// means that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the
-/// tags.
+/// tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {});
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would

@@ -36,6 +36,7 @@ struct Contents {
   std::map<int, std::vector<int>> surface_curves;  ///< tags, ascending (4.1 only)
   std::map<DimTag, std::string> physical_names;
   std::map<DimTag, std::vector<std::string>> more_names;  ///< of entities, besides their groups
+  std::string unit;                                       ///< of lengths
 };
 
 /// Reads the sections. [Gmsh reference manual, "MSH file format" and "Legacy formats"]

@@ -160,6 +160,7 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner) {
     }
   }
   Mesh mesh;
+  mesh.unit = contents.unit;
   for (size_t i = 0; i < new_index.size(); ++i) {
     if (new_index[i] < 0) continue;
     new_index[i] = static_cast<int>(mesh.points.size());

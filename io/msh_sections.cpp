@@ -86,6 +86,7 @@ class SectionReader {
         {"Nodes", &SectionReader::nodes},
         {"Elements", &SectionReader::elements},
         {"MoreNames", &SectionReader::more_names},
+        {"Unit", &SectionReader::unit},
         {"PartitionedEntities", &SectionReader::partitioned}};
     const auto reader = readers.find(name);
     if (reader == readers.end()) return skip(name);
@@ -142,6 +143,8 @@ class SectionReader {
       contents_.more_names[key].push_back(name);
     }
   }
+
+  void unit() { contents_.unit = in_.token("a unit of lengths"); }
 
   /// Dimension, tag and name in quotes.
   std::pair<DimTag, std::string> named() {

@@ -144,6 +144,10 @@ void write_more_names(std::ostream& stream, const std::vector<Block>& blocks) {
   out.flush();
 }
 
+void write_unit(std::ostream& stream, const Mesh& mesh) {
+  if (!mesh.unit.empty()) stream << "$Unit\n" << mesh.unit << "\n$EndUnit\n";
+}
+
 /// Numbers as text, separated by blanks, or as bytes.
 class MshNumbers {
  public:
@@ -270,6 +274,7 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
   write_elements(out, mesh, blocks);
   out.flush();
   write_more_names(stream, blocks);
+  write_unit(stream, mesh);
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {

@@ -133,6 +133,7 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     const UniqueLabels labels = make_labels(mesh);
     for (const auto& [key, label] : labels.renamed())
       out << "# group " << label << " is \"" << one_line(key.second) << "\"\n";
+    if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
     for (const Vec3& p : mesh.points) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
     write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves, labels);
     write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions, labels);

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <bit>
 #include <climits>
+#include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "io/mesh_io.h"
 #include "io/polygons.h"
@@ -15,7 +19,7 @@ class OffReader : FaceReader {
   explicit OffReader(const std::filesystem::path& path) : FaceReader(path, "OFF") {}
 
   Mesh read(ReadNotes* notes) {
-    read_header();
+    if (read_header()) return read_bytes(notes);
     const long long n_points = integer("the number of vertices", 0, INT_MAX);
     const long long n_faces = integer("the number of faces", 0, INT_MAX);
     integer("the number of edges", 0, LLONG_MAX);
@@ -33,15 +37,19 @@ class OffReader : FaceReader {
       in_.fail(fmt::format("expected the end of the file after {} faces, found {}", n_faces,
                            TextScanner::printable(found)));
     }
+    return whole(notes);
+  }
+
+ private:
+  Mesh whole(ReadNotes* notes) {
     if (mesh_.triangles.empty() && mesh_.quads.empty()) in_.fail("the file holds no faces");
     mesh_.regions = {{1, {}}};
     return finished(notes);
   }
 
- private:
   /// Vertices may have texture coordinates, colours and normals (ST, C, N); these follow the three
-  /// coordinates.
-  void read_header() {
+  /// coordinates. True where all that follows are bytes.
+  bool read_header() {
     skip_comments();
     const std::string_view word = in_.token("'OFF'");
     const bool known = word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" ||
@@ -50,7 +58,57 @@ class OffReader : FaceReader {
       in_.fail(fmt::format("expected 'OFF' (points of three coordinates), found {}",
                            TextScanner::printable(word)));
     }
-    if (in_.next_is('B')) in_.fail("binary OFF file: expected text");
+    for (const auto& [letter, numbers] : {std::pair{"ST", 2}, {"C", 4}, {"N", 3}})
+      if (word.find(letter) < word.find("OFF")) numbers_beside_ += numbers;
+    if (!in_.next_is('B')) return false;
+    if (in_.token("'BINARY'") != "BINARY" || !in_.skip_behind("\n"))
+      in_.fail("expected 'BINARY' and a line's end");
+    return true;
+  }
+
+  std::uint32_t word32(std::string_view what) {
+    std::uint32_t value = 0;
+    for (const char byte : in_.bytes(4, what)) value = value << 8 | static_cast<unsigned char>(byte);
+    return value;
+  }
+
+  /// A number of things that take at least so many bytes each.
+  std::uint32_t count(std::string_view what, std::size_t bytes_each) {
+    const std::uint32_t n = word32(what);
+    if (n > in_.bytes_left() / bytes_each)
+      in_.fail(fmt::format("{}: {} do not fit in the {} bytes that follow", what, n, in_.bytes_left()));
+    return n;
+  }
+
+  double real32() {
+    const float value = std::bit_cast<float>(word32("a coordinate"));
+    if (!std::isfinite(value)) in_.fail(fmt::format("coordinate {}: expected a finite number", value));
+    return double{value};
+  }
+
+  /// Big-endian words of four bytes, as Geomview writes them: each face ends with how many parts its colour
+  /// has, and these.
+  Mesh read_bytes(ReadNotes* notes) {
+    const std::size_t beside = 4 * static_cast<std::size_t>(numbers_beside_);
+    const std::uint32_t n_points = count("the number of vertices", 12 + beside);
+    const std::uint32_t n_faces = count("the number of faces", 8);
+    word32("the number of edges");
+    for (std::uint32_t i = 0; i < n_points; ++i) {
+      const double x = real32(), y = real32(), z = real32();
+      mesh_.points.push_back({x, y, z});
+      in_.bytes(beside, "colours or normals");
+    }
+    for (std::uint32_t i = 0; i < n_faces; ++i) {
+      std::vector<int> v(count("the number of a face's vertices", 4));
+      for (int& vertex : v) {
+        const std::uint32_t index = word32("a vertex");
+        if (index >= n_points) in_.fail(fmt::format("expected a vertex below {}, found {}", n_points, index));
+        vertex = static_cast<int>(index);
+      }
+      add_face(v, 0);
+      in_.bytes(4 * std::size_t{count("the number of a colour's parts", 4)}, "a colour");
+    }
+    return whole(notes);
   }
 
   void skip_comments() {
@@ -77,6 +135,8 @@ class OffReader : FaceReader {
     add_face(v, 0);
     in_.rest_of_line();  // colours
   }
+
+  int numbers_beside_ = 0;  ///< of each vertex, beside its coordinates
 };
 
 }  // namespace

@@ -93,6 +93,7 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
   constexpr bool kLittle = std::endian::native == std::endian::little;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
+  if (!mesh.unit.empty()) out << "    <!-- lengths in " << mesh.unit << " -->\n";
   out << "      <FieldData>\n";
   write_names(out, "curve", mesh.curves);
   write_names(out, "region", mesh.regions);

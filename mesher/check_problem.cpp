@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/length_unit.h"
+#include "base/located.h"
 #include "mesh/check_mesh.h"
 
 namespace delquad {
@@ -74,6 +76,7 @@ void check(const SurfaceSpec& surface, const std::string& where) {
   check_length(surface.merge_curves, "the length of curves that are merged", where);
   if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
   if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
+  if (!surface.unit.empty()) located(where, [&] { length_unit(surface.unit); });
   if (surface.compounds == Compounds::kGroups) {
     if (surface.groups.empty()) throw InputError(where + ": compounds by groups need a group of faces");
     for (const auto& group : surface.groups)

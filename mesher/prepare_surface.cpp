@@ -165,6 +165,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
   warn_of_coarse_turns(wanted, *surface, p.warnings);
   p.boundary = surface->domain.boundary;
+  p.boundary.unit = surface->model.fine.unit;
   p.sharp_corners = surface->domain.sharp_corners;
   p.times.emplace_back("curves", curves.time());
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/length_unit.h"
 #include "base/located.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_reader.h"
@@ -74,18 +75,33 @@ void check_for_cad(const SurfaceSpec& spec) {
     refuse("a feature angle without compounds");
 }
 
+/// Lengths in the unit that is asked for.
+void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
+  if (spec.unit.empty()) return;
+  if (mesh.unit.empty())
+    throw InputError(
+        fmt::format("{}: {} does not say its unit, so that lengths cannot be in {}: leave it out", spec.where,
+                    source, spec.unit));
+  const double factor = length_unit(mesh.unit).metres / length_unit(spec.unit).metres;
+  for (Vec3& p : mesh.points) p = factor * p;
+  mesh.unit = spec.unit;
+}
+
 SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
+  convert(model.source, spec, triangles);
   const std::string& source = model.source;
   split_quads(triangles, notes);
   TriangulatedOptions options;
   options.source = source;
   if (spec.feature_angle) options.feature_angle = *spec.feature_angle;
   if (spec.weld_tolerance) options.weld_tolerance = *spec.weld_tolerance;
+  const std::string unit = triangles.unit;
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
   SurfaceModel surface = make_compounds(spec, make_surface_model(std::move(triangles), options));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
+  surface.fine.unit = unit;
   return surface;
 }
 
@@ -93,8 +109,11 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
 SurfaceModel make_from_cad(const MeshProblem& problem) {
   check_for_cad(problem.surface);
   CadOptions options;
+  options.unit = problem.surface.unit;
   options.keep_going = problem.keep_going;
   const auto* example = std::get_if<ExampleModel>(&problem.model);
+  if (example != nullptr && !options.unit.empty())
+    throw InputError(problem.surface.where + ": examples have no unit: lengths stay as they are");
   SurfaceModel model = example != nullptr ? read_example(example->name, options)
                                           : read_cad(std::get<CadModel>(problem.model), options);
   const bool changes_faces =

@@ -22,20 +22,23 @@ struct CadOptions {
   /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
   /// these models took.
   double healing_seconds = 60;
+  /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
+  std::string unit = {};
   /// Faces that cannot be triangulated are left out, and named in the model, instead of an error.
   bool keep_going = false;
 };
 
-/// Reads a STEP or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are
-/// millimetres in STEP, whatever the file's unit, and as given in BREP. Each face and each edge stands once,
+/// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are
+/// in the unit that is asked for in STEP and IGES, whatever the file's unit, and as given in BREP, which has
+/// none, so that to ask for one is an InputError. Each face and each edge stands once,
 /// as region and curve; their tags are their numbers in the file's order, so that gaps stay where degenerate
 /// edges and seams were: these are no curves, the triangulation is connected across them. A region's names
-/// are those of its face, solids and products in STEP and its colour ("colour #rrggbb"). Normals of a solid
-/// point outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so; warnings
-/// also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the
-/// surface is regular. The kernel works in a worker process (see find_worker()), so that a damaged file
-/// cannot bring the program down; what it prints is lost. Throws Cancelled, and InputError naming the file
-/// for files that cannot be read or hold no face, and naming the faces that are unbounded, have no area,
+/// are those of its face, solids and products in STEP and IGES and its colour ("colour #rrggbb"). Normals of
+/// a solid point outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so;
+/// warnings also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal
+/// where the surface is regular. The kernel works in a worker process (see find_worker()), so that a damaged
+/// file cannot bring the program down; what it prints is lost. Throws Cancelled, and InputError naming the
+/// file for files that cannot be read or hold no face, and naming the faces that are unbounded, have no area,
 /// cross their own boundary or cannot be triangulated, unless options.keep_going leaves them out and others
 /// remain (an unbounded one is refused in any case).
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});

@@ -10,7 +10,7 @@ namespace delquad::cad {
 namespace {
 
 /// To be changed with what is sent either way.
-constexpr int kProtocol = 1;
+constexpr int kProtocol = 2;
 
 /// Calls `visit` with every number of a request that has a fixed size, in the order in which they are sent.
 template <class Request, class Visit>
@@ -35,7 +35,8 @@ std::string to_bytes(const CadRequest& r) {
   put(kProtocol);
   visit_numbers(r, put);
   put(r.late_faces.size());
-  return bytes + to_bytes(r.late_faces) + r.text;
+  put(r.options.unit.size());
+  return bytes + to_bytes(r.late_faces) + r.options.unit + r.text;
 }
 
 CadRequest request_from(const std::string& bytes) {
@@ -47,11 +48,14 @@ CadRequest request_from(const std::string& bytes) {
     throw InputError("the program that reads CAD files is of another version than the library that asks it");
   CadRequest r;
   visit_numbers(r, get);
-  std::size_t n_late = 0;
+  std::size_t n_late = 0, n_unit = 0;
   get(n_late);
+  get(n_unit);
   const std::string rest = bytes.substr(static_cast<std::size_t>(in.tellg()));
-  r.late_faces = numbers_from(rest.substr(0, n_late * sizeof(int)));
-  r.text = rest.substr(n_late * sizeof(int));
+  const std::size_t n_late_bytes = n_late * sizeof(int);
+  r.late_faces = numbers_from(rest.substr(0, n_late_bytes));
+  r.options.unit = rest.substr(n_late_bytes, n_unit);
+  r.text = rest.substr(n_late_bytes + n_unit);
   return r;
 }
 

@@ -119,13 +119,13 @@ void set_kernel_threads() {
 CadShape read(const CadRequest& request) {
   switch (request.source) {
     case CadRequest::Source::kBytes:
-      return read_shape_bytes(request.text);
+      return read_shape_bytes(request.text, request.options.unit);
     case CadRequest::Source::kShape:
       return from_bytes(request.text);
     case CadRequest::Source::kFile:
       break;
   }
-  return read_shape(request.text);
+  return read_shape(request.text, request.options.unit);
 }
 
 /// The worker is of use only as long as somebody listens, and must not go on for ever.

@@ -98,9 +98,9 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
     refuse(cad, faces, why_not);
 
   model.source = source;
-  model.unit = cad.unit;
   model.warnings = std::move(cad.warnings);
   model.fine = std::move(welded.mesh);
+  model.fine.unit = cad.unit;
   model.corners = std::move(welded.corners);
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
   orient(model, bodies(cad.shape, faces));

@@ -1,20 +1,26 @@
 #include "geometry/cad/shape_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TCollection_AsciiString.hxx>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <sstream>
 
+#include "base/length_unit.h"
 #include "delquad/error.h"
+#include "geometry/cad/iges_names.h"
 #include "geometry/cad/step_names.h"
 
 namespace delquad::cad {
@@ -53,7 +59,7 @@ constexpr std::size_t kBeginning = 4096;
 std::string beginning(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError("a folder; expected a STEP or BREP file");
+    throw InputError("a folder; expected a STEP, IGES or BREP file");
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError("cannot be opened");
@@ -63,25 +69,72 @@ std::string beginning(const std::filesystem::path& path) {
   return text;
 }
 
-CadShape read_step(const std::function<IFSelect_ReturnStatus(STEPControl_Reader&)>& load) {
+/// What STEP and IGES have in common.
+template <class Reader>
+CadShape transfer(Reader& reader, const std::string& kind, const std::string& unit,
+                  const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
   const Handle(FirstComplaint) complaint = listen();
-  STEPControl_Reader reader;
-  if (load(reader) != IFSelect_RetDone) throw InputError("not a readable STEP file" + complaint->why());
+  const LengthUnit& wanted = length_unit(unit.empty() ? "mm" : unit);
+  Interface_Static::SetCVal("xstep.cascade.unit", wanted.kernel);
+  if (load(reader) != IFSelect_RetDone)
+    throw InputError("not a readable " + kind + " file" + complaint->why());
   CadShape cad;
   const int roots = reader.NbRootsForTransfer();
   const int transferred = reader.TransferRoots();
-  if (reader.NbShapes() == 0) throw InputError("the STEP file holds no shape" + complaint->why());
+  if (reader.NbShapes() == 0) throw InputError("the " + kind + " file holds no shape" + complaint->why());
   if (transferred < roots) {
-    cad.warnings.push_back(fmt::format("{} of {} shapes of the STEP file cannot be read{}",
-                                       roots - transferred, roots, complaint->why()));
+    cad.warnings.push_back(fmt::format("{} of {} shapes of the {} file cannot be read{}", roots - transferred,
+                                       roots, kind, complaint->why()));
   }
   cad.shape = reader.OneShape();
-  cad.names = step_names(reader);
-  cad.unit = "mm";  // what the kernel converts to
+  cad.unit = wanted.name;
   return cad;
 }
 
-CadShape read_brep(std::istream& in) {
+CadShape read_step(const std::string& unit,
+                   const std::function<IFSelect_ReturnStatus(STEPControl_Reader&)>& load) {
+  STEPControl_Reader reader;
+  CadShape cad = transfer(reader, "STEP", unit, load);
+  cad.names = step_names(reader);
+  return cad;
+}
+
+CadShape read_iges(const std::string& path, const std::string& unit) {
+  IGESControl_Reader reader;
+  CadShape cad = transfer<IGESControl_Reader>(
+      reader, "IGES", unit, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
+  cad.names = iges_names(reader);
+  return cad;
+}
+
+struct TemporaryFile {
+  std::string path = (std::filesystem::temp_directory_path() / "delquad-XXXXXX").string();
+  TemporaryFile() {
+    const int file = mkstemp(path.data());
+    if (file < 0) throw InputError(path + ": no temporary file can be made for the IGES file's bytes");
+    close(file);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+/// The kernel reads IGES from files only.
+CadShape read_iges_bytes(const std::string& bytes, const std::string& unit) {
+  const TemporaryFile file;
+  std::ofstream out(file.path, std::ios::binary);
+  if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+    throw InputError("the IGES file's bytes do not fit into a temporary file, " + file.path);
+  return read_iges(file.path, unit);
+}
+
+CadShape read_brep(std::istream& in, const std::string& unit) {
+  if (!unit.empty())
+    throw InputError(
+        "BREP files do not say their unit: lengths stay as they are, and no unit can be asked for");
   const Handle(FirstComplaint) complaint = listen();
   // The kernel reads on and on behind the end of a truncated file unless the stream stops it.
   in.exceptions(std::ios::failbit | std::ios::badbit);
@@ -95,28 +148,41 @@ CadShape read_brep(std::istream& in) {
   return cad;
 }
 
-enum class Kind { kStep, kBrep };
+enum class Kind { kStep, kIges, kBrep };
+
+/// The first line of an IGES file is the first of its section S: it says so at the end of its 80 characters.
+bool begins_iges(const std::string& text) {
+  constexpr std::size_t kSection = 72;
+  const std::size_t end = text.find_first_of("\r\n");
+  return end > kSection && end != std::string::npos && text[kSection] == 'S' &&
+         text.find_first_not_of(" 0", kSection + 1) < end;
+}
 
 Kind kind_of(const std::string& beginning) {
   if (beginning.find("ISO-10303-21") != std::string::npos) return Kind::kStep;
   if (beginning.find("CASCADE Topology V") != std::string::npos) return Kind::kBrep;
-  throw InputError("neither STEP (ISO-10303-21) nor BREP (CASCADE Topology)");
+  if (begins_iges(beginning)) return Kind::kIges;
+  throw InputError("neither STEP (ISO-10303-21), IGES (section S) nor BREP (CASCADE Topology)");
 }
 
 }  // namespace
 
-CadShape read_shape(const std::filesystem::path& path) {
-  if (kind_of(beginning(path)) == Kind::kStep)
-    return read_step([&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
+CadShape read_shape(const std::filesystem::path& path, const std::string& unit) {
+  const Kind kind = kind_of(beginning(path));
+  if (kind == Kind::kStep)
+    return read_step(unit, [&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
+  if (kind == Kind::kIges) return read_iges(path.string(), unit);
   std::ifstream in(path, std::ios::binary);
-  return read_brep(in);
+  return read_brep(in, unit);
 }
 
-CadShape read_shape_bytes(const std::string& bytes) {
+CadShape read_shape_bytes(const std::string& bytes, const std::string& unit) {
+  const Kind kind = kind_of(bytes.substr(0, kBeginning));
+  if (kind == Kind::kIges) return read_iges_bytes(bytes, unit);
   std::istringstream in(bytes);
-  if (kind_of(bytes.substr(0, kBeginning)) == Kind::kStep)
-    return read_step([&](STEPControl_Reader& reader) { return reader.ReadStream("bytes", in); });
-  return read_brep(in);
+  if (kind == Kind::kStep)
+    return read_step(unit, [&](STEPControl_Reader& reader) { return reader.ReadStream("bytes", in); });
+  return read_brep(in, unit);
 }
 
 }  // namespace delquad::cad

@@ -36,7 +36,6 @@ struct LeftOutFace {
 /// A model made of faces that share curves, as a fine conforming triangulation.
 struct SurfaceModel {
   std::string source;  ///< file it was read from, for messages
-  std::string unit;    ///< of lengths; empty: not known
   /// Triangles tagged by face (triangle_region), lines tagged by curve (line_curve): every line is a side of
   /// triangles, and every side between two faces, on the outline or on a feature is a line. The lines of a
   /// curve form one chain, open or closed, listed from end to end, all in one direction. Triangles agree in

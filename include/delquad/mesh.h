@@ -64,6 +64,7 @@ struct Mesh {
   std::vector<int> quad_region;
   std::vector<Entity> curves;
   std::vector<Entity> regions;
+  std::string unit;  ///< of lengths, such as "mm"; empty: not known
 };
 
 /// Length of the diagonal of the bounding box; 0 without points.
@@ -77,8 +78,8 @@ std::vector<std::string> check_invariants(const Mesh& mesh);
 /// What a reader did to the file's content that its user should know, one sentence each.
 using ReadNotes = std::vector<std::string>;
 
-/// Reads by extension: .msh, .obj, .off, .stl, .vtu, .inp, .mesh, perhaps with .gz after it. Throws
-/// InputError with file and line, or byte; for any other extension, naming those known.
+/// Reads by extension: .msh, .obj, .off, .stl, .ply, .3mf, .vtu, .inp, .mesh, perhaps with .gz after it.
+/// Throws InputError with file and line, or byte; for any other extension, naming those known.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.

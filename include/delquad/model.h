@@ -96,7 +96,7 @@ struct TriangleModel {
   std::vector<std::string> notes = {};  ///< of its reader, for warnings
 };
 
-/// A STEP or BREP file, or one's bytes.
+/// A STEP, IGES or BREP file, or one's bytes.
 struct CadModel {
   std::filesystem::path file;
   std::string bytes = {};  ///< counts where there is no file
@@ -141,6 +141,9 @@ struct SurfaceSpec {
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;
+  /// Of the lengths that the mesh gets, for models that say theirs: um, mm, cm, m, km, in or ft; empty: mm
+  /// for STEP and IGES, else as the model has them.
+  std::string unit;
   std::string where;  ///< who asked for it, for messages; empty: nothing was asked for
 };
 

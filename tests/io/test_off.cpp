@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 
 #include "delquad/error.h"
@@ -45,7 +46,7 @@ TEST_F(Off, NamesTheLineOfWhatIsWrong) {
   expect_error("", {"case.off:1: ", "'OFF'"});
   expect_error("ply\n", {"case.off:1: ", "holds a PLY file", "expected OFF"});
   expect_error("4OFF\n", {"case.off:1: ", "three coordinates", "'4OFF'"});
-  expect_error("OFF BINARY\n", {"case.off:1: ", "binary"});
+  expect_error("OFF BOTH\n", {"case.off:1: ", "'BINARY'"});
   expect_error("OFF\n3 x 0\n", {"case.off:2: ", "number of faces", "'x'"});
   expect_error("OFF\n-3 1 0\n", {"case.off:2: ", "'-3'"});
   expect_error("OFF\n2000000000 1 0\n0 0 0\n", {"case.off:2: ", "2000000000 vertices", "bytes"});
@@ -58,6 +59,38 @@ TEST_F(Off, NamesTheLineOfWhatIsWrong) {
   expect_error(points + "2 0 1    \n", {"case.off:6: ", "face of 2 vertices"});
   expect_error(points + "3 0 1 2\n3 0 1 2\n", {"case.off:7: ", "end of the file after 1 faces"});
   expect_error("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", {"case.off:", "no faces"});
+}
+
+/// Words of four bytes, the highest first.
+std::string words(std::initializer_list<std::uint32_t> values) {
+  std::string bytes;
+  for (const std::uint32_t value : values)
+    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift & 255);
+  return bytes;
+}
+constexpr std::uint32_t kOne = 0x3f800000, kNaN = 0x7fc00000;  // as float
+
+TEST_F(Off, ReadsBytes) {
+  const std::string points = words({4, 2, 5, 0, 0, 0, kOne, 0, 0, kOne, kOne, 0, 0, kOne, 0});
+  const std::string faces = words({3, 0, 1, 2, 0, 3, 0, 2, 3, 3, kOne, 0, 0});  // the second in red
+  const Mesh plain = read(kSquare), mesh = read("OFF BINARY\n" + points + faces);
+  EXPECT_EQ(mesh.points, plain.points);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
+  const std::string with_normals =
+      words({3, 1, 3, 0, 0, 0, 0, 0, kOne, kOne, 0, 0, 0, 0, kOne, 0, kOne, 0, 0, 0, kOne, 3, 0, 1, 2, 0});
+  EXPECT_EQ(read("NOFF BINARY\n" + with_normals).points,
+            (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  const std::string whole = "OFF BINARY\n" + points + faces;
+  for (size_t n = 0; n < whole.size(); ++n) EXPECT_FALSE(reads(whole.substr(0, n))) << n;
+}
+
+TEST_F(Off, NamesTheByteOfWhatIsWrong) {
+  const std::string head = "OFF BINARY\n";
+  expect_error(head + words({2000000000, 1, 0}), {"case.off: byte 15: ", "2000000000", "8 bytes"});
+  expect_error(head + words({1, 0, 0, kNaN, 0, 0}), {"case.off: byte 27: ", "nan", "finite"});
+  expect_error(head + words({1, 1, 0, 0, 0, 0, 3, 0, 1, 2, 0}),
+               {"case.off: byte 47: ", "below 1", "found 1"});
+  expect_error(head + words({1, 1, 0, 0, 0, 0, 4000000000, 0, 0}), {"byte 39: ", "4000000000"});
 }
 
 TEST_F(Off, EveryTruncationIsRefused) {
@@ -80,7 +113,7 @@ TEST_F(Off, FlippedBitsAreReadOrRefused) {
 }
 
 TEST_F(Off, IsNamedAmongTheKnownFormats) {
-  expect_input_error([&] { read_mesh(folder_ / "case.ply"); }, {".msh", ".obj", ".off", ".stl", "'.ply'"});
+  expect_input_error([&] { read_mesh(folder_ / "case.xyz"); }, {".msh", ".obj", ".off", ".stl", "'.xyz'"});
 }
 
 }  // namespace

@@ -215,8 +215,8 @@ TEST(MeshFormats, AreToldByExtension) {
         write_mesh(folder / "a.obj", quad_grid(1, 1), {true, MshCurves::kAll});
       },
       {"a.obj", "binary", ".msh"});
-  expect_input_error([&] { read_mesh(folder / "a.ply"); },
-                     {"a.ply", ".msh, .obj, .off, .stl, .vtu, .inp or .mesh"});
+  expect_input_error([&] { read_mesh(folder / "a.xyz"); },
+                     {"a.xyz", ".msh, .obj, .off, .stl, .ply, .3mf, .vtu, .inp or .mesh"});
   write_mesh(folder / "a.svg", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.svg").find("<svg"), std::string::npos);
 }

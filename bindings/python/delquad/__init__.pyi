@@ -125,6 +125,7 @@ def mesh(
     weld: float | None = None,
     merge_curves: float | None = None,
     mirror: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    unit: str | None = None,
     options: Mapping[str, bool | int | float | str] | None = None,
     name: str | None = None,
     seed: int | None = None,

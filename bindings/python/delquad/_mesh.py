@@ -29,7 +29,7 @@ def planar(loops):
 
 
 def cad(source):
-    """A STEP or BREP model, from a path or from bytes."""
+    """A STEP, IGES or BREP model, from a path or from bytes."""
     return _core.cad(source) if isinstance(source, bytes) else _core.read_model(os.fspath(source))
 
 
@@ -79,7 +79,7 @@ def _set_cross(problem, cross):
         )
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -93,6 +93,8 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror):
     if mirror is not None:
         point, normal = mirror
         problem.mirror(point, normal)
+    if unit is not None:
+        problem.unit(unit)
 
 
 def _bar(stage, part):
@@ -118,6 +120,7 @@ def mesh(
     weld=None,
     merge_curves=None,
     mirror=None,
+    unit=None,
     options=None,
     name=None,
     seed=None,
@@ -131,7 +134,7 @@ def mesh(
     """Meshes a model and returns a Result.
 
     model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, whose triangles and quads
-        or else lines count; or the path of a file: .step, .brep, .stl, .obj, .off, .msh or .toml.
+        or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .msh or .toml.
     size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z
         or "boundary" as text, or (mesh, values at its points).
     word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
@@ -142,6 +145,7 @@ def mesh(
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
+    unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
     options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
@@ -158,7 +162,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, unit)
     if word is None:
         word = problem.quality(quality or "good")
     for key, value in (options or {}).items():

@@ -1,6 +1,8 @@
 #include "tests/geometry/cad/cad_files.h"
 
 #include <BRepTools.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Writer.hxx>
@@ -21,6 +23,14 @@ std::filesystem::path write_step(const std::filesystem::path& path, const TopoDS
       writer.Write(path.c_str()) != IFSelect_RetDone) {
     throw std::runtime_error("cannot write " + path.string());
   }
+  return path;
+}
+
+std::filesystem::path write_iges(const std::filesystem::path& path, const TopoDS_Shape& shape) {
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer("IN", 1);  // faces, edges and solids as they are
+  if (!writer.AddShape(shape) || !writer.Write(path.c_str()))
+    throw std::runtime_error("cannot write " + path.string());
   return path;
 }
 

@@ -65,7 +65,7 @@ class CadWorker : public ::testing::Test {
   std::filesystem::path box_ = write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape());
   /// Takes seconds at kFine.
   std::filesystem::path torus_ = write_brep(folder_ / "torus.brep", BRepPrimAPI_MakeTorus(20, 5).Shape());
-  static constexpr CadOptions kFine{.deflection = 1e-7};
+  static inline const CadOptions kFine{.deflection = 1e-7};
 };
 
 TEST_F(CadWorker, BytesGiveWhatTheirFileGives) {

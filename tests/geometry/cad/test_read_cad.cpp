@@ -35,6 +35,7 @@
 #include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/surface_counts.h"
+#include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -77,11 +78,12 @@ Solid frustum() {
 
 class Primitives : public ::testing::TestWithParam<Solid> {};
 
-TEST_P(Primitives, KeepTheirTopologyThroughBothFormats) {
+TEST_P(Primitives, KeepTheirTopologyThroughAllFormats) {
   const Solid& solid = GetParam();
   const TemporaryFolder folder;
   for (const auto& path :
-       {write_brep(folder / "a.brep", solid.shape), write_step(folder / "a.step", solid.shape)}) {
+       {write_brep(folder / "a.brep", solid.shape), write_step(folder / "a.step", solid.shape),
+        write_iges(folder / "a.igs", solid.shape)}) {
     SCOPED_TRACE(path);
     const SurfaceModel model = read_cad(path);
     EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
@@ -139,6 +141,26 @@ TEST(ReadCad, ConvertsTheUnitsOfStepToMillimetres) {
   for (std::size_t at; (at = text.find(millimetre)) != std::string::npos;)
     text.replace(at, millimetre.size(), "SI_UNIT(.CENTI.,.METRE.)");
   EXPECT_NEAR(count(read_cad(write_text(folder / "b.step", text)).fine).area, 5200, 1e-9);
+}
+
+TEST(ReadCad, HasLengthsInTheUnitThatIsAskedFor) {
+  const TemporaryFolder folder;
+  for (const auto& path :
+       {write_step(folder / "a.step", box().shape), write_iges(folder / "a.igs", box().shape)}) {
+    CadOptions options;
+    const SurfaceModel plain = read_cad(path, options);
+    EXPECT_EQ(plain.fine.unit, "mm");
+    options.unit = "cm";
+    const SurfaceModel model = read_cad(path, options);
+    EXPECT_EQ(model.fine.unit, "cm");
+    EXPECT_NEAR(count(model.fine).area, count(plain.fine).area / 100, 1e-12);
+    const SurfaceModel bytes = read_cad(CadModel{{}, read_text(path)}, options);
+    EXPECT_EQ(bytes.fine.points, model.fine.points);
+  }
+  CadOptions options;
+  options.unit = "m";
+  expect_input_error([&] { read_cad(write_brep(folder / "a.brep", box().shape), options); },
+                     {"a.brep", "do not say their unit"});
 }
 
 TEST(ReadCad, DropsAnOldTriangulation) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace delquad {
+
+struct LengthUnit {
+  const char* name;    ///< "mm"
+  double metres;       ///< how long it is
+  const char* kernel;  ///< what OpenCASCADE calls it
+};
+
+/// Throws InputError that names those known.
+const LengthUnit& length_unit(const std::string& name);
+
+}  // namespace delquad

@@ -1,0 +1,341 @@
+#include <expat.h>
+#include <fmt/format.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <memory>
+
+#include "delquad/error.h"
+#include "io/face_colours.h"
+#include "io/mesh_io.h"
+#include "io/text_scanner.h"
+#include "mesh/drop_unused_points.h"
+
+// 3D Manufacturing Format, core specification 1.3 and its materials: a ZIP archive with one model in XML.
+
+namespace delquad {
+
+namespace {
+
+/// Row by row, the last row is the shift, as 3MF writes it: x' = x m00 + y m10 + z m20 + m30.
+struct Transform {
+  std::array<double, 12> m = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+  Vec3 operator()(const Vec3& p) const {
+    return {p.x * m[0] + p.y * m[3] + p.z * m[6] + m[9], p.x * m[1] + p.y * m[4] + p.z * m[7] + m[10],
+            p.x * m[2] + p.y * m[5] + p.z * m[8] + m[11]};
+  }
+  bool mirrors() const { return dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0; }
+};
+
+struct Triangle {
+  std::array<int, 3> v;
+  std::string colour;
+};
+
+struct Component {
+  int object;
+  Transform transform;
+};
+
+/// A mesh, or other objects put together.
+struct Object {
+  std::string name;
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<Component> components;
+  int depth = 0;    ///< of components in components
+  double size = 1;  ///< triangles and objects in it, those of its components, too
+};
+
+/// What the XML says, gathered while it is read.
+class ModelParser {
+ public:
+  ModelParser(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+
+  void parse() {
+    constexpr std::size_t kPiece = 1 << 20;
+    for (std::size_t at = 0; at < text_.size() || at == 0; at += kPiece) {
+      const std::string_view piece = text_.substr(at, kPiece);
+      const bool is_last = at + kPiece >= text_.size();
+      const auto status =
+          XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
+      if (!reason_.empty()) throw InputError(reason_);
+      if (status != XML_STATUS_OK)
+        throw InputError(place() + XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    }
+  }
+
+  std::map<int, Object> objects;
+  std::vector<Component> build;
+  std::string unit = "mm";
+
+ private:
+  using Attributes = std::map<std::string_view, std::string_view>;
+
+  struct Closer {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+  using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, Closer>;
+
+  Parser make_parser() {
+    XML_Parser parser = XML_ParserCreate(nullptr);
+    if (parser == nullptr) throw std::bad_alloc();
+    XML_SetUserData(parser, this);
+    // Exceptions must not pass through C.
+    XML_SetElementHandler(
+        parser,
+        [](void* self, const XML_Char* name, const XML_Char** attributes) {
+          static_cast<ModelParser*>(self)->begin_guarded(name, attributes);
+        },
+        [](void*, const XML_Char*) {});
+    return Parser(parser);
+  }
+
+  std::string place() const {
+    return fmt::format("{}: its model, line {}: ", file_, XML_GetCurrentLineNumber(parser_.get()));
+  }
+
+  void begin_guarded(const char* name, const char** list) {
+    if (!reason_.empty()) return;
+    try {
+      Attributes attributes;
+      for (; *list != nullptr; list += 2) attributes.emplace(list[0], list[1]);
+      const char* colon = std::strchr(name, ':');
+      begin(colon == nullptr ? name : colon + 1, attributes);
+    } catch (const std::exception& error) {
+      reason_ = place() + error.what();
+      XML_StopParser(parser_.get(), XML_FALSE);
+    }
+  }
+
+  static std::string_view text_of(const Attributes& attributes, std::string_view key) {
+    const auto at = attributes.find(key);
+    if (at == attributes.end()) throw InputError(fmt::format("expected an attribute '{}'", key));
+    return at->second;
+  }
+
+  template <class T>
+  static T number(std::string_view text, std::string_view what) {
+    while (!text.empty() && text[0] == ' ') text.remove_prefix(1);
+    if (text.starts_with('+')) text.remove_prefix(1);
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() ||
+        !std::isfinite(static_cast<double>(value)))
+      throw InputError(fmt::format("{}: expected a number, found {}", what, TextScanner::printable(text)));
+    return value;
+  }
+
+  static Transform transform_of(const Attributes& attributes) {
+    Transform transform;
+    const auto at = attributes.find("transform");
+    if (at == attributes.end()) return transform;
+    std::string_view rest = at->second;
+    for (double& m : transform.m) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
+      const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
+      m = number<double>(word, "transform");
+      rest.remove_prefix(word.size());
+    }
+    return transform;
+  }
+
+  Component component_of(const Attributes& attributes) const {
+    if (attributes.find("p:path") != attributes.end())
+      throw InputError("objects in other files of the archive: expected all in one (the core of 3MF)");
+    const int id = number<int>(text_of(attributes, "objectid"), "objectid");
+    if (objects.find(id) == objects.end())
+      throw InputError(fmt::format("objectid {}: there is no such object before it", id));
+    return {id, transform_of(attributes)};
+  }
+
+  void begin(std::string_view name, const Attributes& attributes) {
+    if (name == "model") {
+      set_unit(attributes);
+    } else if (name == "basematerials" || name == "colorgroup") {
+      palette_ = &palettes_[number<int>(text_of(attributes, "id"), "id")];
+    } else if ((name == "base" || name == "color") && palette_ != nullptr) {
+      palette_->push_back(colour_of(text_of(attributes, name == "base" ? "displaycolor" : "color")));
+    } else if (name == "object") {
+      begin_object(attributes);
+    } else if (name == "vertex" && object_ != nullptr) {
+      object_->points.push_back({number<double>(text_of(attributes, "x"), "x"),
+                                 number<double>(text_of(attributes, "y"), "y"),
+                                 number<double>(text_of(attributes, "z"), "z")});
+    } else if (name == "triangle" && object_ != nullptr) {
+      add_triangle(attributes);
+    } else if (name == "component" && object_ != nullptr) {
+      add_component(component_of(attributes));
+    } else if (name == "item") {
+      build.push_back(component_of(attributes));
+    }
+  }
+
+  void set_unit(const Attributes& attributes) {
+    static const std::map<std::string_view, const char*> kUnits = {{"micron", "um"},     {"millimeter", "mm"},
+                                                                   {"centimeter", "cm"}, {"meter", "m"},
+                                                                   {"inch", "in"},       {"foot", "ft"}};
+    const auto given = attributes.find("unit");
+    if (given == attributes.end()) return;
+    const auto at = kUnits.find(given->second);
+    if (at == kUnits.end())
+      throw InputError(fmt::format("unknown unit {}", TextScanner::printable(given->second)));
+    unit = at->second;
+  }
+
+  /// "#RRGGBB", perhaps with an opacity after it.
+  static std::string colour_of(std::string_view text) {
+    std::string colour;
+    if (text.size() < 7 || text[0] != '#') return colour;
+    for (const char c : text.substr(1, 6)) colour += c >= 'A' && c <= 'F' ? static_cast<char>(c + 32) : c;
+    return colour.find_first_not_of("0123456789abcdef") == std::string::npos ? colour : "";
+  }
+
+  std::string colour_of(const Attributes& attributes, const char* group, const char* index) const {
+    const auto pid = attributes.find(group), at = attributes.find(index);
+    const auto palette =
+        palettes_.find(pid == attributes.end() ? palette_of_object_ : number<int>(pid->second, group));
+    if (palette == palettes_.end()) return "";
+    const int i = at == attributes.end() ? colour_of_object_ : number<int>(at->second, index);
+    return i >= 0 && i < static_cast<int>(palette->second.size()) ? palette->second[i] : "";
+  }
+
+  void begin_object(const Attributes& attributes) {
+    const int id = number<int>(text_of(attributes, "id"), "id");
+    const auto [at, is_new] = objects.try_emplace(id);
+    if (!is_new) throw InputError(fmt::format("a second object {}", id));
+    object_ = &at->second;
+    if (const auto name = attributes.find("name"); name != attributes.end()) object_->name = name->second;
+    const auto pid = attributes.find("pid"), index = attributes.find("pindex");
+    palette_of_object_ = pid == attributes.end() ? -1 : number<int>(pid->second, "pid");
+    colour_of_object_ = index == attributes.end() ? -1 : number<int>(index->second, "pindex");
+  }
+
+  void add_triangle(const Attributes& attributes) {
+    Triangle triangle;
+    for (int k = 0; k < 3; ++k) {
+      constexpr std::array<const char*, 3> kNames = {"v1", "v2", "v3"};
+      const int v = number<int>(text_of(attributes, kNames[k]), kNames[k]);
+      if (v < 0 || v >= static_cast<int>(object_->points.size()))
+        throw InputError(
+            fmt::format("{}: expected a vertex below {}, found {}", kNames[k], object_->points.size(), v));
+      triangle.v[k] = v;
+    }
+    triangle.colour = colour_of(attributes, "pid", "p1");
+    object_->triangles.push_back(std::move(triangle));
+    ++object_->size;
+  }
+
+  void add_component(const Component& component) {
+    constexpr int kDeepest = 64;
+    if (&objects.at(component.object) == object_) throw InputError("an object that holds itself");
+    object_->depth = std::max(object_->depth, objects.at(component.object).depth + 1);
+    if (object_->depth > kDeepest)
+      throw InputError(fmt::format("objects within objects to more than {} levels", kDeepest));
+    object_->components.push_back(component);
+    object_->size += objects.at(component.object).size;
+  }
+
+  std::string file_, reason_;
+  std::string_view text_;
+  Parser parser_ = make_parser();
+  Object* object_ = nullptr;
+  std::map<int, std::vector<std::string>> palettes_;
+  std::vector<std::string>* palette_ = nullptr;
+  int palette_of_object_ = -1, colour_of_object_ = -1;
+};
+
+/// Triangles: objects that hold one another could ask for any number.
+constexpr double kMost = 1e8;
+
+/// Puts the objects of the build where they belong.
+class Assembly {
+ public:
+  explicit Assembly(const ModelParser& model) : model_(model) {}
+
+  Mesh mesh;
+  FaceColours colours;
+
+  void add(const Component& component, const std::vector<Transform>& outer, const std::string& name) {
+    const Object& object = model_.objects.at(component.object);
+    std::vector<Transform> transforms = {component.transform};
+    transforms.insert(transforms.end(), outer.begin(), outer.end());
+    const std::string own = object.name.empty() ? name : object.name;
+    const int first = static_cast<int>(mesh.points.size());
+    for (Vec3 p : object.points) {
+      for (const Transform& t : transforms) p = t(p);
+      mesh.points.push_back(p);
+    }
+    const bool turns = std::ranges::count_if(transforms, &Transform::mirrors) % 2 != 0;
+    for (const Triangle& t : object.triangles) {
+      const auto [a, b, c] = t.v;
+      mesh.triangles.push_back({first + a, first + (turns ? c : b), first + (turns ? b : c)});
+      mesh.triangle_region.push_back(colours.region(own, t.colour));
+    }
+    for (const Component& inner : object.components) add(inner, transforms, own);
+  }
+
+ private:
+  const ModelParser& model_;
+};
+
+struct ZipCloser {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+
+/// The model among the files of the archive.
+std::string model_text(const std::string& path) {
+  int error = 0;
+  const std::unique_ptr<zip_t, ZipCloser> archive(zip_open(path.c_str(), ZIP_RDONLY, &error));
+  if (!archive) {
+    zip_error_t reason;
+    zip_error_init_with_code(&reason, error);
+    const std::string text = zip_error_strerror(&reason);
+    zip_error_fini(&reason);
+    throw InputError(path + ": not a readable 3MF file, which is a ZIP archive: " + text);
+  }
+  constexpr zip_uint64_t kMostBytes = 4'000'000'000;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
+    zip_stat_t about;
+    zip_stat_index(archive.get(), static_cast<zip_uint64_t>(i), 0, &about);
+    if ((about.valid & ZIP_STAT_NAME) == 0 || !std::string_view(about.name).ends_with(".model")) continue;
+    if (std::string_view(about.name).starts_with("3D/Objects/")) continue;
+    if (about.size > kMostBytes) throw InputError(path + ": its model has more than 4 GB");
+    const std::unique_ptr<zip_file_t, ZipCloser> file(
+        zip_fopen_index(archive.get(), static_cast<zip_uint64_t>(i), 0));
+    std::string text(about.size, '\0');
+    if (!file || zip_fread(file.get(), text.data(), about.size) != static_cast<zip_int64_t>(about.size))
+      throw InputError(path + ": " + about.name + " cannot be unpacked: " + zip_strerror(archive.get()));
+    return text;
+  }
+  throw InputError(path + ": a ZIP archive without a model (3D/*.model): expected a 3MF file");
+}
+
+}  // namespace
+
+Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes) {
+  const std::string text = model_text(path.string());
+  ModelParser model(path.string(), text);
+  model.parse();
+  double size = 0;
+  for (const Component& item : model.build) size += model.objects.at(item.object).size;
+  if (size > kMost)
+    throw InputError(fmt::format("{}: its objects have more than {:.0e} triangles", path.string(), kMost));
+  Assembly assembly(model);
+  for (const Component& item : model.build) assembly.add(item, {}, "");
+  Mesh mesh = std::move(assembly.mesh);
+  if (mesh.triangles.empty()) throw InputError(path.string() + ": the file's build holds no triangles");
+  assembly.colours.finish(mesh, notes);
+  mesh.unit = model.unit;
+  drop_unused_points(mesh);
+  return mesh;
+}
+
+}  // namespace delquad

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <random>
+
+#include "io/mesh_io.h"
+#include "tests/io/reader_test.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::write_text;
+
+const std::string kSquare =
+    "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+
+class Ply : public testing_support::ReaderTest<> {
+ protected:
+  Ply() : ReaderTest("case.ply") {}
+};
+
+/// Numbers as bytes of either order.
+class Bytes {
+ public:
+  explicit Bytes(bool big) : big_(big) {}
+  template <class T>
+  Bytes& operator<<(T value) {
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if (big_ != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
+    text.append(raw.data(), raw.size());
+    return *this;
+  }
+  std::string text;
+
+ private:
+  bool big_;
+};
+
+/// Two quads over six points, with what scanners put beside: confidence before x, doubles, colours, edges.
+std::string binary(bool big) {
+  Bytes bytes(big);
+  for (int i = 0; i < 6; ++i)
+    bytes << 0.5f << static_cast<double>(i % 3) << static_cast<double>(i / 3) << 0.0 << std::uint8_t{7};
+  for (const auto& quad : {std::array{0, 1, 4, 3}, {1, 2, 5, 4}}) {
+    bytes << std::uint8_t{2} << 1.5f << 2.5f << std::uint8_t{4};
+    for (const int v : quad) bytes << static_cast<std::int16_t>(v);
+    for (const int c : {255, quad[0], 16}) bytes << static_cast<std::uint8_t>(c);
+  }
+  bytes << 0 << 1;
+  return std::string("ply\nformat binary_") + (big ? "big" : "little") +
+         "_endian 1.0\nelement vertex 6\nproperty float confidence\nproperty double x\nproperty double y\n"
+         "property double z\nproperty uchar red\nelement face 2\nproperty list uint8 float32 texcoord\n"
+         "property list uint8 int16 vertex_index\nproperty uchar red\nproperty uchar green\n"
+         "property uchar blue\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
+         bytes.text;
+}
+
+TEST_F(Ply, ReadsText) {
+  const Mesh mesh = read(kSquare);
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.regions.size(), 1u);
+  EXPECT_TRUE(mesh.regions[0].names.empty());
+  EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+}
+
+TEST_F(Ply, ReadsBytesOfBothOrders) {
+  for (const bool big : {false, true}) {
+    const Mesh mesh = read(binary(big));
+    EXPECT_EQ(mesh.points,
+              (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}));
+    EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 4, 3}, {1, 2, 5, 4}}));
+    ASSERT_EQ(mesh.regions.size(), 2u) << "by colour";
+    EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"colour #ff0010"});
+    EXPECT_EQ(mesh.regions[1].names, std::vector<std::string>{"colour #ff0110"});
+    EXPECT_EQ(mesh.quad_region, (std::vector<int>{0, 1}));
+  }
+}
+
+TEST_F(Ply, ColoursThatPaintAPictureAreNoRegions) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 100\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 100; ++i) text += "3 0 1 2 0 0 " + std::to_string(i) + '\n';
+  ReadNotes notes;
+  const Mesh mesh = read_mesh(write_text(folder_ / "case.ply", text), &notes);
+  EXPECT_EQ(mesh.regions.size(), 1u);
+  EXPECT_EQ(mesh.triangle_region, std::vector<int>(100, 0));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("100 colours"), std::string::npos) << notes[0];
+}
+
+TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kSquare;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  expect_error("", {"case.ply:1: ", "PLY"});
+  expect_error(with("ascii", "asci"), {"case.ply:2: ", "binary_little_endian", "'asci'"});
+  expect_error(with("format ascii 1.0\n", ""), {"case.ply:", "no line 'format'"});
+  expect_error(with("float x", "flaot x"), {"case.ply:5: ", "'flaot'"});
+  expect_error(with("float x", "float a"), {"no property 'x'"});
+  expect_error(with("element vertex 4", "element vertx 4"), {"no element 'vertex'"});
+  expect_error(with("element vertex 4", "element vertex 2000000000"), {"2000000000", "do not fit"});
+  expect_error(with("list uchar", "list float"), {"case.ply:9: ", "integer type"});
+  expect_error(with("1 1 0", "1 nan 0"), {"case.ply:13: ", "finite", "'nan'"});
+  expect_error(with("3 0 2 3", "3 0 2 4"), {"case.ply:16: ", "from 0 to 3", "found 4"});
+  expect_error(with("3 0 2 3", "9000 0 2 3"), {"case.ply:16: ", "9000"});
+  expect_error(with("element face 2", "element face 0"), {"no faces"});
+  expect_error(with("vertex_indices", "corners"), {"case.ply:15: ", "face of 0 vertices"});
+}
+
+TEST_F(Ply, EveryTruncationIsRefused) {
+  for (const std::string& whole : {kSquare.substr(0, kSquare.size() - 1), binary(false), binary(true)})
+    for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_FALSE(reads(whole.substr(0, n))) << n;
+}
+
+TEST_F(Ply, FlippedBitsAreReadOrRefused) {
+  std::mt19937 random(7);
+  for (const std::string& whole : {kSquare, binary(false), binary(true)}) {
+    int refused = 0;
+    constexpr int kTrials = 500;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::string text = whole;
+      for (unsigned flips = 1 + random() % 3; flips > 0; --flips)
+        text[random() % text.size()] ^= static_cast<char>(1u << random() % 8);
+      refused += reads(text) ? 0 : 1;
+    }
+    EXPECT_GT(refused, kTrials / 4);
+    EXPECT_LT(refused, kTrials) << "some flips only move a point";
+  }
+}
+
+}  // namespace
+}  // namespace delquad
