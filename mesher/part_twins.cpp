@@ -37,16 +37,20 @@ void add_edges(const AllPatches& in, int p, std::vector<Edge>& edges) {
   const PatchMesh& patch = in.patches[p];
   const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
   const int n_boundary = static_cast<int>(node.size());
-  std::vector<std::array<int, 2>> sides;
+  std::vector<std::array<int, 2>> sides, rim;
+  for (const auto& [a, b] : in.prepared.patches[p].boundary.edges)
+    rim.push_back({std::min(a, b), std::max(a, b)});
+  std::ranges::sort(rim);
   add_sides(patch.triangles.triangles, n_boundary, sides);
   add_sides(patch.quads.quads, n_boundary, sides);
   add_sides(patch.quads.triangles, n_boundary, sides);
   std::ranges::sort(sides);
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool is_chord = i + 1 < sides.size() && sides[i + 1] == sides[i];
+    const bool is_twice = i + 1 < sides.size() && sides[i + 1] == sides[i];
+    const bool is_chord = is_twice && !std::ranges::binary_search(rim, sides[i]);  // a slit may be one edge
     const auto [a, b] = sides[i];
     edges.push_back({{std::min(node[a], node[b]), std::max(node[a], node[b])}, is_chord, p, {a, b}});
-    i += is_chord;
+    i += is_twice;
   }
 }
 

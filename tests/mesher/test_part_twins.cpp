@@ -88,6 +88,44 @@ TEST_F(Pillow, AChordBetweenTheSameNodesIsPartedInOneOfThem) {
   EXPECT_EQ(patches[1].triangles.triangles.size(), 4u);
 }
 
+/// Each triangle's neighbours, but none across the edge of a and b.
+void join(TriPatch& mesh, int a, int b) {
+  const auto side = [&](int t, int k) {
+    return std::minmax({mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]});
+  };
+  const int n = static_cast<int>(mesh.triangles.size());
+  mesh.neighbours.assign(n, {-1, -1, -1});
+  for (int t = 0; t < n; ++t)
+    for (int k = 0; k < 3; ++k)
+      for (int u = 0; u < n; ++u)
+        for (int l = 0; l < 3; ++l)
+          if (t != u && side(t, k) == side(u, l) && side(t, k) != std::pair(a, b)) mesh.neighbours[t][k] = u;
+}
+
+/// A plate with a slit of one edge, on which a rib of one triangle stands.
+TEST_F(Pillow, ASlitOfOneEdgeIsNoChord) {
+  for (PatchMesh& patch : patches) patch.form = PatchForm::kTriangles;
+  PatchBoundary& plate = prepared.patches[0].boundary;
+  plate.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.25, 0.5}, {0.75, 0.5}};
+  plate.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 4}};
+  plate.point_node = {0, 1, 2, 3, 4, 5};
+  patches[0].triangles.points = plate.points;
+  patches[0].triangles.n_boundary = 6;
+  patches[0].triangles.triangles = {{0, 1, 5}, {0, 5, 4}, {1, 2, 5}, {4, 5, 2}, {4, 2, 3}, {0, 4, 3}};
+  join(patches[0].triangles, 4, 5);
+  PatchBoundary& rib = prepared.patches[1].boundary;
+  rib.points = {{0, 0}, {0.5, 0}, {0.25, 1}};
+  rib.edges = {{0, 1}, {1, 2}, {2, 0}};
+  rib.point_node = {4, 5, 6};
+  patches[1].triangles.points = rib.points;
+  patches[1].triangles.n_boundary = 3;
+  patches[1].triangles.triangles = {{0, 1, 2}};
+  patches[1].triangles.neighbours = {{-1, -1, -1}};
+  const auto before = patches[0].triangles.triangles;
+  part_twins(all);
+  EXPECT_EQ(patches[0].triangles.triangles, before);
+}
+
 TEST_F(Pillow, OfTwoQuadsOnTheSameNodesOneGetsARing) {
   for (PatchMesh& patch : patches) patch.form = PatchForm::kQuads, patch.quads.quads = {{0, 1, 2, 3}};
   part_twins(all);
