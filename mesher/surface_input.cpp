@@ -112,8 +112,8 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
   options.unit = problem.surface.unit;
   options.keep_going = problem.keep_going;
   const auto* example = std::get_if<ExampleModel>(&problem.model);
-  if (example != nullptr && !options.unit.empty())
-    throw InputError(problem.surface.where + ": examples have no unit: lengths stay as they are");
+  if (example != nullptr && !options.unit.empty() && options.unit != "mm")
+    throw InputError(problem.surface.where + ": lengths of the examples are in mm");
   SurfaceModel model = example != nullptr ? read_example(example->name, options)
                                           : read_cad(std::get<CadModel>(problem.model), options);
   const bool changes_faces =

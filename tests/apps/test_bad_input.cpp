@@ -214,8 +214,8 @@ TEST(BadArguments, AreRefused) {
                  {".stl", ".msh, .vtu, .obj, .inp, .mesh or .svg"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
-  expect_refusal(delquad({"mesh", folder / "model.iges", "-o", out, "--size", "0.1"}),
-                 {".iges", ".toml", ".msh"});
+  expect_refusal(delquad({"mesh", folder / "model.sat", "-o", out, "--size", "0.1"}),
+                 {".sat", ".toml", ".msh"});
   expect_refusal(delquad({"mesh", folder / "none.toml", "-o", out, "--size", "0.1"}),
                  {"none.toml", "No such file"});
   expect_refusal(delquad({"metrics", folder / "none.msh"}), {"none.msh", "No such file"});

@@ -86,6 +86,7 @@ TEST(SurfaceSpecs, DataIsForExperimentsAndExcludesOtherModels) {
   const Experiment e = experiment("data = \"cad/part.step\"\n");
   EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
   EXPECT_TRUE(e.read_variant(0).may_be_absent);
+  write_text(folder / "part.step", "");
   EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
   expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
                      {"e.toml:", "exclude each other"});

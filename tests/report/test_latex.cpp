@@ -101,6 +101,7 @@ TEST(Latex, TextsThatMeanSomethingToIt) {
   const TemporaryFolder folder;
   write_text(folder / "reference.toml",
              "source = \"50 % & #1 of {A}\"\n[[row]]\nname = \"a_b^c~d \\\\ $e$\"\neta_mean = 0.5\n");
+  write_text(folder / "50%_&{}#$^~.msh", "no mesh");
   run_into(
       folder, "odd",
       "title = \"100 % & \\\\ten_x {\\n} ^2 ~ #3 $\"\nreference = \"reference.toml\"\npipelines = [\"DB\"]\n"
