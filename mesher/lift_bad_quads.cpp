@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <utility>
 
 #include "base/parallel.h"
 #include "mesher/prepare.h"
 #include "metrics/shape.h"
+#include "metrics/surface/face_normals.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/surface/surface_lift.h"
 #include "smoothing/surface/surface_tracks.h"
@@ -17,12 +20,36 @@ namespace {
 /// Quads below this eta in space are lifted, in so many sweeps.
 constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
+/// Quads of this eta and less are flat: hardly better than inverted.
+constexpr double kFlat = 1e-3;
 /// Rings are put around what is bad so many times at most.
 constexpr int kRingPasses = 3;
+/// Changes of quads around what is bad still: in all, quads in all the meshes of these, and of one quad.
+constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 
-bool is_bad(const std::array<Vec3, 4>& corners) {
-  return !(eta_of(element_shape(corners, area_vector(corners)).angle) > 0) || quad_warp(corners) > kFold;
-}
+/// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
+constexpr int kUnsound = 1000;
+
+/// How bad quads are.
+class Badness {
+ public:
+  explicit Badness(const Mesh& fine) : normals_(fine) {}
+
+  int operator()(const std::array<Vec3, 4>& corners, int face) const {
+    const Vec3 area = area_vector(corners);
+    const double eta = eta_of(element_shape(corners, area).angle);
+    if (!(eta > 0) || quad_warp(corners) > kFold) return kUnsound;
+    Vec3 centre;
+    double reach = 0;
+    for (const Vec3& x : corners) centre = centre + 0.25 * x;
+    for (const Vec3& x : corners) reach = std::max(reach, norm(x - centre));
+    if (normals_.all_point_away({centre, face}, area, reach)) return kUnsound;
+    return eta > kFlat ? 0 : 1;
+  }
+
+ private:
+  FaceNormals normals_;
+};
 
 /// The patches that take part.
 std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
@@ -46,66 +73,152 @@ int lift_all(const AllPatches& in, const std::vector<std::size_t>& which) {
   return moved;
 }
 
+struct BadQuad {
+  int badness;
+  std::size_t patch;
+  int quad;
+};
+
 /// The bad quads of a patch, in space.
-std::vector<int> bad_quads(const AllPatches& in, std::size_t patch) {
+std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, std::size_t patch) {
   const QuadPatch& mesh = in.patches[patch].quads;
   const std::vector<int>& node = in.prepared.patches[patch].boundary.point_node;
   const auto place = [&](int v) {
     const auto n = static_cast<int>(node.size());
     return v < n ? in.nodes.points[node[v]] : in.patches[patch].inside[v - n];
   };
-  std::vector<int> bad;
+  std::vector<BadQuad> bad;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& [a, b, c, d] = mesh.quads[q];
-    if (is_bad({place(a), place(b), place(c), place(d)})) bad.push_back(static_cast<int>(q));
+    const int badness =
+        badness_of({place(a), place(b), place(c), place(d)}, in.prepared.patches[patch].region);
+    if (badness > 0) bad.push_back({badness, patch, static_cast<int>(q)});
   }
   return bad;
 }
 
-using BadQuads = std::vector<std::pair<std::size_t, std::vector<int>>>;  // by patch
-
-BadQuads all_bad_quads(const AllPatches& in, const std::vector<std::size_t>& which) {
-  std::vector<std::vector<int>> bad(which.size());
+/// The worst come first.
+std::vector<BadQuad> all_bad_quads(const AllPatches& in, const Badness& badness_of,
+                                   const std::vector<std::size_t>& which) {
+  std::vector<std::vector<BadQuad>> found(which.size());
   parallel_for(
-      which.size(), [&](std::size_t k) { bad[k] = bad_quads(in, which[k]); },
+      which.size(), [&](std::size_t k) { found[k] = bad_quads(in, badness_of, which[k]); },
       [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
-  BadQuads found;
-  for (std::size_t k = 0; k < which.size(); ++k)
-    if (!bad[k].empty()) found.emplace_back(which[k], std::move(bad[k]));
-  return found;
+  std::vector<BadQuad> bad;
+  for (const auto& of_patch : found) bad.insert(bad.end(), of_patch.begin(), of_patch.end());
+  std::ranges::stable_sort(bad, std::greater<>(), &BadQuad::badness);
+  return bad;
 }
 
-std::size_t count(const BadQuads& bad) {
-  std::size_t n = 0;
-  for (const auto& [patch, quads] : bad) n += quads.size();
-  return n;
+int total(const std::vector<BadQuad>& bad) {
+  int sum = 0;
+  for (const BadQuad& b : bad) sum += b.badness;
+  return sum;
 }
 
-/// Puts a ring inside each of some quads of a patch; the new points follow the others, in space, too. Returns
-/// how many rings.
-int add_rings(const AllPatches& in, std::size_t p, const std::vector<int>& quads) {
-  PatchMesh& patch = in.patches[p];
-  QuadTopology mesh(patch.quads);
-  QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
-  int rings = 0;
-  for (const int q : quads) {
-    const std::array<int, 1> quad{q};
-    if (!mesh.can_pillow(quad)) continue;
-    const int first = mesh.vertex_slots();
-    mesh.pillow(quad);
-    relocation.adopt_new_vertices(first);
-    constexpr int kSweeps = 8;
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
-      for (int v = first; v < mesh.vertex_slots(); ++v) relocation.step(v);
-    ++rings;
+/// All that a change of quads touches, to come back to.
+class State {
+ public:
+  State(const AllPatches& in, const std::vector<std::size_t>& which)
+      : in_(in), which_(which), nodes_(in.nodes) {
+    for (const std::size_t i : which) patches_.push_back(in.patches[i]);
   }
-  patch.quads = mesh.to_patch();
+  void restore() const {
+    for (std::size_t k = 0; k < which_.size(); ++k) in_.patches[which_[k]] = patches_[k];
+    in_.nodes = nodes_;
+  }
+
+ private:
+  const AllPatches& in_;
+  const std::vector<std::size_t>& which_;
+  SurfaceNodes nodes_;
+  std::vector<PatchMesh> patches_;
+};
+
+/// Writes a patch's quads back, and places in space: those of vertices that were there stay.
+void store(const AllPatches& in, std::size_t p, const QuadTopology& mesh) {
   const PreparedSurface& surface = *in.prepared.surface;
-  const std::size_t n_boundary = in.prepared.patches[p].boundary.point_node.size();
+  PatchMesh& patch = in.patches[p];
+  const int n_boundary = static_cast<int>(in.prepared.patches[p].boundary.point_node.size());
+  const int n_before = n_boundary + static_cast<int>(patch.inside.size());
+  std::vector<Vec3> inside;
   int hint = -1;
-  for (std::size_t v = n_boundary + patch.inside.size(); v < patch.quads.points.size(); ++v)
-    patch.inside.push_back(lift(surface.domain.patches[p], surface.model, patch.quads.points[v], hint));
+  for (int v = n_boundary; v < mesh.vertex_slots(); ++v)
+    if (mesh.vertex_alive(v))
+      inside.push_back(v < n_before ? patch.inside[v - n_boundary]
+                                    : lift(surface.domain.patches[p], surface.model, mesh.point(v), hint));
+  patch.inside = std::move(inside);
+  patch.quads = mesh.to_patch();
+}
+
+/// Lets the vertices from slot `first` on settle in the plane.
+void settle(const QuadTopology& mesh, QuadRelocation& relocation, int first) {
+  constexpr int kSweeps = 8;
+  relocation.adopt_new_vertices(first);
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int v = first; v < mesh.vertex_slots(); ++v) relocation.step(v);
+}
+
+/// Puts a ring inside each unsound quad. Returns how many.
+int add_rings(const AllPatches& in, const std::vector<BadQuad>& bad) {
+  std::map<std::size_t, std::vector<int>> quads_of;  // by patch
+  for (const BadQuad& b : bad)
+    if (b.badness == kUnsound) quads_of[b.patch].push_back(b.quad);
+  int rings = 0;
+  for (const auto& [p, quads] : quads_of) {
+    QuadTopology mesh(in.patches[p].quads);
+    QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
+    for (const int q : quads) {
+      const std::array<int, 1> quad{q};
+      if (!mesh.can_pillow(quad)) continue;
+      const int first = mesh.vertex_slots();
+      mesh.pillow(quad);
+      settle(mesh, relocation, first);
+      ++rings;
+    }
+    store(in, p, mesh);
+  }
   return rings;
+}
+
+/// The changes around a quad that are tried: it is merged away, an edge of it turns, opens to two more quads,
+/// or it gets a ring. False where that cannot be.
+bool change(QuadTopology& mesh, int quad, int way) {
+  const int h = 4 * quad + way % 4, kind = way / 4;
+  const bool counterclockwise = kind % 2 == 0, is_inner = mesh.twin(h) >= 0;
+  if (kind == 0 && mesh.can_collapse(h)) return mesh.collapse(h), true;
+  if ((kind == 1 || kind == 2) && is_inner && mesh.can_rotate(h, counterclockwise))
+    return mesh.rotate(h, counterclockwise), true;
+  if ((kind == 3 || kind == 4) && is_inner && mesh.can_open(h)) return mesh.open(h, counterclockwise), true;
+  const std::array<int, 1> ring{quad};
+  if (way == kWays - 1 && mesh.can_pillow(ring)) return mesh.pillow(ring), true;
+  return false;
+}
+
+/// Changes the quads around the first of the bad ones that this helps, and lifts. False where nothing does.
+bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
+              std::vector<BadQuad>& bad, int& trials, LiftingSummary& summary) {
+  const State before(in, which);
+  for (const auto& [badness, p, quad] : bad)
+    for (int way = 0; way < kWays && trials > 0; ++way) {
+      QuadTopology mesh(in.patches[p].quads);
+      QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
+      const int first = mesh.vertex_slots();
+      if (!change(mesh, quad, way)) continue;
+      --trials;
+      settle(mesh, relocation, first);
+      store(in, p, mesh);
+      const int moved = lift_all(in, which);
+      std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
+      if (total(left) < total(bad)) {
+        summary.moved += moved;
+        ++summary.mended;
+        bad = std::move(left);
+        return true;
+      }
+      before.restore();
+    }
+  return false;
 }
 
 }  // namespace
@@ -123,25 +236,26 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
       [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.points.size()); });
   summary.moved = lift_all(in, which);
 
-  BadQuads bad = all_bad_quads(in, which);
-  for (int pass = 0; pass < kRingPasses && !bad.empty(); ++pass) {
-    std::vector<PatchMesh> patches;
-    for (const std::size_t i : which) patches.push_back(in.patches[i]);
-    const SurfaceNodes nodes = in.nodes;
-    int rings = 0;
-    for (const auto& [patch, quads] : bad) rings += add_rings(in, patch, quads);
+  const Badness badness_of(in.prepared.surface->model.fine);
+  std::vector<BadQuad> bad = all_bad_quads(in, badness_of, which);
+  for (int pass = 0; pass < kRingPasses && total(bad) >= kUnsound; ++pass) {
+    const State before(in, which);
+    const int rings = add_rings(in, bad);
     if (rings == 0) break;
     const int moved = lift_all(in, which);
-    BadQuads left = all_bad_quads(in, which);
-    if (count(left) >= count(bad)) {
-      for (std::size_t k = 0; k < which.size(); ++k) in.patches[which[k]] = std::move(patches[k]);
-      in.nodes = nodes;
+    std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
+    if (total(left) >= total(bad)) {
+      before.restore();
       break;
     }
     summary.moved += moved;
     summary.rings += rings;
     bad = std::move(left);
   }
+  std::size_t n_quads = 1;
+  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
+  int trials = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
+  while (mend_one(in, badness_of, which, bad, trials, summary)) continue;
   return summary;
 }
 

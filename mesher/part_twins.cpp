@@ -129,6 +129,7 @@ double worst_with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad)
 }
 
 /// A node between two faces that has one quad of each: these share two sides. Its places on both boundaries.
+/// Or the end of a cut with one quad around it, whose sides there are one edge in space: one place, twice.
 struct TwinCorner {
   std::array<int, 2> patch, point;
 };
@@ -141,6 +142,7 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
     auto operator<=>(const Corner&) const = default;
   };
   std::vector<Corner> corners;
+  std::vector<TwinCorner> twins;
   for (std::size_t p = 0; p < in.patches.size(); ++p) {
     if (in.left_out[p] || in.patches[p].form != PatchForm::kQuads) continue;
     const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
@@ -149,12 +151,13 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
       for (int k = 0; k < 4; ++k) {
         const int before = quad[(k + 3) % 4], v = quad[k], after = quad[(k + 1) % 4];
         if (is_inside(before) || is_inside(v) || is_inside(after)) continue;
+        const int at = static_cast<int>(p);
+        if (node[before] == node[after]) twins.push_back({{at, at}, {v, v}});
         const auto [low, high] = std::minmax(node[before], node[after]);
-        corners.push_back({node[v], {low, high}, static_cast<int>(p), v});
+        corners.push_back({node[v], {low, high}, at, v});
       }
   }
   std::ranges::sort(corners);
-  std::vector<TwinCorner> twins;
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const Corner &a = corners[i - 1], &b = corners[i];
     if (a.node == b.node && a.beside == b.beside) twins.push_back({{a.patch, b.patch}, {a.point, b.point}});

@@ -46,8 +46,9 @@ struct Counters<PartingSummary> {
 
 /// What became of quads that were bad in space, at the end.
 struct LiftingSummary {
-  int moved = 0;  ///< vertices
-  int rings = 0;  ///< of quads, put inside those that stayed inverted or folded
+  int moved = 0;   ///< vertices
+  int rings = 0;   ///< of quads, put inside those that stayed inverted or folded
+  int mended = 0;  ///< changes of the quads around those
   double seconds = 0;
 };
 
@@ -55,8 +56,8 @@ template <>
 struct Counters<LiftingSummary> {
   using S = LiftingSummary;
   static constexpr const char* step = "lift_bad_quads";
-  static constexpr auto all =
-      std::tuple{counter("moved", &S::moved), counter("rings", &S::rings), counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple{counter("moved", &S::moved), counter("rings", &S::rings),
+                                         counter("mended", &S::mended), counter("seconds", &S::seconds)};
 };
 
 struct PreparedProblem;

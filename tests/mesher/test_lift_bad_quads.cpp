@@ -37,5 +37,17 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
   EXPECT_GT(rings, 0);
 }
 
+TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
+  for (const int seed : {3, 4, 11}) {
+    MeshProblem c;
+    c.name = c.where = "ball";
+    const PreparedProblem prepared =
+        prepare_surface(c, rough_ball(seed, 0.3), make_constant_size(0.7), [](double) {});
+    const RunResult result = run_word(prepared, parse_word("DB"));
+    EXPECT_GT(result.log.summaries.number("lift_bad_quads", "mended"), 0) << seed;
+    EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
+  }
+}
+
 }  // namespace
 }  // namespace delquad

@@ -173,5 +173,25 @@ TEST_F(Pillow, NoTwoQuadsShareTwoSides) {
   }
 }
 
+/// A cut ends at a corner of the patch: both its sides are one edge in space, which one quad would have
+/// twice.
+TEST_F(Pillow, NoQuadHasBothSidesOfACut) {
+  prepared.patches.resize(1);
+  patches.resize(1);
+  patches[0].form = PatchForm::kQuads;
+  patches[0].quads = testing_support::grid_patch(3, 3);
+  PatchBoundary& boundary = prepared.patches[0].boundary;
+  boundary = shapes::rectangle(3, 3, 3, 3);
+  boundary.point_node.back() = boundary.point_node[1];
+  const auto quads_at_the_end = [&] {
+    return std::ranges::count_if(patches[0].quads.quads,
+                                 [](const auto& quad) { return std::ranges::find(quad, 0) != quad.end(); });
+  };
+  ASSERT_EQ(quads_at_the_end(), 1);
+  EXPECT_EQ(part_twins(all).corners_left, 0);
+  EXPECT_EQ(quads_at_the_end(), 2);
+  EXPECT_TRUE(QuadTopology(patches[0].quads).check_invariants().empty());
+}
+
 }  // namespace
 }  // namespace delquad
