@@ -301,13 +301,13 @@ std::string model_text(const std::string& path) {
     zip_error_fini(&reason);
     throw InputError(path + ": not a readable 3MF file, which is a ZIP archive: " + text);
   }
-  constexpr zip_uint64_t kMostBytes = 4'000'000'000;
+  constexpr zip_uint64_t kMostBytes = 1'000'000'000;
   for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
     zip_stat_t about;
     zip_stat_index(archive.get(), static_cast<zip_uint64_t>(i), 0, &about);
     if ((about.valid & ZIP_STAT_NAME) == 0 || !std::string_view(about.name).ends_with(".model")) continue;
     if (std::string_view(about.name).starts_with("3D/Objects/")) continue;
-    if (about.size > kMostBytes) throw InputError(path + ": its model has more than 4 GB");
+    if (about.size > kMostBytes) throw InputError(path + ": its model has more than 1 GB");
     const std::unique_ptr<zip_file_t, ZipCloser> file(
         zip_fopen_index(archive.get(), static_cast<zip_uint64_t>(i), 0));
     std::string text(about.size, '\0');

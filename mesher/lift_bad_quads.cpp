@@ -4,6 +4,8 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -33,22 +35,33 @@ constexpr int kUnsound = 1000;
 /// How bad quads are.
 class Badness {
  public:
-  explicit Badness(const Mesh& fine) : normals_(fine) {}
+  explicit Badness(const Mesh& fine) : fine_(fine) {}
 
-  int operator()(const std::array<Vec3, 4>& corners, int face) const {
+  /// `around`: sum of the unit normals of the quads around the corners. A quad that agrees with these is
+  /// taken to look the right way, for to ask the model takes long.
+  int operator()(const std::array<Vec3, 4>& corners, const Vec3& around, int face) const {
+    constexpr double kAgrees = 0.5;  // a cosine
     const Vec3 area = area_vector(corners);
     const double eta = eta_of(element_shape(corners, area).angle);
     if (!(eta > 0) || quad_warp(corners) > kFold) return kUnsound;
-    Vec3 centre;
-    double reach = 0;
-    for (const Vec3& x : corners) centre = centre + 0.25 * x;
-    for (const Vec3& x : corners) reach = std::max(reach, norm(x - centre));
-    if (normals_.all_point_away({centre, face}, area, reach)) return kUnsound;
+    if (dot(area, around) < kAgrees * norm(area) * norm(around) && is_turned(corners, area, face))
+      return kUnsound;
     return eta > kFlat ? 0 : 1;
   }
 
  private:
-  FaceNormals normals_;
+  bool is_turned(const std::array<Vec3, 4>& corners, const Vec3& area, int face) const {
+    std::call_once(is_asked_, [&] { normals_.emplace(fine_); });
+    Vec3 centre;
+    double reach = 0;
+    for (const Vec3& x : corners) centre = centre + 0.25 * x;
+    for (const Vec3& x : corners) reach = std::max(reach, norm(x - centre));
+    return normals_->all_point_away({centre, face}, area, reach);
+  }
+
+  const Mesh& fine_;
+  mutable std::once_flag is_asked_;
+  mutable std::optional<FaceNormals> normals_;
 };
 
 /// The patches that take part.
@@ -87,11 +100,21 @@ std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, 
     const auto n = static_cast<int>(node.size());
     return v < n ? in.nodes.points[node[v]] : in.patches[patch].inside[v - n];
   };
+  const auto corners = [&](std::size_t q) {
+    const auto& [a, b, c, d] = mesh.quads[q];
+    return std::array{place(a), place(b), place(c), place(d)};
+  };
+  std::vector<Vec3> around(mesh.points.size());
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const Vec3 area = area_vector(corners(q));
+    if (!(norm(area) > 0)) continue;
+    for (const int v : mesh.quads[q]) around[v] = around[v] + (1 / norm(area)) * area;
+  }
   std::vector<BadQuad> bad;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& [a, b, c, d] = mesh.quads[q];
-    const int badness =
-        badness_of({place(a), place(b), place(c), place(d)}, in.prepared.patches[patch].region);
+    const int badness = badness_of(corners(q), around[a] + around[b] + around[c] + around[d],
+                                   in.prepared.patches[patch].region);
     if (badness > 0) bad.push_back({badness, patch, static_cast<int>(q)});
   }
   return bad;
