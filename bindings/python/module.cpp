@@ -76,6 +76,7 @@ void define_mesh(py::module_& m) {
           "curves", [](const Mesh& mesh) { return list_of(mesh.curves); }, "(tag, names)")
       .def_property_readonly(
           "regions", [](const Mesh& mesh) { return list_of(mesh.regions); }, "(tag, names)")
+      .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
       .def("write_file", &write, arg("path"), arg("binary") = false);
   m.def("read_mesh", &read, arg("path"));
 }

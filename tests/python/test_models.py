@@ -106,6 +106,16 @@ def test_cad_from_bytes():
     assert len(r.quads) == len(same.quads)
 
 
+def test_cad_in_a_unit():
+    step = delquad.cad(delquad.example_step("bracket"))
+    plain, other = (delquad.mesh(step, size=size, word="DB", unit=unit) for size, unit in ((10, None), (1, "cm")))
+    assert (plain.unit, other.unit) == ("mm", "cm")
+    assert other.points.max(axis=0) * 10 == pytest.approx(plain.points.max(axis=0))
+    points, triangles = octahedron()
+    with pytest.raises(delquad.InputError, match="does not say its unit"):
+        delquad.mesh(delquad.triangles(points, triangles), size=0.5, unit="m")
+
+
 def test_cad_from_a_file(tmp_path):
     step = tmp_path / "bracket.step"
     step.write_bytes(delquad.example_step("bracket"))

@@ -136,11 +136,15 @@ def test_many_small_meshes_without_growth():
         with open("/proc/self/statm") as file:
             return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
+    def growth(n):
+        before = resident()
+        some(n)
+        return resident() - before
+
     some(200)
-    before = resident()
-    some(800)
-    # A leaked mesh is some kilobytes, a leaked array of samples over 100.
-    assert resident() - before < 4 << 20
+    # A leaked mesh is some kilobytes, a leaked array of samples over 100: that is in every round, unlike what threads
+    # keep for themselves.
+    assert any(growth(800) < 4 << 20 for _ in range(3))
 
 
 def test_time_limit():
