@@ -98,9 +98,9 @@ int mesh_command(const MeshArguments& arguments) {
 
   Progress progress(2 + static_cast<int>(word.stages.size()));
   progress.step(c.name + ": boundary and fields");
-  const PreparedProblem prepared = prepare_case(c);
+  PreparedProblem prepared = prepare_case(c);
   progress.warn(prepared.warnings);
-  RunResult result = run_word(prepared, word, [&](const std::string& stage) {
+  RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
     progress.step(c.name + " " + word.text + ": " + stage);
   });
   if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);

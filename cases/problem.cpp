@@ -19,6 +19,7 @@
 #include "geometry/planar/planar_model.h"
 #include "io/mesh_io.h"
 #include "mesher/boundary_report.h"
+#include "mesher/refine_unsound.h"
 #include "mesher/surface_input.h"
 
 namespace delquad {
@@ -156,15 +157,22 @@ void check_case(const Case& c) {
   make_cross(c.cross);
 }
 
-PreparedProblem prepare_case(const Case& c) {
+PreparedProblem prepare_case(const Case& c, const Refinement& refinement) {
   const Stopwatch reading;
   const MeshProblem problem = make_problem(c);
   const TimeSpent time = reading.time();
-  PreparedProblem prepared = prepare(problem);
+  PreparedProblem prepared = prepare(problem, refinement);
   StepTimes& times = prepared.times;
   if (times.empty() || times.front().first != "read") times.insert(times.begin(), {"read", {}});
   times.front().second = times.front().second + time;
   return prepared;
+}
+
+RunResult run_case(const Case& c, const Word& word, PreparedProblem& prepared,
+                   const std::function<void(const std::string& stage)>& begins) {
+  RunResult result = run_word(prepared, word, begins);
+  refine_unsound([&](const Refinement& r) { return prepare_case(c, r); }, word, prepared, result);
+  return result;
 }
 
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {

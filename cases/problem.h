@@ -7,6 +7,7 @@
 #include "cases/case.h"
 #include "delquad/mesher.h"
 #include "mesher/prepare.h"
+#include "mesher/runner.h"
 
 namespace delquad {
 
@@ -26,8 +27,12 @@ MeshProblem make_problem(const Case& c);
 /// skipped without) or formulas of size or crosses cannot be read: what is known before anything is meshed.
 void check_case(const Case& c);
 
-/// Boundary, background mesh and fields of a case: prepare(make_problem(c)), with the time of reading.
-PreparedProblem prepare_case(const Case& c);
+/// Boundary, background mesh and fields of a case: prepare(make_problem(c), refinement), with the time of
+/// reading.
+PreparedProblem prepare_case(const Case& c, const Refinement& refinement = {});
+/// run_word(), and then refine_unsound().
+RunResult run_case(const Case& c, const Word& word, PreparedProblem& prepared,
+                   const std::function<void(const std::string& stage)>& begins = {});
 
 /// The size field of a mesh that is there already: `text` is a number, an expression or "boundary", as --size
 /// gives it.

@@ -73,7 +73,7 @@ std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
 }
 
 /// Returns how many vertices moved.
-int lift_all(const AllPatches& in, const std::vector<std::size_t>& which) {
+int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, const LiftedBall& ball = {}) {
   const PreparedSurface& surface = *in.prepared.surface;
   std::vector<SurfaceTracks::Patch> lifted;
   for (const std::size_t i : which)
@@ -81,7 +81,7 @@ int lift_all(const AllPatches& in, const std::vector<std::size_t>& which) {
                       &in.patches[i].inside});
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(lifted));
   std::vector<Vec3> places = tracks.points();
-  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps);
+  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, ball);
   if (moved > 0) tracks.store(places);
   return moved;
 }
@@ -90,7 +90,16 @@ struct BadQuad {
   int badness;
   std::size_t patch;
   int quad;
+  LiftedBall around;  ///< what a change of it may move
 };
+
+/// Around the middle of a quad, so many times as far as its corners.
+LiftedBall ball_around(const std::array<Vec3, 4>& corners) {
+  constexpr double kReach = 5;
+  LiftedBall ball{0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 0};
+  for (const Vec3& x : corners) ball.radius = std::max(ball.radius, kReach * norm(x - ball.centre));
+  return ball;
+}
 
 /// The bad quads of a patch, in space.
 std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, std::size_t patch) {
@@ -115,7 +124,7 @@ std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, 
     const auto& [a, b, c, d] = mesh.quads[q];
     const int badness = badness_of(corners(q), around[a] + around[b] + around[c] + around[d],
                                    in.prepared.patches[patch].region);
-    if (badness > 0) bad.push_back({badness, patch, static_cast<int>(q)});
+    if (badness > 0) bad.push_back({badness, patch, static_cast<int>(q), ball_around(corners(q))});
   }
   return bad;
 }
@@ -222,7 +231,7 @@ bool change(QuadTopology& mesh, int quad, int way) {
 bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
               std::vector<BadQuad>& bad, int& trials, LiftingSummary& summary) {
   const State before(in, which);
-  for (const auto& [badness, p, quad] : bad)
+  for (const auto& [badness, p, quad, around] : bad)
     for (int way = 0; way < kWays && trials > 0; ++way) {
       QuadTopology mesh(in.patches[p].quads);
       QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
@@ -231,7 +240,7 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
       --trials;
       settle(mesh, relocation, first);
       store(in, p, mesh);
-      const int moved = lift_all(in, which);
+      const int moved = lift_all(in, which, around);
       std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
       if (total(left) < total(bad)) {
         summary.moved += moved;

@@ -3,6 +3,7 @@
 #include "base/context.h"
 #include "delquad/mesher.h"
 #include "mesher/prepare.h"
+#include "mesher/refine_unsound.h"
 #include "mesher/runner.h"
 #include "mesher/stages.h"
 
@@ -50,9 +51,10 @@ MeshResult mesh(const MeshProblem& problem, const std::string& word, const Conte
       {.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit});
   Steps steps(context, stages.stages.size() + 2);
   steps.begin("boundary and fields");
-  const PreparedProblem prepared = prepare(problem);
-  MeshResult result =
-      result_of(prepared, run_word(prepared, stages, [&](const std::string& stage) { steps.begin(stage); }));
+  PreparedProblem prepared = prepare(problem);
+  RunResult run = run_word(prepared, stages, [&](const std::string& stage) { steps.begin(stage); });
+  refine_unsound([&](const Refinement& r) { return prepare(problem, r); }, stages, prepared, run);
+  MeshResult result = result_of(prepared, std::move(run));
   if (!result.soundness.sound() && !problem.allow_unsound) {
     const std::string reasons = result.soundness.text();
     throw UnsoundError(problem.name + " " + word + ": the mesh is not sound: " + reasons,

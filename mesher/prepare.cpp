@@ -193,10 +193,13 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) 
   p.size = rotated(std::move(p.size), rotation);
 }
 
-PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
+PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
   const Stopwatch reading;
   const DoingStage stage("reading");
-  SurfaceModel model = make_surface(problem);
+  std::vector<FeatureBall> kept_features;
+  if (refinement.keep_features)
+    for (const SizeSpot& spot : refinement.spots) kept_features.push_back({spot.at, spot.reach});
+  SurfaceModel model = make_surface(problem, kept_features);
   const TimeSpent read = reading.time();
   const SampleDomain domain = {Box<Vec3>::around(model.fine.points), &model.fine};
   std::vector<Warning> warnings;
@@ -207,8 +210,8 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
-  PreparedProblem p =
-      prepare_surface(problem, std::move(model), size, [&](double quads) { check_count(quads, problem); });
+  PreparedProblem p = prepare_surface(
+      problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
   p.times.insert(p.times.begin(), {"read", read});
   p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
   return p;
@@ -281,11 +284,11 @@ PreparedProblem with_settings_of(const MeshProblem& problem) {
   return p;
 }
 
-PreparedProblem prepare(const MeshProblem& problem) {
+PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  return is_planar ? prepare_planar(problem) : prepare_surface_problem(problem);
+  return is_planar ? prepare_planar(problem) : prepare_surface_problem(problem, refinement);
 }
 
 }  // namespace delquad

@@ -47,7 +47,7 @@ struct PreparedProblem {
   std::vector<PreparedPatch> patches;
   std::shared_ptr<const SizeField> size;
   std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
-  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", "curvature"
+  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
   std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
   /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
@@ -74,9 +74,15 @@ inline DoingFace doing_patch(const PreparedProblem& prepared, std::size_t patch)
 /// With the problem's settings, and nothing else yet.
 PreparedProblem with_settings_of(const MeshProblem& problem);
 
+/// What a problem gets beside what it asks for, because its mesh would not be sound without.
+struct Refinement {
+  std::vector<SizeSpot> spots = {};
+  bool keep_features = false;  ///< of triangulations, in the spots: see TriangulatedOptions::kept_features
+};
+
 /// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be
 /// meshed, and for a size that would need more than problem.max_elements, with the estimate, before that work
-/// begins.
-PreparedProblem prepare(const MeshProblem& problem);
+/// begins. `refinement`: of surfaces.
+PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement = {});
 
 }  // namespace delquad

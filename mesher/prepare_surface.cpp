@@ -77,16 +77,18 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   throw InputError(model.source + ": no face can be meshed");
 }
 
-/// The growth of sizes away from curves that are shorter than the size.
+/// The growth of sizes away from curves that are shorter than the size, and from spots.
 constexpr double kShortCurveGradation = 0.7;
 
-WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model,
-                       std::shared_ptr<const SizeField> base) {
+WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::shared_ptr<const SizeField> base,
+                       const std::vector<SizeSpot>& spots) {
   WantedSize wanted;
   wanted.base = std::move(base);
   wanted.gradation = spec.gradation;
   wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
-  if (!wanted.curve_limit.empty() && !(wanted.gradation > 0)) wanted.gradation = kShortCurveGradation;
+  wanted.spots = spots;
+  if (!(wanted.curve_limit.empty() && spots.empty()) && !(wanted.gradation > 0))
+    wanted.gradation = kShortCurveGradation;
   if (!(spec.curvature > 0)) return wanted;
   wanted.curvature = std::make_shared<ModelCurvature>(model);
   wanted.per_turn = spec.curvature;
@@ -121,7 +123,8 @@ std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
 
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
-                                const std::function<void(double quads)>& check_count) {
+                                const std::function<void(double quads)>& check_count,
+                                const std::vector<SizeSpot>& spots) {
   const bool size_aware = problem.cross.kind == CrossKind::kSizeAware;
   if (!size_aware && problem.cross.kind != CrossKind::kBoundary)
     throw InputError(problem.cross.where +
@@ -130,7 +133,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
-  const WantedSize wanted = wanted_size(problem.size, model, std::move(size));
+  const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots);
   const TimeSpent size_time = sizes.time();
 
   const Stopwatch maps;
@@ -151,6 +154,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   p.size = surface->size;
   if (!wanted.curve_limit.empty()) p.size_adapted_to.push_back("short curves");
   if (wanted.curvature) p.size_adapted_to.push_back("curvature");
+  if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
   if (!p.size_adapted_to.empty()) p.given_size = wanted.base;
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);

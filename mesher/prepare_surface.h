@@ -12,6 +12,7 @@ namespace delquad {
 /// that cannot be meshed, unless problem.keep_going leaves them out and others remain.
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
-                                const std::function<void(double quads)>& check_count);
+                                const std::function<void(double quads)>& check_count,
+                                const std::vector<SizeSpot>& spots = {});
 
 }  // namespace delquad

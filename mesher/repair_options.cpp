@@ -12,7 +12,10 @@ const OptionTable<RepairOptions>& table() {
                 .help = "whether edges and quads that two faces have in common are parted"},
                &RepairOptions::part_twins)
           .add({.name = "lift_bad_quads", .help = "whether quads that are bad in space are lifted there"},
-               &RepairOptions::lift_bad_quads);
+               &RepairOptions::lift_bad_quads)
+          .add({.name = "refine_unsound",
+                .help = "whether sizes are made smaller where the mesh would not be sound"},
+               &RepairOptions::refine_unsound);
   return all;
 }
 

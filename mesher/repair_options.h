@@ -9,6 +9,7 @@ struct RepairOptions {
   bool part_twins = true;  ///< after each stage: see part_twins()
   /// At the end, after a treatment: quads that are bad in space slide over the surface.
   bool lift_bad_quads = true;
+  bool refine_unsound = true;  ///< after that: see refine_unsound()
 };
 
 OptionGroup repair_group();

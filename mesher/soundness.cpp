@@ -27,11 +27,13 @@ std::string show(const Mesh& mesh, const Place& place) {
 /// Counts things and says where the first are; adds nothing when there are none.
 void add_reason(const Mesh& mesh, const Places& places, const char* one, const char* several,
                 Soundness& result) {
+  constexpr std::size_t kMostShown = 3;
   if (places.count == 0) return;
+  result.places.insert(result.places.end(), places.first.begin(), places.first.end());
+  const std::size_t n_shown = std::min(kMostShown, places.first.size());
   std::string text = places.count == 1 ? one : fmt::format("{} {}", places.count, several);
-  for (std::size_t i = 0; i < places.first.size(); ++i)
-    text += (i == 0 ? ": " : ", ") + show(mesh, places.first[i]);
-  if (static_cast<std::size_t>(places.count) > places.first.size()) text += ", ...";
+  for (std::size_t i = 0; i < n_shown; ++i) text += (i == 0 ? ": " : ", ") + show(mesh, places.first[i]);
+  if (static_cast<std::size_t>(places.count) > n_shown) text += ", ...";
   result.reasons.push_back(std::move(text));
 }
 

@@ -60,6 +60,19 @@ struct Counters<LiftingSummary> {
                                          counter("mended", &S::mended), counter("seconds", &S::seconds)};
 };
 
+/// What refine_unsound() did.
+struct RefinementSummary {
+  int rounds = 0;  ///< how often the problem was meshed anew
+  int spots = 0;   ///< places around which the size is smaller
+};
+
+template <>
+struct Counters<RefinementSummary> {
+  using S = RefinementSummary;
+  static constexpr const char* step = "refine_unsound";
+  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
+};
+
 struct PreparedProblem;
 
 /// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.

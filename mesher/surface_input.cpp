@@ -87,7 +87,8 @@ void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
   mesh.unit = spec.unit;
 }
 
-SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
+SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
+                          const std::vector<FeatureBall>& kept_features) {
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   convert(model.source, spec, triangles);
@@ -95,6 +96,7 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
   split_quads(triangles, notes);
   TriangulatedOptions options;
   options.source = source;
+  options.kept_features = kept_features;
   if (spec.feature_angle) options.feature_angle = *spec.feature_angle;
   if (spec.weld_tolerance) options.weld_tolerance = *spec.weld_tolerance;
   const std::string unit = triangles.unit;
@@ -135,10 +137,11 @@ bool holds_surface(const Mesh& mesh) {
   return in_space(mesh.triangles) || in_space(mesh.quads);
 }
 
-SurfaceModel make_surface(const MeshProblem& problem) {
+SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);
-    return triangles != nullptr ? make_surface(problem.surface, *triangles) : make_from_cad(problem);
+    return triangles != nullptr ? make_surface(problem.surface, *triangles, kept_features)
+                                : make_from_cad(problem);
   });
 }
 

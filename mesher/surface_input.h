@@ -1,7 +1,7 @@
 #pragma once
 
 #include "delquad/mesher.h"
-#include "geometry/surface/surface_model.h"
+#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 
@@ -10,7 +10,7 @@ bool holds_surface(const Mesh& mesh);
 
 /// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
 /// InputError for models that cannot be read, for options that have no effect on them, and for compounds of
-/// faces that do not exist or do not hang together.
-SurfaceModel make_surface(const MeshProblem& problem);
+/// faces that do not exist or do not hang together. `kept_features`: of triangles.
+SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features = {});
 
 }  // namespace delquad

@@ -116,10 +116,10 @@ class RepeatedVariant {
   void time(std::size_t cell, int round) const {
     const Word& word = *words_[cell];
     const Peer* peer = experiment_.peer_of(word);
-    const PreparedProblem prepared = prepare_case(case_);
+    PreparedProblem prepared = prepare_case(case_);
     const RunResult result =
         peer != nullptr ? run_peer(*peer, case_, prepared, case_.name + " " + word.text, scratch() / "peer")
-                        : run_word(prepared, word);
+                        : run_case(case_, word, prepared);
     StepTimes times = result.log.times;
     if (peer == nullptr) times.insert(times.end(), prepared.times.begin(), prepared.times.end());
     Json json = {{"seconds_total", total_seconds(times)}};

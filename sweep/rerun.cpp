@@ -121,9 +121,9 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   const ScratchFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
   const std::string label = c.name + " " + word.text;
-  const PreparedProblem prepared = prepare_case(c);
+  PreparedProblem prepared = prepare_case(c);
   RunResult result =
-      cell.peer != nullptr ? run_peer(*cell.peer, c, prepared, label, work) : run_word(prepared, word);
+      cell.peer != nullptr ? run_peer(*cell.peer, c, prepared, label, work) : run_case(c, word, prepared);
   measure_by_solvers(cell, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;

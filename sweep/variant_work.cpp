@@ -17,6 +17,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesher/refine_unsound.h"
 #include "metrics/solve/solver_metrics.h"
 #include "sweep/cell_folder.h"
 #include "sweep/digest.h"
@@ -77,6 +78,8 @@ void VariantWork::finish(const Cell& cell) {
   RunResult result = cell.identity.peer != nullptr
                          ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
                          : finish_meshing(*prepared, name, std::move(state));
+  if (cell.identity.peer == nullptr)
+    refine_unsound([&](const Refinement& r) { return prepare_case(c, r); }, *cell.word, *prepared, result);
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
   for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);

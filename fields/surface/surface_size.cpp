@@ -111,7 +111,7 @@ class SizeRule final : public RefinementRule {
       if (length > kShortSide * std::min(delta_[a], delta_[b]) && misses(face, a, b, length, is_line[k]))
         return true;
     }
-    return longest > coarsest_ && longest > kShortSide * least(nodes);
+    return (longest > coarsest_ && longest > kShortSide * least(nodes)) || may_hide_spot(nodes, longest);
   }
 
   void node_added(int node, int a, int b, int face, bool on_line) override {
@@ -133,6 +133,14 @@ class SizeRule final : public RefinementRule {
 
   double least(const std::array<int, 3>& nodes) const {
     return std::min({delta_[nodes[0]], delta_[nodes[1]], delta_[nodes[2]]});
+  }
+
+  /// Is it larger than a ball inside of it or beside may be?
+  bool may_hide_spot(const std::array<int, 3>& nodes, double longest) const {
+    const Vec3 sum = fine_.points[nodes[0]] + fine_.points[nodes[1]] + fine_.points[nodes[2]];
+    return std::ranges::any_of(wanted_.spots, [&](const SizeSpot& spot) {
+      return longest > spot.reach && norm((1.0 / 3) * sum - spot.at) < longest + spot.reach;
+    });
   }
 
   /// Is the mean of the ends far from the size in the middle of the side, as far as it can be told?
@@ -181,7 +189,7 @@ double WantedSize::by_curvature(double k, double base_size) const {
 double WantedSize::in_face(int face, const Vec3& x) const {
   int hint = -1;
   const double size = base->at(x, hint);
-  return curvature ? by_curvature(curvature->of_face(face, x), size) : size;
+  return at_most_by_spots(curvature ? by_curvature(curvature->of_face(face, x), size) : size, x);
 }
 
 double WantedSize::on_curve(int curve, const Vec3& x) const {
@@ -189,7 +197,13 @@ double WantedSize::on_curve(int curve, const Vec3& x) const {
   const double size = base->at(x, hint);
   const bool has_limit = static_cast<std::size_t>(curve) < curve_limit.size();  // cuts have none
   const double limited = has_limit ? std::min(size, curve_limit[curve]) : size;
-  return curvature ? by_curvature(curvature->of_curve(curve, x), limited) : limited;
+  return at_most_by_spots(curvature ? by_curvature(curvature->of_curve(curve, x), limited) : limited, x);
+}
+
+double WantedSize::at_most_by_spots(double size, const Vec3& x) const {
+  for (const SizeSpot& spot : spots)
+    if (norm(x - spot.at) < spot.reach) size = std::min(size, spot.size);
+  return size;
 }
 
 std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base) {

@@ -14,6 +14,12 @@
 
 namespace delquad {
 
+/// A ball in which sizes are at most `size`.
+struct SizeSpot {
+  Vec3 at;
+  double reach = 0, size = 0;
+};
+
 /// What is asked of the sizes on a surface.
 struct WantedSize {
   std::shared_ptr<const SizeField> base;            ///< in space; the largest size anywhere
@@ -27,6 +33,7 @@ struct WantedSize {
   double gradation = 0;
   /// Of each curve (index into Mesh::curves), the largest size on it; empty: as the base.
   std::vector<double> curve_limit;
+  std::vector<SizeSpot> spots = {};
 
   /// Without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
@@ -38,6 +45,7 @@ struct WantedSize {
 
  private:
   double by_curvature(double curvature, double base_size) const;
+  double at_most_by_spots(double size, const Vec3& x) const;
 };
 
 /// Sizes on a model's fine triangulation: the base, and where sizes follow curvature or have a limit of

@@ -107,6 +107,18 @@ int drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<
   return given;
 }
 
+/// Makes edges features again that are sharp enough and have their middle in one of the balls.
+void keep_features(const Mesh& mesh, const std::vector<FeatureBall>& balls, const std::vector<double>& angle,
+                   std::vector<int>& cut) {
+  constexpr double kSharp = std::numbers::pi / 3;
+  for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
+    if (cut[s] != kNoCut || angle[s] < kSharp) continue;
+    const Vec3 middle = 0.5 * (mesh.points[side_start(mesh, s)] + mesh.points[side_end(mesh, s)]);
+    if (std::ranges::any_of(balls, [&](const FeatureBall& b) { return norm(middle - b.at) < b.reach; }))
+      cut[s] = kNewCut;
+  }
+}
+
 /// Numbers the parts between cuts in the order of their first triangles; returns the region of each.
 std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& cut) {
   const int n = static_cast<int>(mesh.triangles.size());
@@ -169,6 +181,7 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   int loose = drop_loose_ends(model.fine, twin, cut);
   const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
   loose += drop_loose_ends(model.fine, twin, cut);
+  keep_features(model.fine, options.kept_features, angles, cut);
   if (noise.islands > 0)
     model.warnings.push_back(
         fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",

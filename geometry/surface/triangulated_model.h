@@ -4,6 +4,12 @@
 
 namespace delquad {
 
+/// A ball in which sharp edges stay features, wherever they lead.
+struct FeatureBall {
+  Vec3 at;
+  double reach = 0;
+};
+
 struct TriangulatedOptions {
   /// Degrees, above 0 to 180: neighbouring triangles whose normals differ by more lie in different faces, and
   /// a curve that turns by more has a corner there.
@@ -12,6 +18,7 @@ struct TriangulatedOptions {
   double weld_tolerance = 1e-9;
   /// The file that the triangles are from, for messages.
   std::string source = "triangles";
+  std::vector<FeatureBall> kept_features = {};
 };
 
 /// A model of a triangulated surface, repaired (see repair_triangles).
@@ -20,7 +27,8 @@ struct TriangulatedOptions {
 /// along features. A face keeps the tag of its region; further faces of the same region get new tags and its
 /// names. Curves are the chains of these cuts, ended where other than two meet, where they turn sharply and
 /// where the given curve changes. A cut that ends inside a face bounds nothing and is dropped from its loose
-/// end; a cut that has the same face on both sides but no loose end stays, like the seam of a tube.
+/// end; a cut that has the same face on both sides but no loose end stays, like the seam of a tube. In the
+/// balls of options.kept_features all edges of more than 60 degrees stay.
 ///
 /// The direction of a triangle whose height is within the rounding of single precision coordinates is that of
 /// its neighbour across its longest side: such slivers make no features.

@@ -86,7 +86,7 @@ struct Place {
 
 /// Places of one kind: how many there are, and the first few.
 struct Places {
-  static constexpr std::size_t kMostKept = 3;
+  static constexpr std::size_t kMostKept = 100;
   int count = 0;
   std::vector<Place> first;
   void add(const Place& place) {
@@ -148,6 +148,8 @@ struct SurfaceReport {
 struct Soundness {
   /// One for each way in which it is not, with numbers, faces and the first places; empty: it is sound.
   std::vector<std::string> reasons;
+  /// All that are known of these places, the first hundred for each reason.
+  std::vector<Place> places = {};
   bool sound() const { return reasons.empty(); }
   /// All of them in one line.
   std::string text() const;

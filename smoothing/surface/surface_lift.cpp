@@ -36,11 +36,12 @@ constexpr std::size_t kMostPaired = 24;
 
 class SurfaceLift {
  public:
-  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta)
+  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, const LiftedBall& ball)
       : tracks_(tracks),
         quads_(tracks.quads()),
         places_(places),
         start_(places),
+        ball_(ball),
         eta_(eta),
         steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
         warp2_(std::pow(std::tan((1 - eta / kWarpFactor) * std::numbers::pi / 2), 2)),
@@ -76,12 +77,18 @@ class SurfaceLift {
     std::vector<char> is_below(quads_.size(), 0);
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
       for (int q = static_cast<int>(begin); q < static_cast<int>(end); ++q)
-        is_below[q] = !is_clearly_good(q) && quality(q) < eta_;
+        is_below[q] = is_in_ball(q) && !is_clearly_good(q) && quality(q) < eta_;
     });
     std::vector<int> below;
     for (std::size_t q = 0; q < is_below.size(); ++q)
       if (is_below[q]) below.push_back(static_cast<int>(q));
     return below;
+  }
+
+  bool is_in_ball(int q) const {
+    return std::isinf(ball_.radius) || std::ranges::any_of(quads_[q], [&](int v) {
+             return norm(start_[v] - ball_.centre) < ball_.radius;
+           });
   }
 
   /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
@@ -228,6 +235,7 @@ class SurfaceLift {
   const std::vector<std::array<int, 4>>& quads_;
   std::vector<Vec3>& places_;
   std::vector<Vec3> start_;
+  const LiftedBall& ball_;
   double eta_;                        ///< that will do
   double steepest2_;                  ///< square of the cotangent of the sharpest angle that will do
   double warp2_;                      ///< square of the tangent of the largest warp that will do
@@ -239,8 +247,9 @@ class SurfaceLift {
 
 }  // namespace
 
-int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps) {
-  return SurfaceLift(tracks, places, eta).run(max_sweeps);
+int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
+                          const LiftedBall& ball) {
+  return SurfaceLift(tracks, places, eta, ball).run(max_sweeps);
 }
 
 }  // namespace delquad

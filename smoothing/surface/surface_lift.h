@@ -1,8 +1,16 @@
 #pragma once
 
+#include <limits>
+
 #include "smoothing/surface/surface_tracks.h"
 
 namespace delquad {
+
+/// Quads with a corner in this ball are lifted.
+struct LiftedBall {
+  Vec3 centre = {};
+  double radius = std::numeric_limits<double>::infinity();
+};
 
 /// Lifts the worst quads of a surface in space: while quads below `eta` improve, their vertices slide over
 /// the true faces and along the curves to where the worst quad around the vertex is best, also where that is
@@ -10,6 +18,7 @@ namespace delquad {
 /// least eta around a vertex gets lower; no edge at a node on a curve falls below half of the shortest that
 /// was around it. `places` are those of the tracks' vertices, and are updated. Returns how many vertices
 /// moved.
-int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps);
+int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
+                          const LiftedBall& ball = {});
 
 }  // namespace delquad

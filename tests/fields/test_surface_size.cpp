@@ -159,6 +159,20 @@ SurfaceModel cut_square(double edge) {
   return model;
 }
 
+TEST(SurfaceSizes, KeepToSpotsInsideOfLargeTriangles) {
+  SurfaceModel model = square(1, 10);
+  WantedSize wanted;
+  wanted.base = make_constant_size(2);
+  wanted.gradation = 0.7;
+  wanted.spots = {{{6.3, 7.1, 0}, 0.3, 0.1}};
+  improve_triangulation(model);
+  refine_for_size(model, wanted);
+  const SurfaceSize size(model, wanted);
+  EXPECT_NEAR(size_at(size, {6.3, 7.1, 0}), 0.1, 0.03);
+  EXPECT_NEAR(size_at(size, {7.3, 7.1, 0}), 0.1 + 0.7 * 0.7, 0.15);
+  EXPECT_EQ(size_at(size, {1, 1, 0}), 2);
+}
+
 TEST(SizesBesideShortCurves, GrowFromAFewTimesTheirLength) {
   SurfaceModel model = cut_square(0.1);
   WantedSize wanted;

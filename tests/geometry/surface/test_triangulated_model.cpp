@@ -107,6 +107,20 @@ TEST(TriangulatedModel, PiecesOfARegionShareItsNames) {
   EXPECT_EQ(tags, (std::vector<int>{2, 3, 4}));
 }
 
+TEST(TriangulatedModel, KeptFeaturesStayWhereverTheyLead) {
+  // A ridge from the southern side, which fades away to the north: no part of it bounds a face.
+  Mesh mesh = triangle_grid(8, 8);
+  for (Vec3& p : mesh.points) p.z = 0.7 * (0.5 - std::abs(p.x - 0.5)) * (1 - p.y);
+  const auto n_lines = [&](const std::vector<FeatureBall>& balls) {
+    TriangulatedOptions options;
+    options.kept_features = balls;
+    return make_surface_model(mesh, options).fine.lines.size();
+  };
+  EXPECT_EQ(n_lines({}), 32U) << "the outline";
+  EXPECT_EQ(n_lines({{{0.5, 0, 0.35}, 0.3}}), 33U) << "and the edge of more than 60 degrees";
+  EXPECT_EQ(n_lines({{{0, 0, 0}, 0.3}}), 32U);
+}
+
 TEST(TriangulatedModel, CutsThatEndInsideAFaceAreDropped) {
   Mesh mesh = triangle_grid(4, 4);
   mesh.lines = {{10, 11}, {11, 12}};  // from the left part of the middle row to its middle

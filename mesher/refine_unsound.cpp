@@ -1,0 +1,85 @@
+#include "mesher/refine_unsound.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "delquad/error.h"
+#include "mesher/repair_options.h"
+
+namespace delquad {
+namespace {
+
+/// How often a problem is meshed anew.
+constexpr int kMostRounds = 8;
+/// From this round on sharp edges in the spots become features.
+constexpr int kFirstWithFeatures = 4;
+/// The size becomes this part of what it was, so many of these sizes around.
+constexpr double kPart = 0.5, kReach = 3;
+/// Larger ones would ask for little else than the whole model.
+constexpr std::size_t kMostSpots = 1000;
+
+/// Adds a ball around each place where the mesh is not sound, but for those inside of another new one.
+void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std::vector<SizeSpot>& spots) {
+  const std::size_t first_new = spots.size();
+  int hint = -1;
+  for (const Place& place : soundness.places) {
+    const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
+                                      [&](const SizeSpot& s) { return norm(s.at - place.at) < s.size; });
+    if (is_known || spots.size() == kMostSpots) continue;
+    const double size = kPart * prepared.size->at(place.at, hint);
+    spots.push_back({place.at, kReach * size, size});
+  }
+}
+
+void add_times(const StepTimes& times, StageLog& log) {
+  for (const auto& [step, time] : times) log.add_time(step, time);
+}
+
+Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
+  const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
+  return fmt::format(
+      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at "
+      "({:.6g}, {:.6g}, {:.6g})",
+      prepared.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
+}
+
+}  // namespace
+
+void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+                    RunResult& result) {
+  if (result.soundness.sound() || !prepared.surface || !repair_options(prepared.options).refine_unsound)
+    return;
+  StageLog before;
+  double seconds = result.seconds;
+  std::vector<SizeSpot> spots;
+  add_spots(prepared, result.soundness, spots);
+  add_times(prepared.times, before);
+  add_times(result.log.times, before);
+  for (int round = 1; round <= kMostRounds; ++round) try {
+      const std::size_t n_spots = spots.size();
+      if (n_spots == 0) return;
+      PreparedProblem finer = prepare_anew({spots, round >= kFirstWithFeatures});
+      RunResult run = run_word(finer, word);
+      seconds += run.seconds;
+      if (!run.soundness.sound()) {
+        add_spots(finer, run.soundness, spots);
+        if (spots.size() == n_spots) return;
+        add_times(finer.times, before);
+        add_times(run.log.times, before);
+        continue;
+      }
+      add_times(before.times, run.log);
+      add_summary(run.log, RefinementSummary{round, static_cast<int>(n_spots)});
+      run.seconds = seconds;
+      run.warnings.push_back(warning_of(finer, spots));
+      prepared = std::move(finer);
+      result = std::move(run);
+      return;
+    } catch (const InputError&) {
+      return;  // too many elements, or a boundary that cannot be: what there was stays
+    }
+}
+
+}  // namespace delquad

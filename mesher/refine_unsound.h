@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+
+/// prepare() of the same problem.
+using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
+
+/// Where the mesh of a surface is not sound, the size is too large for what is there: halves it around these
+/// places and meshes anew, a few times; where that does not help, sharp edges there become features.
+/// `prepared` and `result` become those of a mesh that is sound, with a warning and the time of all tries;
+/// where none is found they stay.
+void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+                    RunResult& result);
+
+}  // namespace delquad

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "delquad/error.h"
+#include "delquad/mesher.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad {
+namespace {
+
+/// A sheet with a ridge that rises steeply from its feet and fades away inside: its edges are sharp, but lead
+/// nowhere.
+MeshProblem ridge(double size) {
+  TriangleModel sheet;
+  sheet.source = "ridge";
+  sheet.mesh = testing_support::triangle_grid(80, 20, 4, 2);
+  for (Vec3& p : sheet.mesh.points)
+    p.z = 1.2 * std::max(0.0, 1 - std::abs(p.x - 2) / 0.2) * std::max(0.0, 1 - std::abs(p.y - 1) / 0.6);
+  MeshProblem problem;
+  problem.name = problem.where = "ridge";
+  problem.model = sheet;
+  problem.size.field = make_constant_size(size);
+  return problem;
+}
+
+bool says(const MeshResult& result, const std::string& text) {
+  return std::ranges::any_of(result.warnings,
+                             [&](const Warning& w) { return w.text.find(text) != std::string::npos; });
+}
+
+TEST(RefineUnsound, MakesSizesSmallerWhereQuadsCannotBeSound) {
+  MeshProblem problem = ridge(0.5);
+  problem.options.set("repair.refine_unsound", false);
+  EXPECT_THROW(mesh(problem, "DB"), UnsoundError);
+  problem.options.set("repair.refine_unsound", true);
+  const MeshResult result = mesh(problem, "DB");
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_GT(result.summaries.number("refine_unsound", "rounds"), 0);
+  EXPECT_TRUE(says(result, "the size is smaller"));
+}
+
+TEST(RefineUnsound, StaysAwayFromTheRest) {
+  const MeshResult result = mesh(ridge(0.5), "DB");
+  double longest = 0;
+  for (const auto& quad : result.mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 a = result.mesh.points[quad[k]], b = result.mesh.points[quad[(k + 1) % 4]];
+      if (std::max(a.x, b.x) < 0.6) longest = std::max(longest, norm(b - a));
+    }
+  EXPECT_GT(longest, 0.3);
+}
+
+TEST(RefineUnsound, LeavesSoundMeshesAlone) {
+  const MeshResult result = mesh(ridge(0.05), "DB");
+  EXPECT_FALSE(result.summaries.has("refine_unsound"));
+}
+
+}  // namespace
+}  // namespace delquad
