@@ -23,7 +23,12 @@ void print_surface_report(const PreparedProblem& prepared, const SurfaceReport& 
     fmt::print("; worst: face {}", prepared.boundary.regions[maps.worst_face].tag);
   double length = 0;
   for (const SurfaceCut& cut : prepared.surface->cuts) length += cut.length;
-  fmt::print("\ncuts: {}, together {:.4g} long\n", prepared.surface->cuts.size(), length);
+  fmt::print("\ncuts: {}, together {:.4g} long", prepared.surface->cuts.size(), length);
+  const QuadShare &near = report.near_cuts, &off = report.off_cuts;
+  if (near.quads > 0 && off.quads > 0)
+    fmt::print("; eta {:.3f} and d4 {:.1f} near them, {:.3f} and {:.1f} elsewhere", near.eta, near.d4,
+               off.eta, off.d4);
+  fmt::print("\n");
   fmt::print("mesh: {}; the model is {}\n", show(report.mesh), show(report.model));
   fmt::print(
       "distances in diagonals (max, mean): mesh to surface {:.2g}, {:.2g}; surface to mesh {:.2g}, {:.2g}\n",

@@ -247,6 +247,10 @@ Json maps_json(const PreparedProblem& p) {
   return json;
 }
 
+Json share_json(const QuadShare& share) {
+  return {{"quads", share.quads}, {"vertices", share.vertices}, {"eta_mean", share.eta}, {"d4", share.d4}};
+}
+
 Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
   Json cuts = Json::array();
   for (const SurfaceCut& cut : p.surface->cuts)
@@ -256,6 +260,8 @@ Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
                     {"divides", cut.divides}});
   return {{"maps", maps_json(p)},
           {"cuts", cuts},
+          {"near_cuts", share_json(report.near_cuts)},
+          {"off_cuts", share_json(report.off_cuts)},
           {"topology", topology_json(report.mesh)},
           {"model_topology", topology_json(report.model)},
           {"nonconforming_edges", report.nonconforming_edges.count},

@@ -121,6 +121,13 @@ struct Distances {
   void add(double distance, double size, const Place& place);
 };
 
+/// Some quads of a mesh, and their vertices that lie on no curve of the model.
+struct QuadShare {
+  int quads = 0, vertices = 0;
+  double eta = 0;  ///< mean
+  double d4 = 0;   ///< percent of the vertices that have four quads
+};
+
 /// How a mesh fits the surface that it was made for.
 struct SurfaceReport {
   Topology model, mesh;
@@ -133,6 +140,8 @@ struct SurfaceReport {
   Distances nodes_on_curves;   ///< to the nearest of the curve and the faces around
   Distances nodes_at_corners;  ///< the same
   Distances mesh_to_surface, surface_to_mesh;
+  /// Within three rings of quads from where faces were divided or cut open, and all others.
+  QuadShare near_cuts, off_cuts;
 };
 
 /// Whether a mesh is one of its model, and fit to be computed with. It is sound when

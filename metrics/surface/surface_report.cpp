@@ -11,6 +11,7 @@
 #include "mesh/half_edges.h"
 #include "mesh/nearest_triangle.h"
 #include "metrics/surface/face_normals.h"
+#include "metrics/surface/near_cuts.h"
 #include "metrics/surface/nearest_element.h"
 
 namespace delquad {
@@ -104,8 +105,10 @@ class Comparison {
     report_.model = topology_of(fine_);
     report_.mesh = topology_of(mesh_, sides_);
     std::optional<NearestElement> elements;
-    const std::function<void()> parts[] = {[&] { elements.emplace(mesh_); }, [&] { measure_elements(); },
-                                           [&] { measure_nodes(); }, [&] { find_turned_elements(); }};
+    const std::function<void()> parts[] = {
+        [&] { elements.emplace(mesh_); }, [&] { measure_elements(); }, [&] { measure_nodes(); },
+        [&] { find_turned_elements(); },
+        [&] { measure_near_cuts(mesh_, is_cut_, report_.near_cuts, report_.off_cuts); }};
     parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
     measure_surface(*elements);
     return report_;
