@@ -15,15 +15,18 @@ struct CadOptions {
   /// radians.
   double angle = 0.15;
   /// Processor time that the kernel may take to triangulate a face, in one of its trials: those that take
-  /// longer count as faces that cannot be triangulated. Nearly ten times what any face took of 24 models
-  /// (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the machine does not
-  /// decide.
+  /// longer are triangulated from their outlines, as those for which it fails. Nearly ten times what any face
+  /// took of 24 models (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the
+  /// machine does not decide.
   double face_seconds = 20;
   /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
   /// these models took.
   double healing_seconds = 60;
   /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
   std::string unit = {};
+  /// All faces are triangulated from their outlines, as else only those for which the kernel fails: to
+  /// compare the two ways.
+  bool by_outline = false;
   /// Faces that cannot be triangulated are left out, and named in the model, instead of an error.
   bool keep_going = false;
 };

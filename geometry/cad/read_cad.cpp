@@ -53,19 +53,6 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   }
 }
 
-/// Welds the faces; without those whose triangles turn out to be no use, which get the reason.
-WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
-                        std::vector<std::string>& why_not) {
-  for (;;) {
-    WeldedFaces welded = weld_faces(meshes, edges, gap);
-    if (welded.bad_faces.empty()) return welded;
-    for (const int f : welded.bad_faces) {
-      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
-      meshes[f].triangles.clear();
-    }
-  }
-}
-
 /// Names the faces that cannot be used, those with the same reason together.
 [[noreturn]] void refuse(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                          const std::vector<std::string>& why_not) {

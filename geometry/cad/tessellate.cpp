@@ -102,12 +102,12 @@ std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMap
   for (int f = 1; f <= faces.Extent(); ++f) {
     FaceMesh mesh = take_triangulation(TopoDS::Face(faces(f)));
     std::string& reason = why_not[static_cast<std::size_t>(f) - 1];
-    if (std::ranges::binary_search(cad.late_faces, f))
-      reason = "cannot be triangulated in the time that a face may take";
-    else if (mesh.triangles.empty())
+    if (mesh.triangles.empty())
       reason = "cannot be triangulated";
     else if (!(area(mesh) > kNoArea * cad.diagonal * cad.diagonal))
       reason = "without area";
+    if (!reason.empty() && !cad.why_not.empty() && !cad.why_not[static_cast<std::size_t>(f) - 1].empty())
+      reason += ": " + cad.why_not[static_cast<std::size_t>(f) - 1];
     if (!reason.empty()) mesh.triangles.clear();
     meshes.push_back(std::move(mesh));
   }
