@@ -111,6 +111,7 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
   CadOptions options;
   options.unit = problem.surface.unit;
   options.keep_going = problem.keep_going;
+  options.glue = problem.surface.glue;
   const auto* example = std::get_if<ExampleModel>(&problem.model);
   if (example != nullptr && !options.unit.empty() && options.unit != "mm")
     throw InputError(problem.surface.where + ": lengths of the examples are in mm");

@@ -24,6 +24,8 @@ struct CadOptions {
   double healing_seconds = 60;
   /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
   std::string unit = {};
+  /// Bodies share the faces, curves and points at which they touch: see glue_shape.h.
+  bool glue = false;
   /// All faces are triangulated from their outlines, as else only those for which the kernel fails: to
   /// compare the two ways.
   bool by_outline = false;

@@ -21,6 +21,7 @@ void visit_numbers(Request& r, const Visit& visit) {
   visit(r.options.face_seconds);
   visit(r.options.healing_seconds);
   visit(r.options.by_outline);
+  visit(r.options.glue);
   visit(r.threads);
   visit(r.seconds);
   visit(r.heals);

@@ -29,6 +29,7 @@
 #include "base/context.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
+#include "geometry/cad/glue_shape.h"
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/mesh_by_outline.h"
 #include "geometry/cad/shape_bytes.h"
@@ -146,6 +147,7 @@ CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   cad.diagonal = diagonal_of(cad.shape);
   cad.late_faces = request.late_faces;
   heal(cad, request.options, request.heals, watch);
+  if (request.options.glue) glue_shape(cad, kSewing * cad.diagonal);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
