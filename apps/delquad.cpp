@@ -226,9 +226,6 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "join ends of open edges of a triangulation up to this part of its diagonal");
   mesh->add_flag("--glue", arguments.glue,
                  "bodies of a CAD model that touch share faces, curves and nodes there");
-  mesh->add_option("--ignore-below", arguments.ignore_below,
-                   "of surfaces: curves shorter than this length become points, narrower faces vanish")
-      ->check(kLength);
   mesh->add_option("--unit", arguments.unit,
                    "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
   std::string qualities;

@@ -38,10 +38,6 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
     given("--glue");
     surface.glue = true;
   }
-  if (arguments.ignore_below > 0) {
-    given("--ignore-below");
-    surface.ignore_below = arguments.ignore_below;
-  }
   if (!arguments.unit.empty())
     surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
   if (arguments.weld_tolerance)

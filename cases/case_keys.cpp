@@ -151,7 +151,6 @@ const TomlKeys& surface_keys() {
       {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
       {"mirror", "the model is one half", "", mirror_keys},
       {"glue", "whether bodies of CAD share what they touch at", kFlag},
-      {"ignore_below", "shorter curves become points, narrower faces vanish", kPositive},
       {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
   return keys;
 }

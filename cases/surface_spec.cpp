@@ -60,7 +60,6 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
   if (const auto mirror = table.optional_table("mirror"))
     spec.mirror = read_mirror(*mirror, spec.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance));
   spec.glue = table.flag("glue", false);
-  if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
   if (table.has("unit")) {
     spec.unit = table.text("unit");
     located(table.where("unit"), [&] { length_unit(spec.unit); });

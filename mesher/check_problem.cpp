@@ -74,7 +74,6 @@ void check(const CrossSpec& cross) {
 
 void check(const SurfaceSpec& surface, const std::string& where) {
   check_length(surface.merge_curves, "the length of curves that are merged", where);
-  check_length(surface.ignore_below, "the length below which curves are ignored", where);
   if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
   if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
   if (!surface.unit.empty()) located(where, [&] { length_unit(surface.unit); });

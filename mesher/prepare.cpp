@@ -218,11 +218,10 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem) {
 void check_planar(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
   if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.feature_angle || s.weld_tolerance ||
-      s.mirror || s.glue || s.ignore_below > 0 || !s.unit.empty())
-    throw InputError(
-        (s.where.empty() ? problem.where : s.where) +
-        ": the model is planar: compounds, feature angles, welding, gluing, short curves to ignore, mirrors and "
-        "units are for surfaces");
+      s.mirror || s.glue || !s.unit.empty())
+    throw InputError((s.where.empty() ? problem.where : s.where) +
+                     ": the model is planar: compounds, feature angles, welding, gluing, mirrors and "
+                     "units are for surfaces");
   if (problem.size.curvature > 0)
     throw InputError(problem.size.where +
                      ": sizes by curvature are for surfaces, and this is a planar domain");

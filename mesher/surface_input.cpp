@@ -88,6 +88,8 @@ void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
 }
 
 SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model) {
+  if (spec.glue)
+    throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   convert(model.source, spec, triangles);

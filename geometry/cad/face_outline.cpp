@@ -64,7 +64,7 @@ class OutlineBuilder {
     EdgePassage& passage = outline_.passages.emplace_back(EdgePassage{edge, {}});
     for (const double t : parameters) {
       passage.points.push_back(static_cast<int>(outline_.uv.size()));
-      const gp_Pnt2d uv = flat->Value(parameter_on(*flat, t, first, last, parameters));
+      const gp_Pnt2d uv = flat->Value(parameter_on(t, first, last, parameters));
       outline_.uv.push_back({uv.X(), uv.Y()});
       outline_.points.push_back(curve.IsNull() ? to_vec(surface_->Value(uv.X(), uv.Y()))
                                                : to_vec(curve->Value(t)));
@@ -76,8 +76,7 @@ class OutlineBuilder {
   }
 
   /// The curve in parameters may run over another range than that in space.
-  static double parameter_on(const Geom2d_Curve&, double t, double first, double last,
-                             const std::vector<double>& parameters) {
+  static double parameter_on(double t, double first, double last, const std::vector<double>& parameters) {
     const double a = parameters.front(), b = parameters.back();
     return b > a ? first + (t - a) * ((last - first) / (b - a)) : t;
   }

@@ -27,7 +27,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// Inside one face; ten times what any face of 24 models has at the usual bounds.
+/// Inside one face: seconds of work.
 constexpr int kMostPoints = 200000;
 /// Each halves the chords that cross.
 constexpr int kMostRounds = 12;
@@ -52,10 +52,10 @@ void check_sides(const PatchBoundary& boundary, const TriPatch& flat) {
 }
 
 /// A face narrower than points that the kernel takes for one is none.
-void check_width(const FaceOutline& outline, const TriPatch& flat) {
+void check_width(const FaceOutline& outline, const RefinedFace& mesh) {
   double area = 0, perimeter = 0;
-  for (const auto& [a, b, c] : flat.triangles)
-    area += norm(cross(outline.points[b] - outline.points[a], outline.points[c] - outline.points[a])) / 2;
+  for (const auto& [a, b, c] : mesh.flat.triangles)
+    area += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
   for (const EdgePassage& passage : outline.passages)
     for (std::size_t k = 0; k + 1 < passage.points.size(); ++k)
       perimeter += norm(outline.points[passage.points[k + 1]] - outline.points[passage.points[k]]);
@@ -185,8 +185,8 @@ class OutlineMesher {
       const PatchBoundary boundary = boundary_of(outline, scale);
       const TriPatch start = constrained_delaunay(boundary);
       check_sides(boundary, start);
-      check_width(outline, start);
       const RefinedFace refined = refine_face(*surface, start, outline.points, scale, bounds_);
+      check_width(outline, refined);
       store(face, outline, refined, scale, bounds_.deflection, chords_);
       if (!refined.is_complete) coarse_.Add(face);
     });

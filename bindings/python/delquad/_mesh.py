@@ -79,7 +79,7 @@ def _set_cross(problem, cross):
         )
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, ignore_below, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -95,8 +95,6 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, 
         problem.mirror(point, normal)
     if glue:
         problem.glue(True)
-    if ignore_below is not None:
-        problem.ignore_below(ignore_below)
     if unit is not None:
         problem.unit(unit)
 
@@ -125,7 +123,6 @@ def mesh(
     merge_curves=None,
     mirror=None,
     glue=False,
-    ignore_below=None,
     unit=None,
     options=None,
     name=None,
@@ -152,7 +149,6 @@ def mesh(
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
-    ignore_below: a length: shorter curves become points, and narrower faces vanish.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
@@ -170,7 +166,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, ignore_below, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit)
     if word is None:
         word = problem.quality(quality or "good")
     for key, value in (options or {}).items():
