@@ -34,6 +34,10 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
   }
   if (arguments.feature_angle)
     surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
+  if (arguments.glue) {
+    given("--glue");
+    surface.glue = true;
+  }
   if (!arguments.unit.empty())
     surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
   if (arguments.weld_tolerance)

@@ -59,6 +59,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
         checked_weld_tolerance(table.number("weld_tolerance"), table.where("weld_tolerance"));
   if (const auto mirror = table.optional_table("mirror"))
     spec.mirror = read_mirror(*mirror, spec.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance));
+  spec.glue = table.flag("glue", false);
   if (table.has("unit")) {
     spec.unit = table.text("unit");
     located(table.where("unit"), [&] { length_unit(spec.unit); });

@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// The keys of a [surface] table: compound, merge_curves, feature_angle, weld_tolerance, mirror. Throws
+/// The keys of a [surface] table: compound, merge_curves, feature_angle, weld_tolerance, mirror, glue, unit. Throws
 /// InputError with file and line.
 SurfaceSpec read_surface_spec(const TomlTable& table);
 

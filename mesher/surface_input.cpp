@@ -89,6 +89,8 @@ void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
 
 SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
                           const std::vector<FeatureBall>& kept_features) {
+  if (spec.glue)
+    throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   convert(model.source, spec, triangles);
@@ -113,6 +115,7 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
   CadOptions options;
   options.unit = problem.surface.unit;
   options.keep_going = problem.keep_going;
+  options.glue = problem.surface.glue;
   const auto* example = std::get_if<ExampleModel>(&problem.model);
   if (example != nullptr && !options.unit.empty() && options.unit != "mm")
     throw InputError(problem.surface.where + ": lengths of the examples are in mm");

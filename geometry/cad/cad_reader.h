@@ -15,32 +15,38 @@ struct CadOptions {
   /// radians.
   double angle = 0.15;
   /// Processor time that the kernel may take to triangulate a face, in one of its trials: those that take
-  /// longer count as faces that cannot be triangulated. Nearly ten times what any face took of 24 models
-  /// (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the machine does not
-  /// decide.
+  /// longer are triangulated from their outlines, as those for which it fails. Nearly ten times what any face
+  /// took of 24 models (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the
+  /// machine does not decide.
   double face_seconds = 20;
   /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
   /// these models took.
   double healing_seconds = 60;
   /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
   std::string unit = {};
+  /// Bodies share the faces, curves and points at which they touch: see glue_shape.h.
+  bool glue = false;
+  /// All faces are triangulated from their outlines, as else only those for which the kernel fails: to
+  /// compare the two ways.
+  bool by_outline = false;
   /// Faces that cannot be triangulated are left out, and named in the model, instead of an error.
   bool keep_going = false;
 };
 
 /// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are
 /// in the unit that is asked for in STEP and IGES, whatever the file's unit, and as given in BREP, which has
-/// none, so that to ask for one is an InputError. Each face and each edge stands once,
-/// as region and curve; their tags are their numbers in the file's order, so that gaps stay where degenerate
-/// edges and seams were: these are no curves, the triangulation is connected across them. A region's names
-/// are those of its face, solids and products in STEP and IGES and its colour ("colour #rrggbb"). Normals of
-/// a solid point outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so;
-/// warnings also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal
-/// where the surface is regular. The kernel works in a worker process (see find_worker()), so that a damaged
-/// file cannot bring the program down; what it prints is lost. Throws Cancelled, and InputError naming the
-/// file for files that cannot be read or hold no face, and naming the faces that are unbounded, have no area,
-/// cross their own boundary or cannot be triangulated, unless options.keep_going leaves them out and others
-/// remain (an unbounded one is refused in any case).
+/// none, so that to ask for one is an InputError. Faces of different bodies that lie on each other are told
+/// in a warning; with options.glue bodies share them. Each face and each edge stands once, as region and
+/// curve; their tags are their numbers in the file's order, so that gaps stay where degenerate edges and
+/// seams were: these are no curves, the triangulation is connected across them. A region's names are those of
+/// its face, solids and products in STEP and IGES and its colour ("colour #rrggbb"). Normals of a solid point
+/// outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so; warnings also
+/// tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the surface
+/// is regular. The kernel works in a worker process (see find_worker()), so that a damaged file cannot bring
+/// the program down; what it prints is lost. Throws Cancelled, and InputError naming the file for files that
+/// cannot be read or hold no face, and naming the faces that are unbounded, have no area, cross their own
+/// boundary or cannot be triangulated, unless options.keep_going leaves them out and others remain (an
+/// unbounded one is refused in any case).
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 

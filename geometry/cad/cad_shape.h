@@ -37,7 +37,8 @@ struct CadShape {
   double diagonal = 0;  ///< of the bounding box
   std::string unit;     ///< of lengths; empty: unknown
   std::vector<Warning> warnings;
-  std::vector<int> late_faces;  ///< numbers of the faces for which the kernel takes too long, ascending
+  std::vector<int> late_faces;       ///< numbers of the faces for which the kernel takes too long, ascending
+  std::vector<std::string> why_not;  ///< of each face, why it has no triangulation; mostly empty texts
 };
 
 }  // namespace delquad::cad

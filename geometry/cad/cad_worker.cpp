@@ -22,19 +22,23 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <numeric>
 #include <thread>
 
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
+#include "geometry/cad/glue_shape.h"
 #include "geometry/cad/heal_shape.h"
+#include "geometry/cad/mesh_by_outline.h"
 #include "geometry/cad/shape_bytes.h"
 #include "geometry/cad/shape_file.h"
 #include "geometry/cad/sub_shapes.h"
 #include "geometry/cad/tessellate.h"
 #include "geometry/cad/unwind_faces.h"
 #include "geometry/cad/watch_kernel.h"
+#include "geometry/cad/weld_faces.h"
 #include "geometry/cad/worker_process.h"
 
 namespace delquad::cad {
@@ -98,15 +102,56 @@ void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& wat
   unwind_faces(cad);
 }
 
+/// The faces (numbers) for which the kernel's mesher failed.
+std::vector<int> without_triangles(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double gap) {
+  std::vector<std::string> why_not;
+  std::vector<FaceMesh> meshes = face_meshes(cad, faces, why_not);
+  weld_usable(meshes, parts(cad.shape, TopAbs_EDGE), gap, why_not);
+  std::vector<int> numbers;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    if (!why_not[static_cast<std::size_t>(f) - 1].empty()) numbers.push_back(f);
+  return numbers;
+}
+
+std::string titles(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                   const std::vector<int>& numbers) {
+  std::vector<std::string> all;
+  for (const int f : numbers) all.push_back(face_title(f, cad.names.of(faces(f))));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// By the kernel; what it cannot, from the outlines.
+void triangulate_faces(CadShape& cad, const TopTools_IndexedMapOfShape& faces, const CadOptions& options) {
+  const double deflection = options.deflection * cad.diagonal;
+  std::vector<int> wanted(static_cast<std::size_t>(faces.Extent()));
+  std::iota(wanted.begin(), wanted.end(), 1);
+  if (!options.by_outline) {
+    triangulate(cad, faces, deflection, options.angle);
+    wanted = without_triangles(cad, faces, deflection);
+  }
+  if (wanted.empty()) return;
+  const OutlineMeshes result = mesh_by_outline(cad, faces, wanted, deflection, options.angle);
+  cad.why_not.resize(static_cast<std::size_t>(faces.Extent()));
+  for (const auto& [face, reason] : result.failed) cad.why_not[static_cast<std::size_t>(face) - 1] = reason;
+  if (!options.by_outline && !result.meshed.empty())
+    cad.warnings.push_back(
+        "the CAD kernel could not triangulate all faces; triangulated from their outlines instead: " +
+        titles(cad, faces, result.meshed));
+  if (!result.coarse.empty())
+    cad.warnings.push_back("triangulated more coarsely than asked for, which takes too many points: " +
+                           titles(cad, faces, result.coarse));
+}
+
 CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
   cad.late_faces = request.late_faces;
   heal(cad, request.options, request.heals, watch);
+  if (request.options.glue) glue_shape(cad, kSewing * cad.diagonal);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
-  triangulate(cad, faces, request.options.deflection * cad.diagonal, request.options.angle);
+  triangulate_faces(cad, faces, request.options);
   return cad;
 }
 

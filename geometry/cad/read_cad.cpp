@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <TopExp_Explorer.hxx>
 #include <algorithm>
 #include <utility>
 
@@ -10,10 +9,12 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/cad/examples/shapes.h"
+#include "geometry/cad/glue_shape.h"
 #include "geometry/cad/prepare_shape.h"
 #include "geometry/cad/shape_projector.h"
 #include "geometry/cad/sub_shapes.h"
 #include "geometry/cad/tessellate.h"
+#include "geometry/cad/touching_faces.h"
 #include "geometry/cad/weld_faces.h"
 #include "geometry/surface/report_edges.h"
 
@@ -26,19 +27,33 @@ namespace {
 /// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
 /// surfaces with a singular parametrisation, where Newton's method converges linearly.
 constexpr double kProjection = 1e-12;
+/// Faces nearer than this part of the diagonal lie on each other; as far apart as edges that are sewn.
+constexpr double kTouching = 1e-6;
 
-/// Faces of each solid, and of each shell outside solids.
+/// Faces of each body.
 std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
   std::vector<std::vector<int>> all;
-  const auto add = [&](const TopoDS_Shape& body) {
+  for (const TopoDS_Shape& body : bodies_of(shape)) {
     std::vector<int>& of = all.emplace_back();
     const TopTools_IndexedMapOfShape own = parts(body, TopAbs_FACE);
     for (int f = 1; f <= own.Extent(); ++f) of.push_back(faces.FindIndex(own(f)) - 1);
-  };
-  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) add(solid.Current());
-  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
-    add(shell.Current());
+  }
   return all;
+}
+
+/// Faces of bodies that only coincide get meshes of their own there.
+void tell_touching_faces(SurfaceModel& model, const std::vector<std::vector<int>>& groups, double deflection,
+                         double tolerance) {
+  const auto pairs = touching_faces(model, groups, deflection, tolerance);
+  if (pairs.empty()) return;
+  constexpr std::size_t kMostNamed = 10;
+  const auto title = [&](int f) { return face_title(f + 1, model.fine.regions[f].names); };
+  std::string text;
+  for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i)
+    text += fmt::format("{}{} and {}", i == 0 ? "" : "; ", title(pairs[i][0]), title(pairs[i][1]));
+  model.warnings.push_back(fmt::format(
+      "faces of {} pairs lie on each other and share no nodes (--glue, surface.glue = true): {}{}",
+      pairs.size(), text, pairs.size() > kMostNamed ? "; ..." : ""));
 }
 
 void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
@@ -50,19 +65,6 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   }
   if (const int n = turn_outwards(model.fine, groups); n > 0) {
     model.warnings.push_back(fmt::format("{} bodies were inside out and were turned over", n));
-  }
-}
-
-/// Welds the faces; without those whose triangles turn out to be no use, which get the reason.
-WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
-                        std::vector<std::string>& why_not) {
-  for (;;) {
-    WeldedFaces welded = weld_faces(meshes, edges, gap);
-    if (welded.bad_faces.empty()) return welded;
-    for (const int f : welded.bad_faces) {
-      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
-      meshes[f].triangles.clear();
-    }
   }
 }
 
@@ -103,11 +105,13 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   model.fine.unit = cad.unit;
   model.corners = std::move(welded.corners);
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
-  orient(model, bodies(cad.shape, faces));
+  const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);
+  orient(model, groups);
   report_edges(model);
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
   for (const auto& [point, face] : welded.inside)
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
+  tell_touching_faces(model, groups, options.deflection * cad.diagonal, kTouching * cad.diagonal);
   return model;
 }
 

@@ -50,6 +50,7 @@ std::string to_bytes(const CadShape& cad) {
   put(out, cad.diagonal);
   put(out, texts(cad.warnings));
   put(out, std::vector<std::string>{cad.unit});
+  put(out, cad.why_not);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
   // The shape last: its reader looks ahead. The names are in the order of its faces, so they come by number.
@@ -70,6 +71,7 @@ CadShape from_bytes(const std::string& bytes) {
   cad.diagonal = get<double>(in);
   for (std::string& text : get_texts(in)) cad.warnings.emplace_back(std::move(text));
   cad.unit = get_texts(in).at(0);
+  cad.why_not = get_texts(in);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f)
     for (const std::string& name : get_texts(in)) cad.names.add(faces(f), name);

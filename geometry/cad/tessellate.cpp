@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/activity.h"
@@ -46,19 +44,6 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
   return mesh;
 }
 
-/// But for the faces in `skipped`.
-bool is_whole(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped, int& n_triangles) {
-  n_triangles = 0;
-  bool whole = true;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    TopLoc_Location place;
-    const Handle(Poly_Triangulation)& triangulation = BRep_Tool::Triangulation(TopoDS::Face(faces(f)), place);
-    whole = whole && (!triangulation.IsNull() || std::ranges::binary_search(skipped, f));
-    if (!triangulation.IsNull()) n_triangles += triangulation->NbTriangles();
-  }
-  return whole;
-}
-
 double area(const FaceMesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -75,24 +60,13 @@ std::string face_title(int number, const std::vector<std::string>& names) {
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle) {
   const DoingStage stage(kTriangulation);
-  // Where curves meet at a cusp their chords may cross, and then the kernel gives the face up; finer chords
-  // may not. Where curves lie on each other no fineness helps, and each trial takes twice the triangles.
-  constexpr int kMostTrials = 6, kMostTriangles = 100000, kMostTimes = 8;
-  constexpr double kFiner = 0.7;
-  int n_triangles = 0, most = kMostTriangles;
-  for (int trial = 0; trial < kMostTrials && n_triangles < most; ++trial) {
-    if (trial > 0) BRepTools::Clean(cad.shape);
-    IMeshTools_Parameters parameters;
-    parameters.Deflection = deflection * std::pow(kFiner * kFiner, trial);
-    parameters.Angle = angle * std::pow(kFiner, trial);
-    // The smallest sides follow the deflection, or a small edge's own length.
-    parameters.AdjustMinSize = true;
-    parameters.InParallel = thread_count() > 1;
-    mesh_faces(cad.shape, faces, parameters, cad.late_faces);
-    if (is_whole(faces, cad.late_faces, n_triangles)) return;
-    // A large model begins with many.
-    if (trial == 0) most = std::max(most, kMostTimes * n_triangles);
-  }
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = deflection;
+  parameters.Angle = angle;
+  // The smallest sides follow the deflection, or a small edge's own length.
+  parameters.AdjustMinSize = true;
+  parameters.InParallel = thread_count() > 1;
+  mesh_faces(cad.shape, faces, parameters, cad.late_faces);
 }
 
 std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
@@ -102,12 +76,12 @@ std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMap
   for (int f = 1; f <= faces.Extent(); ++f) {
     FaceMesh mesh = take_triangulation(TopoDS::Face(faces(f)));
     std::string& reason = why_not[static_cast<std::size_t>(f) - 1];
-    if (std::ranges::binary_search(cad.late_faces, f))
-      reason = "cannot be triangulated in the time that a face may take";
-    else if (mesh.triangles.empty())
+    if (mesh.triangles.empty())
       reason = "cannot be triangulated";
     else if (!(area(mesh) > kNoArea * cad.diagonal * cad.diagonal))
       reason = "without area";
+    if (!reason.empty() && !cad.why_not.empty() && !cad.why_not[static_cast<std::size_t>(f) - 1].empty())
+      reason += ": " + cad.why_not[static_cast<std::size_t>(f) - 1];
     if (!reason.empty()) mesh.triangles.clear();
     meshes.push_back(std::move(mesh));
   }

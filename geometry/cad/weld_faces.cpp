@@ -71,7 +71,8 @@ class Welder {
     std::vector<int> nodes;          ///< in ascending order of the parameter
     std::vector<double> parameters;  ///< of the nodes
     int first_face = -1;
-    bool is_seam = false;  ///< of first_face
+    int n_passages = 0;    ///< of first_face's boundary along it
+    bool is_seam = false;  ///< of first_face, which lies on both sides of it
     bool is_shared = false;
   };
 
@@ -100,7 +101,6 @@ class Welder {
     const auto local = [&](int k) { return polygon->Nodes()(k + 1) - 1; };
     if (use.first_face < 0) {
       use.first_face = f;
-      use.is_seam = BRep_Tool::IsClosed(edge, faces_[f].face);
       const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
       const bool degenerate = BRep_Tool::Degenerated(edge);
       for (int k = 0; k < n; ++k) {
@@ -115,7 +115,10 @@ class Welder {
         use.parameters.push_back(polygon->HasParameters() ? polygon->Parameters()->Value(k + 1) : k);
       }
     }
-    if (use.first_face != f) use.is_shared = true;
+    if (use.first_face != f)
+      use.is_shared = true;
+    else
+      use.is_seam = ++use.n_passages == 2 && BRep_Tool::IsClosed(edge, faces_[f].face);
     if (static_cast<int>(use.nodes.size()) != n) {
       throw InputError(fmt::format("face {}: its triangulation does not fit its neighbour's, face {}", f + 1,
                                    use.first_face + 1));
@@ -255,6 +258,18 @@ class Welder {
 WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
                        double gap) {
   return Welder(faces, edges, gap).weld();
+}
+
+WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
+                        std::vector<std::string>& why_not) {
+  for (;;) {
+    WeldedFaces welded = weld_faces(meshes, edges, gap);
+    if (welded.bad_faces.empty()) return welded;
+    for (const int f : welded.bad_faces) {
+      why_not[f] = "cannot be triangulated up to the boundary (does it cross itself?)";
+      meshes[f].triangles.clear();
+    }
+  }
 }
 
 }  // namespace delquad::cad

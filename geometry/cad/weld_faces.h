@@ -32,4 +32,9 @@ struct WeldedFaces {
 WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
                        double gap);
 
+/// Welds the faces; without those whose triangles turn out to be no use, which get the reason and lose their
+/// triangles.
+WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
+                        std::vector<std::string>& why_not);
+
 }  // namespace delquad::cad

@@ -141,6 +141,7 @@ struct SurfaceSpec {
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;
+  bool glue = false;  ///< bodies of a CAD model share the faces and curves at which they touch
   /// Of the lengths that the mesh gets, for models that say theirs: um, mm, cm, m, km, in or ft; empty: mm
   /// for STEP and IGES, else as the model has them.
   std::string unit;

@@ -22,12 +22,15 @@ SurfaceSpec read(const std::string& keys) {
 TEST(SurfaceSpecs, AreReadWhole) {
   const SurfaceSpec spec = read(
       "compound = [[1, 2, 5], [7, 8]]\nmerge_curves = 2.5\nfeature_angle = 30\nweld_tolerance = 1e-5\n"
+      "glue = true\n"
       "mirror = { point = [1, 2, 3], normal = [0, 0, 2], tolerance = 1e-4, join = false }\n");
   EXPECT_EQ(spec.compounds, Compounds::kGroups);
   EXPECT_EQ(spec.groups, (std::vector<std::vector<int>>{{1, 2, 5}, {7, 8}}));
   EXPECT_EQ(spec.merge_curves, 2.5);
   EXPECT_EQ(spec.feature_angle, 30);
   EXPECT_EQ(spec.weld_tolerance, 1e-5);
+  EXPECT_TRUE(spec.glue);
+  EXPECT_FALSE(read("feature_angle = 30\n").glue);
   ASSERT_TRUE(spec.mirror);
   EXPECT_EQ(spec.mirror->point, (Vec3{1, 2, 3}));
   EXPECT_EQ(spec.mirror->tolerance, 1e-4);
@@ -47,6 +50,7 @@ TEST(SurfaceSpecs, NonsenseIsRefusedWithItsLine) {
     expect_input_error([&] { read(keys); }, parts);
   };
   refused("compound = \"most\"\n", {"m.toml:3", "'most'", "all or tangent"});
+  refused("glue = 1\n", {"m.toml:3", "glue"});
   refused("compound = 3\n", {"m.toml:3", "list of lists"});
   refused("compound = [1, 2]\n", {"m.toml:3", "list of lists"});
   refused("compound = [[1, 2.5]]\n", {"m.toml:3", "list of lists"});

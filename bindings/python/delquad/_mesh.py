@@ -79,7 +79,7 @@ def _set_cross(problem, cross):
         )
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -93,6 +93,8 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, 
     if mirror is not None:
         point, normal = mirror
         problem.mirror(point, normal)
+    if glue:
+        problem.glue(True)
     if unit is not None:
         problem.unit(unit)
 
@@ -120,6 +122,7 @@ def mesh(
     weld=None,
     merge_curves=None,
     mirror=None,
+    glue=False,
     unit=None,
     options=None,
     name=None,
@@ -145,6 +148,7 @@ def mesh(
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
+    glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
@@ -162,7 +166,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit)
     if word is None:
         word = problem.quality(quality or "good")
     for key, value in (options or {}).items():

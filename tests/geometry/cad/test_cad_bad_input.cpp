@@ -8,6 +8,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <gp_Pln.hxx>
 #include <random>
 
@@ -116,8 +117,15 @@ TEST_F(CadBadInput, FaceThatNoFinenessHelps) {
   // torus would have half a million triangles were they made finer and finer for its sake.
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(-1, -1, -0.5), 2, 2, 1);
   const TopoDS_Shape torus = BRepPrimAPI_MakeTorus(gp_Ax2({-0.75, 0.75, -0.25}, {0, 0, 1}), 0.75, 0.25);
-  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", BRepAlgoAPI_Fuse(box, torus).Shape())); },
-                     {"a.brep", "cannot be triangulated: face"});
+  const auto file = write_brep(folder_ / "a.brep", BRepAlgoAPI_Fuse(box, torus).Shape());
+  expect_input_error([&] { read_cad(file); },
+                     {"a.brep", "cannot be triangulated: its boundary crosses or touches itself: face"});
+  const SurfaceModel others = read_cad(file, {.keep_going = true});
+  ASSERT_FALSE(others.left_out.empty());
+  for (const auto& [face, reason] : others.left_out) {
+    EXPECT_EQ(std::ranges::count(others.fine.triangle_region, face), 0);
+    EXPECT_NE(reason.find(std::to_string(face + 1)), std::string::npos) << reason;
+  }
 }
 
 }  // namespace

@@ -4,19 +4,20 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
-#include <algorithm>
+#include <numbers>
 
 #include "base/activity.h"
 #include "base/context.h"
 #include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/geometry/cad/surface_counts.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
 using namespace testing_support;
+using std::numbers::pi;
 
 TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
   TopoDS_Compound compound;
@@ -36,29 +37,25 @@ class LateFaces : public ::testing::Test {
   CadOptions options_{.deflection = 1e-6, .face_seconds = 0.2};
 };
 
-TEST_F(LateFaces, AreNamed) {
+TEST_F(LateFaces, AreTriangulatedFromTheirOutlines) {
   const RunScope run;
-  expect_input_error([&] { read_cad(file_, options_); },
-                     {"late.brep", "cannot be triangulated in the time that a face may take: face 7"});
-  EXPECT_EQ(current_activities()->faces_text(), "");
-}
-
-TEST_F(LateFaces, AreLeftOutWhereOthersRemain) {
-  options_.keep_going = true;
   const SurfaceModel model = read_cad(file_, options_);
-  ASSERT_EQ(model.left_out.size(), 1u);
-  EXPECT_EQ(model.left_out[0].face, 6);
-  EXPECT_EQ(model.left_out[0].reason, "face 7: cannot be triangulated in the time that a face may take");
+  EXPECT_EQ(current_activities()->faces_text(), "");
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_EQ(
+      model.warnings[0].text,
+      "the CAD kernel could not triangulate all faces; triangulated from their outlines instead: face 7");
+  EXPECT_EQ(model.warnings[1].text,
+            "triangulated more coarsely than asked for, which takes too many points: face 7");
+  EXPECT_TRUE(model.left_out.empty());
   EXPECT_EQ(model.fine.regions.size(), 7u);
-  EXPECT_EQ(std::ranges::count(model.fine.triangle_region, 6), 0);
-  for (int f = 0; f < 6; ++f) EXPECT_GT(std::ranges::count(model.fine.triangle_region, f), 0) << f;
   EXPECT_EQ(model.fine.curves.size(), 12u);
+  EXPECT_NEAR(count(model.fine).area / (6 + 400 * pi * pi), 1, 1e-3);
 }
 
-TEST_F(LateFaces, AreNotTheWholeModel) {
+TEST_F(LateFaces, MayBeTheWholeModel) {
   const auto only = write_brep(folder_ / "torus.brep", BRepPrimAPI_MakeTorus(20, 5).Shape());
-  options_.keep_going = true;
-  expect_input_error([&] { read_cad(only, options_); }, {"torus.brep", "face 1"});
+  EXPECT_NEAR(count(read_cad(only, options_).fine).area / (400 * pi * pi), 1, 1e-3);
 }
 
 TEST(LateHealing, IsLeftOut) {

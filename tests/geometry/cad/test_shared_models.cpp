@@ -76,6 +76,21 @@ TEST_P(SharedModels, ProjectToTheirSurfacesAndCurves) {
   }
 }
 
+TEST_P(SharedModels, FromTheirOutlinesAreTheSame) {
+  const SurfaceModel kernel = read_cad(data_folder() / GetParam().file),
+                     own = read_cad(data_folder() / GetParam().file, {.by_outline = true});
+  EXPECT_EQ(check_invariants(own.fine), std::vector<std::string>{});
+  expect_sound(own);
+  EXPECT_EQ(own.fine.curves.size(), kernel.fine.curves.size());
+  EXPECT_EQ(own.corners.size(), kernel.corners.size());
+  const SurfaceCounts n = count(own.fine);
+  EXPECT_EQ(n.euler, GetParam().euler);
+  EXPECT_EQ(n.free_sides == 0, GetParam().closed);
+  EXPECT_EQ(n.crowded_sides, 0);
+  constexpr double kArea = 5e-3;
+  EXPECT_NEAR(n.area / GetParam().area, 1, kArea);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SharedModels,
                          ::testing::Values(Expected{"A319.brep", 83, 368, 2, 654292384},
                                            Expected{"Kurbelwelle.stp", 58, 145, -2, 2347.6786},

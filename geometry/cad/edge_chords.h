@@ -1,0 +1,35 @@
+#pragma once
+
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <vector>
+
+namespace delquad::cad {
+
+/// A shape as all its instances know it, wherever they are placed.
+inline TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
+
+/// The parameters at which edges are cut into chords: those of the triangulations that faces have; else by
+/// `deflection` (a length) and `angle` (radians). All faces of an edge, and all instances, share them.
+class EdgeChords {
+ public:
+  EdgeChords(const TopoDS_Shape& shape, double deflection, double angle);
+
+  /// Ascending, at least two.
+  const std::vector<double>& of(const TopoDS_Edge& edge);
+  /// Halves the chord between the parameters k and k + 1. False when nothing lies between them.
+  bool halve(const TopoDS_Edge& edge, int k);
+  /// The faces (not placed) that an edge bounds.
+  const TopTools_ListOfShape& faces_of(const TopoDS_Edge& edge) const;
+
+ private:
+  int number(const TopoDS_Edge& edge) const;
+
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_;  ///< by edge, neither placed
+  std::vector<std::vector<double>> parameters_;         ///< empty: not known yet
+  double deflection_, angle_;
+};
+
+}  // namespace delquad::cad

@@ -1,0 +1,111 @@
+#include "geometry/cad/glue_shape.h"
+
+#include <fmt/format.h>
+
+#include <BOPAlgo_Builder.hxx>
+#include <Message_Report.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <vector>
+
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/tessellate.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// " (BOPAlgo_AlertTooFewArguments)": the first of the kernel's complaints.
+std::string why(const BOPAlgo_Builder& builder) {
+  const Message_ListOfAlert& failures = builder.GetReport()->GetAlerts(Message_Fail);
+  return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
+}
+
+/// What has become of a face: itself, its parts, or nothing.
+TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& face) {
+  TopTools_ListOfShape images = builder.Modified(face);
+  if (images.IsEmpty() && !builder.IsDeleted(face)) images.Append(face);
+  return images;
+}
+
+/// Faces that several bodies have.
+int count_common_faces(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape seen, common;
+  for (const TopoDS_Shape& body : bodies_of(shape)) {
+    const TopTools_IndexedMapOfShape faces = parts(body, TopAbs_FACE);
+    for (int f = 1; f <= faces.Extent(); ++f) {
+      const int known = seen.Extent();
+      if (seen.Add(faces(f)) <= known) common.Add(faces(f));
+    }
+  }
+  return common.Extent();
+}
+
+std::string join_titles(const std::vector<std::string>& titles) {
+  constexpr std::size_t kMostNamed = 20;
+  if (titles.size() <= kMostNamed) return fmt::format("{}", fmt::join(titles, ", "));
+  return fmt::format("{}, ...", fmt::join(titles.begin(), titles.begin() + kMostNamed, ", "));
+}
+
+/// Hands names on to what faces have become; returns "face 3 (lid) into 2" for those that were cut.
+std::vector<std::string> follow_faces(BOPAlgo_Builder& builder, CadShape& cad) {
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
+  FaceNames names;
+  std::vector<std::string> cut;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const std::vector<std::string> own = cad.names.of(faces(f));
+    const TopTools_ListOfShape images = images_of(builder, faces(f));
+    for (const TopoDS_Shape& image : images)
+      for (const std::string& name : own) names.add(image, name);
+    if (images.Extent() > 1) cut.push_back(fmt::format("{} into {}", face_title(f, own), images.Extent()));
+  }
+  cad.names = names;
+  return cut;
+}
+
+}  // namespace
+
+TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape) {
+  TopTools_ListOfShape bodies;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) bodies.Append(solid.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    bodies.Append(shell.Current());
+  for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next())
+    bodies.Append(face.Current());
+  return bodies;
+}
+
+void glue_shape(CadShape& cad, double tolerance) {
+  const TopTools_ListOfShape bodies = bodies_of(cad.shape);
+  if (bodies.Extent() < 2) {
+    cad.warnings.push_back("nothing to glue: the model is one body");
+    return;
+  }
+  BOPAlgo_Builder builder;
+  for (const TopoDS_Shape& body : bodies) builder.AddArgument(body);
+  builder.SetFuzzyValue(tolerance);
+  builder.SetNonDestructive(true);
+  builder.SetRunParallel(thread_count() > 1);
+  builder.Perform();
+  if (builder.HasErrors() || builder.Shape().IsNull())
+    throw InputError("its bodies cannot be glued" + why(builder));
+  const TopoDS_Shape glued = builder.Shape();
+  const int n_before = parts(cad.shape, TopAbs_SOLID).Extent(), n_after = parts(glued, TopAbs_SOLID).Extent();
+  if (n_after < n_before)
+    throw InputError(
+        fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
+  const std::vector<std::string> cut = follow_faces(builder, cad);
+  cad.shape = glued;
+  cad.warnings.push_back(
+      fmt::format("glued: {} bodies have {} faces in common", bodies.Extent(), count_common_faces(glued)));
+  if (!cut.empty())
+    cad.warnings.push_back(fmt::format(
+        "glued: faces cut where others lie on them, by their numbers before: {}", join_titles(cut)));
+  if (n_after > n_before)
+    cad.warnings.push_back(fmt::format(
+        "glued: solids overlap or touch themselves: {} solids became {} that do not", n_before, n_after));
+}
+
+}  // namespace delquad::cad

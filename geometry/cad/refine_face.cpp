@@ -1,0 +1,153 @@
+#include "geometry/cad/refine_face.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
+#include <utility>
+
+#include "base/cancel.h"
+#include "mesh/delaunay_kernel.h"
+
+namespace delquad::cad {
+
+namespace {
+
+struct SurfacePoint {
+  Vec3 point, normal;  ///< normal of length 1, or 0 where there is none
+};
+
+SurfacePoint evaluate(const Geom_Surface& surface, Vec2 uv) {
+  gp_Pnt p;
+  gp_Vec du, dv;
+  surface.D1(uv.x, uv.y, p, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  const double length = normal.Magnitude();
+  constexpr double kParallel = 1e-9;  // sine between the tangents
+  if (!(length > kParallel * du.Magnitude() * dv.Magnitude())) return {{p.X(), p.Y(), p.Z()}, {0, 0, 0}};
+  return {{p.X(), p.Y(), p.Z()}, {normal.X() / length, normal.Y() / length, normal.Z() / length}};
+}
+
+class FaceRefiner {
+ public:
+  FaceRefiner(const Geom_Surface& surface, const TriPatch& start, std::vector<Vec3> points, Vec2 scale,
+              const FaceBounds& bounds)
+      : surface_(surface),
+        scale_(scale),
+        bounds_(bounds),
+        cosine_(std::cos(bounds.angle)),
+        kernel_(start),
+        n_boundary_(static_cast<int>(points.size())),
+        points_(std::move(points)) {
+    for (const Vec2 x : start.points) normals_.push_back(evaluate(surface_, parameters(x)).normal);
+  }
+
+  RefinedFace refine() {
+    std::vector<int> waiting;
+    for (int t = 0; t < std::ssize(kernel_.triangles()); ++t) waiting.push_back(t);
+    bool is_complete = true;
+    // The first that came first: the points spread evenly should they not be enough.
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      check_cancelled();
+      const Wish wish = worst_of(waiting[i]);
+      if (!wish.is_wanted) continue;
+      if (std::ssize(points_) - n_boundary_ >= bounds_.most_points) {
+        is_complete = false;
+        break;
+      }
+      if (!kernel_.find_cavity(wish.at, waiting[i])) continue;
+      const SurfacePoint on = evaluate(surface_, parameters(wish.at));
+      points_.push_back(on.point);
+      normals_.push_back(on.normal);
+      const std::span<const int> star = kernel_.insert(wish.at);
+      waiting.insert(waiting.end(), star.begin(), star.end());
+    }
+    return {kernel_.to_patch(n_boundary_), std::move(points_), is_complete};
+  }
+
+ private:
+  struct Wish {
+    bool is_wanted = false;
+    Vec2 at{0, 0};
+  };
+
+  Vec2 parameters(Vec2 x) const { return {x.x / scale_.x, x.y / scale_.y}; }
+
+  /// How far the surface lies from the point of the chords with the same parameters, across the surface.
+  double deviation(Vec2 x, const Vec3& chord) const {
+    const SurfacePoint on = evaluate(surface_, parameters(x));
+    return std::abs(dot(on.normal, on.point - chord));
+  }
+
+  /// A side inside that turns or deviates too much, the longest; else the middle of the triangle if that
+  /// does.
+  Wish worst_of(int t) const {
+    const DelaunayKernel::Triangle& triangle = kernel_.triangles()[t];
+    const std::vector<Vec2>& x = kernel_.points();
+    Wish wish;
+    double longest = bounds_.deflection;
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangle.v[(k + 1) % 3], b = triangle.v[(k + 2) % 3];
+      const double length = norm(points_[b] - points_[a]);
+      if (triangle.n[k] < 0 || length <= longest) continue;
+      const Vec2 middle = 0.5 * (x[a] + x[b]);
+      if (!turns(a, b) && deviation(middle, 0.5 * (points_[a] + points_[b])) <= bounds_.deflection) continue;
+      longest = length;
+      wish = {true, middle};
+    }
+    if (wish.is_wanted) return wish;
+    const auto [a, b, c] = triangle.v;
+    const Vec2 middle = (1.0 / 3) * (x[a] + x[b] + x[c]);
+    const double size = std::sqrt(norm(cross(points_[b] - points_[a], points_[c] - points_[a])));
+    if (size <= bounds_.deflection) return wish;
+    return {deviation(middle, (1.0 / 3) * (points_[a] + points_[b] + points_[c])) > bounds_.deflection,
+            middle};
+  }
+
+  bool turns(int a, int b) const {
+    const Vec3 &m = normals_[a], &n = normals_[b];
+    return dot(m, m) > 0 && dot(n, n) > 0 && dot(m, n) < cosine_;
+  }
+
+  const Geom_Surface& surface_;
+  Vec2 scale_;
+  FaceBounds bounds_;
+  double cosine_;
+  DelaunayKernel kernel_;
+  int n_boundary_;
+  std::vector<Vec3> points_, normals_;  ///< of the kernel's points
+};
+
+}  // namespace
+
+RefinedFace refine_face(const Geom_Surface& surface, const TriPatch& start, std::vector<Vec3> points,
+                        Vec2 scale, const FaceBounds& bounds) {
+  return FaceRefiner(surface, start, std::move(points), scale, bounds).refine();
+}
+
+Vec2 parameter_scale(const Geom_Surface& surface, const std::vector<Vec2>& uv) {
+  Vec2 low = uv.front(), high = uv.front();
+  for (const Vec2 x : uv) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y)};
+  }
+  // Samples in their box: an even grid sees what the outline of a band around a pole does not.
+  constexpr int kSamples = 8;
+  double u_speed = 0, v_speed = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    for (int j = 0; j < kSamples; ++j) {
+      gp_Pnt p;
+      gp_Vec du, dv;
+      surface.D1(low.x + (high.x - low.x) * (i + 0.5) / kSamples,
+                 low.y + (high.y - low.y) * (j + 0.5) / kSamples, p, du, dv);
+      u_speed += du.Magnitude() / (kSamples * kSamples);
+      v_speed += dv.Magnitude() / (kSamples * kSamples);
+    }
+  }
+  const auto usable = [](double speed) { return std::isfinite(speed) && speed > 0; };
+  if (!usable(u_speed) || !usable(v_speed)) return {1, 1};
+  return {u_speed, v_speed};
+}
+
+}  // namespace delquad::cad

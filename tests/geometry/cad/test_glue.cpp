@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "delquad/fields.h"
+#include "delquad/mesher.h"
+#include "geometry/cad/cad_reader.h"
+#include "tests/geometry/cad/cad_files.h"
+#include "tests/geometry/cad/surface_counts.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+using std::numbers::pi;
+
+TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+}
+
+bool says(const SurfaceModel& model, const std::string& text) {
+  return std::ranges::any_of(model.warnings,
+                             [&](const Warning& w) { return w.text.find(text) != std::string::npos; });
+}
+
+/// Points at the same place, beyond the first of each.
+int coincident_points(const Mesh& mesh) {
+  std::set<std::array<long long, 3>> places;
+  constexpr double kPlaces = 1e6;
+  for (const Vec3& p : mesh.points)
+    places.insert({std::llround(p.x * kPlaces), std::llround(p.y * kPlaces), std::llround(p.z * kPlaces)});
+  return static_cast<int>(mesh.points.size() - places.size());
+}
+
+class Glue : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::vector<TopoDS_Shape>& bodies) {
+    TopoDS_Compound compound;
+    const BRep_Builder builder;
+    builder.MakeCompound(compound);
+    for (const TopoDS_Shape& body : bodies) builder.Add(compound, body);
+    return write_step(folder_ / "bodies.step", compound);
+  }
+
+  /// Apart, the bodies are said to lie on each other; glued, they do not, and have `n_common` faces in
+  /// common. Returns the glued ones.
+  SurfaceModel read_both_ways(const std::vector<TopoDS_Shape>& bodies, int n_common) {
+    const auto file = write(bodies);
+    const SurfaceModel apart = read_cad(file);
+    EXPECT_TRUE(says(apart, "lie on each other and share no nodes (--glue"));
+    SurfaceModel glued = read_cad(file, {.glue = true});
+    EXPECT_FALSE(says(glued, "lie on each other"));
+    EXPECT_TRUE(says(glued, "glued: " + std::to_string(bodies.size()) + " bodies have " +
+                                std::to_string(n_common) + " faces in common"));
+    EXPECT_EQ(coincident_points(glued.fine), 0);
+    return glued;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Glue, EqualFacesBecomeOne) {
+  EXPECT_EQ(coincident_points(read_cad(write({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 2, 1, 1)})).fine), 4);
+  const SurfaceModel model = read_both_ways({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 2, 1, 1)}, 1);
+  EXPECT_EQ(model.fine.regions.size(), 11u);
+  EXPECT_EQ(model.fine.curves.size(), 20u);
+  EXPECT_NEAR(count(model.fine).area, 6 + 10 - 1, 1e-9);
+}
+
+TEST_F(Glue, LargerFacesAreCut) {
+  const SurfaceModel model = read_both_ways({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)}, 1);
+  EXPECT_EQ(model.fine.regions.size(), 12u);
+  EXPECT_NEAR(count(model.fine).area, 48 + 6 - 1, 1e-9);
+  EXPECT_TRUE(says(model, "faces cut where others lie on them")) << "the top of the plate";
+}
+
+TEST_F(Glue, FacesThatOverlapInPart) {
+  const SurfaceModel model = read_both_ways({box(0, 0, 0, 1, 1, 1), box(1, 0.5, 0.25, 1, 1, 1)}, 1);
+  EXPECT_EQ(model.fine.regions.size(), 6u + 6 + 1);
+  EXPECT_NEAR(count(model.fine).area, 12 - 0.5 * 0.75, 1e-9);
+}
+
+TEST_F(Glue, AnythingInAHole) {
+  const TopoDS_Shape block = box(-2, -2, 0, 4, 4, 1), pin = BRepPrimAPI_MakeCylinder(1, 1);
+  const SurfaceModel model = read_both_ways({BRepAlgoAPI_Cut(block, pin).Shape(), pin}, 1);
+  EXPECT_NEAR(count(model.fine).area / (2 * 16 + 4 * 4 + 2 * pi), 1, 2e-3);
+}
+
+TEST_F(Glue, BodiesThatOverlapAreDivided) {
+  const auto file = write({box(0, 0, 0, 2, 2, 2), box(1, 1, 1, 2, 2, 2)});
+  const SurfaceModel model = read_cad(file, {.glue = true});
+  EXPECT_TRUE(says(model, "2 solids became 3"));
+  EXPECT_NEAR(count(model.fine).area, 2 * 24, 1e-9);
+}
+
+TEST_F(Glue, ThreeBodiesAtAnEdge) {
+  const SurfaceModel model =
+      read_both_ways({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 1, 1, 1), box(0, 1, 0, 1, 1, 1)}, 2);
+  EXPECT_EQ(model.fine.regions.size(), 16u);
+}
+
+TEST_F(Glue, MeshesShareTheirNodes) {
+  MeshProblem problem;
+  problem.model = CadModel{write({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)})};
+  problem.size.field = make_constant_size(0.25);
+  problem.surface.glue = true;
+  const Mesh mesh = delquad::mesh(problem, "DB").mesh;
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(coincident_points(mesh), 0);
+  double area = 0;
+  for (const auto& [a, b, c, d] : mesh.quads)
+    area += norm(cross(mesh.points[c] - mesh.points[a], mesh.points[d] - mesh.points[b])) / 2;
+  EXPECT_NEAR(area, 48 + 6 - 1, 1e-9);
+}
+
+TEST_F(Glue, OneBodyIsLeftAlone) {
+  const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1)}), {.glue = true});
+  EXPECT_TRUE(says(model, "nothing to glue"));
+  EXPECT_EQ(model.fine.regions.size(), 6u);
+}
+
+TEST_F(Glue, NeighboursInABodyAndBodiesApartAreNotSaidToTouch) {
+  EXPECT_FALSE(
+      says(read_cad(write({box(0, 0, 0, 1, 1, 1), box(1.001, 0, 0, 1, 1, 1)})), "lie on each other"));
+  EXPECT_FALSE(says(read_cad(write({box(0, 0, 0, 1, 1, 1), box(1, 1, 0, 1, 1, 1)})), "lie on each other"))
+      << "an edge in common";
+}
+
+}  // namespace
+}  // namespace delquad
