@@ -6,8 +6,10 @@ DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
 # Files of peers that `make suite` runs beside our own words.
 SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/gmsh.toml)
 CMAKE_FLAGS ?=
+# How long `make fuzz` tries its targets, all of them together.
+SECONDS ?= 120
 
-.PHONY: packages build test python data paper peers suite bench
+.PHONY: packages build test python data paper peers suite bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -57,3 +59,11 @@ python: packages
 bench: build
 	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done
 	python3 benchmarks/cleanup_cost.py --counts 60000 250000 --words DB DBCO DLBCO --delquad build/$(PRESET)/delquad --data $(DATA)
+
+# Readers, experiments and the mesher against inputs that nobody would write: ends with an error when something was found,
+# see CONTRIBUTING.md. TARGETS: some of them by name.
+fuzz: packages
+	@cmake/install-packages.sh clang-16 libclang-rt-16-dev
+	cmake --preset fuzz $(CMAKE_FLAGS)
+	cmake --build --preset fuzz
+	python3 tests/fuzz/run.py build/fuzz --seconds $(SECONDS) $(if $(TARGETS),--targets $(TARGETS))

@@ -183,7 +183,11 @@ class InpReader {
       const long long first = integer(fields[0], "an element's number"),
                       last = integer(fields[1], "an element's number"),
                       step = fields.size() > 2 ? integer(fields[2], "a step") : 1;
-      for (long long number = first; number <= last; number += step) add(number);
+      if (last < first) return;
+      for (long long number = first;; number += step) {
+        add(number);
+        if (number > last - step) return;
+      }
       return;
     }
     for (const std::string_view field : fields) {
@@ -192,18 +196,24 @@ class InpReader {
       } else if (const auto other = sets_.find(std::string(field)); other != sets_.end()) {
         const std::vector<int> copy = other->second;
         all.insert(all.end(), copy.begin(), copy.end());
+        if (all.size() > elements_.size())
+          keep_once(all);  // sets that hold themselves would double each time
       } else {
         in_.fail(fmt::format("there is no element set {} yet", TextScanner::printable(field)));
       }
     }
   }
 
+  static void keep_once(std::vector<int>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+
   /// A set named by a leading underscore is a part of something else.
   void make_mesh() {
     for (auto& [name, members] : sets_) {
       if (name.empty() || name[0] == '_') continue;
-      std::sort(members.begin(), members.end());
-      members.erase(std::unique(members.begin(), members.end()), members.end());
+      keep_once(members);
       for (const int e : members) elements_[e].sets.push_back(name);
     }
     std::map<std::pair<int, std::vector<std::string>>, int> index;

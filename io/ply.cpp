@@ -39,6 +39,7 @@ struct Property {
   std::string name;
   const Scalar* type;
   const Scalar* count = nullptr;  ///< of a list
+  std::string shown = {};         ///< in messages
 };
 
 struct Element {
@@ -65,8 +66,8 @@ class PlyReader : FaceReader {
       const bool fits = element.number <= static_cast<long long>(in_.bytes_left() + 1) /
                                               std::max(1LL, element.least_bytes(coding_));
       if (!fits)
-        in_.fail(fmt::format("{} elements '{}' do not fit in the {} bytes that follow", element.number,
-                             element.name, in_.bytes_left()));
+        in_.fail(fmt::format("{} elements {} do not fit in the {} bytes that follow", element.number,
+                             TextScanner::printable(element.name), in_.bytes_left()));
       for (long long i = 0; i < element.number; ++i) read_element(element);
     }
     if (mesh_.triangles.empty() && mesh_.quads.empty())
@@ -137,6 +138,7 @@ class PlyReader : FaceReader {
     }
     property.type = read_type();
     property.name = in_.token("the property's name");
+    property.shown = "property " + TextScanner::printable(property.name);
     elements_.back().properties.push_back(std::move(property));
   }
 
@@ -162,11 +164,11 @@ class PlyReader : FaceReader {
 
   double scalar(const Property& property, const Scalar& type) {
     if (coding_ == Coding::kText) {
-      if (!property_counts_) return in_.token(property.name), 0;
-      return type.is_real ? in_.real(property.name)
-                          : static_cast<double>(in_.integer(property.name, LLONG_MIN, LLONG_MAX));
+      if (!property_counts_) return in_.token(property.shown), 0;
+      return type.is_real ? in_.real(property.shown)
+                          : static_cast<double>(in_.integer(property.shown, LLONG_MIN, LLONG_MAX));
     }
-    const std::string_view bytes = in_.bytes(static_cast<std::size_t>(type.bytes), property.name);
+    const std::string_view bytes = in_.bytes(static_cast<std::size_t>(type.bytes), property.shown);
     if (type.is_real) return type.bytes == 4 ? number_of<float>(bytes) : number_of<double>(bytes);
     if (type.bytes == 1)
       return type.is_signed ? number_of<std::int8_t>(bytes) : number_of<std::uint8_t>(bytes);
@@ -180,7 +182,7 @@ class PlyReader : FaceReader {
     const double count = scalar(property, *property.count);
     property_counts_ = corners != nullptr;
     if (!(count >= 0 && count <= static_cast<double>(in_.bytes_left())))
-      in_.fail(fmt::format("a list '{}' of {} values, which do not follow", property.name, count));
+      in_.fail(fmt::format("{} lists {} values, which do not follow", property.shown, count));
     for (long long k = 0; k < static_cast<long long>(count); ++k) {
       const double v = scalar(property, *property.type);
       if (corners == nullptr) continue;
@@ -207,14 +209,18 @@ class PlyReader : FaceReader {
       property_counts_ = axis >= 0 || channel >= 0;
       const double value = scalar(property, *property.type);
       if (axis >= 0) set_coordinate(axis, value, point);
-      if (channel >= 0)
-        rgb[channel] = static_cast<int>(std::clamp(property.type->is_real ? 255 * value : value, 0.0, 255.0));
+      if (channel >= 0) rgb[channel] = part_of_255(property.type->is_real ? 255 * value : value);
     }
     if (is_vertex) mesh_.points.push_back(point);
     if (is_face) {
       if (static_cast<long long>(mesh_.points.size()) < n_vertices_) in_.fail("faces before the vertices");
       add_face(corners, colours_.region("", std::ranges::min(rgb) < 0 ? "" : colour_text(rgb)));
     }
+  }
+
+  /// Not-a-number is no colour.
+  static int part_of_255(double value) {
+    return std::isnan(value) ? -1 : static_cast<int>(std::clamp(value, 0.0, 255.0));
   }
 
   void set_coordinate(int axis, double value, Vec3& point) const {

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "io/face_colours.h"
 #include "io/mesh_io.h"
@@ -50,7 +51,7 @@ struct Object {
   std::vector<Triangle> triangles;
   std::vector<Component> components;
   int depth = 0;    ///< of components in components
-  double size = 1;  ///< triangles and objects in it, those of its components, too
+  double size = 1;  ///< points, triangles and objects in it, those of its components, too
 };
 
 /// What the XML says, gathered while it is read.
@@ -165,6 +166,7 @@ class ModelParser {
     } else if (name == "object") {
       begin_object(attributes);
     } else if (name == "vertex" && object_ != nullptr) {
+      ++object_->size;
       object_->points.push_back({number<double>(text_of(attributes, "x"), "x"),
                                  number<double>(text_of(attributes, "y"), "y"),
                                  number<double>(text_of(attributes, "z"), "z")});
@@ -251,8 +253,8 @@ class ModelParser {
   int palette_of_object_ = -1, colour_of_object_ = -1;
 };
 
-/// Triangles: objects that hold one another could ask for any number.
-constexpr double kMost = 1e8;
+/// Points and triangles: objects that hold one another could ask for any number.
+constexpr double kMost = 5e7;
 
 /// Puts the objects of the build where they belong.
 class Assembly {
@@ -270,6 +272,8 @@ class Assembly {
     const int first = static_cast<int>(mesh.points.size());
     for (Vec3 p : object.points) {
       for (const Transform& t : transforms) p = t(p);
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw InputError("an object is placed where coordinates are not finite");
       mesh.points.push_back(p);
     }
     const bool turns = std::ranges::count_if(transforms, &Transform::mirrors) % 2 != 0;
@@ -290,6 +294,21 @@ struct ZipCloser {
   void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 
+/// What the archive says of the size counts for nothing.
+std::string all_of(zip_file_t& file, const std::string& path) {
+  constexpr std::size_t kBlock = 1 << 16, kMostBytes = 1'000'000'000;
+  std::string text;
+  for (;;) {
+    const std::size_t before = text.size();
+    text.resize(before + kBlock);
+    const zip_int64_t n = zip_fread(&file, text.data() + before, kBlock);
+    if (n < 0) throw InputError(path + ": its model cannot be unpacked: " + zip_file_strerror(&file));
+    text.resize(before + static_cast<std::size_t>(n));
+    if (n == 0) return text;
+    if (text.size() > kMostBytes) throw InputError(path + ": its model has more than 1 GB");
+  }
+}
+
 /// The model among the files of the archive.
 std::string model_text(const std::string& path) {
   int error = 0;
@@ -301,19 +320,17 @@ std::string model_text(const std::string& path) {
     zip_error_fini(&reason);
     throw InputError(path + ": not a readable 3MF file, which is a ZIP archive: " + text);
   }
-  constexpr zip_uint64_t kMostBytes = 1'000'000'000;
   for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
     zip_stat_t about;
     zip_stat_index(archive.get(), static_cast<zip_uint64_t>(i), 0, &about);
     if ((about.valid & ZIP_STAT_NAME) == 0 || !std::string_view(about.name).ends_with(".model")) continue;
     if (std::string_view(about.name).starts_with("3D/Objects/")) continue;
-    if (about.size > kMostBytes) throw InputError(path + ": its model has more than 1 GB");
     const std::unique_ptr<zip_file_t, ZipCloser> file(
         zip_fopen_index(archive.get(), static_cast<zip_uint64_t>(i), 0));
-    std::string text(about.size, '\0');
-    if (!file || zip_fread(file.get(), text.data(), about.size) != static_cast<zip_int64_t>(about.size))
-      throw InputError(path + ": " + about.name + " cannot be unpacked: " + zip_strerror(archive.get()));
-    return text;
+    if (!file)
+      throw InputError(
+          fmt::format("{}: its model cannot be unpacked: {}", path, zip_strerror(archive.get())));
+    return all_of(*file, path);
   }
   throw InputError(path + ": a ZIP archive without a model (3D/*.model): expected a 3MF file");
 }
@@ -327,9 +344,10 @@ Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes) {
   double size = 0;
   for (const Component& item : model.build) size += model.objects.at(item.object).size;
   if (size > kMost)
-    throw InputError(fmt::format("{}: its objects have more than {:.0e} triangles", path.string(), kMost));
+    throw InputError(
+        fmt::format("{}: its objects have more than {:.0e} points and triangles", path.string(), kMost));
   Assembly assembly(model);
-  for (const Component& item : model.build) assembly.add(item, {}, "");
+  for (const Component& item : model.build) located(path.string(), [&] { assembly.add(item, {}, ""); });
   Mesh mesh = std::move(assembly.mesh);
   if (mesh.triangles.empty()) throw InputError(path.string() + ": the file's build holds no triangles");
   assembly.colours.finish(mesh, notes);

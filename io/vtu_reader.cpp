@@ -24,6 +24,26 @@ namespace {
 
 using Tree = boost::property_tree::ptree;
 
+/// Boost's parser calls itself for each element in another.
+constexpr int kDeepest = 100;
+
+/// Levels of elements in elements, or more: comments and texts are taken for elements, too.
+int depth_of(std::string_view xml) {
+  int depth = 0, deepest = 0;
+  for (size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
+    const std::string_view rest = xml.substr(at + 1, 1);
+    if (rest == "?" || rest == "!") continue;
+    depth += rest == "/" ? -1 : 1;
+    deepest = std::max(deepest, depth);
+    const size_t end = xml.find('>', at);
+    if (end != std::string_view::npos && xml[end - 1] == '/') --depth;
+  }
+  return deepest;
+}
+
+/// 0, which is no type of cell and no tag, for numbers that are no int.
+int as_int(double value) { return value > INT_MIN && value < INT_MAX ? static_cast<int>(value) : 0; }
+
 /// Bytes of base64 digits up to the first character that is none; blanks between them are skipped.
 std::string from_base64(std::string_view text, size_t* used = nullptr) {
   static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -57,14 +77,14 @@ class VtuReader {
     parse();
     const Tree& file = child(tree_, "VTKFile");
     if (attribute(file, "type") != "UnstructuredGrid")
-      fail("a VTK file of type '" + attribute(file, "type") + "': expected an UnstructuredGrid");
+      fail("a VTK file of type " + shown(attribute(file, "type")) + ": expected an UnstructuredGrid");
     swapped_ = attribute(file, "byte_order", "LittleEndian") !=
                (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
     wide_header_ = attribute(file, "header_type", "UInt32") == "UInt64";
     const std::string compressor = attribute(file, "compressor", "");
     packed_ = compressor == "vtkZLibDataCompressor";
     if (!compressor.empty() && !packed_)
-      fail("compressed by '" + compressor + "': expected vtkZLibDataCompressor or none");
+      fail("compressed by " + shown(compressor) + ": expected vtkZLibDataCompressor or none");
     const Tree& grid = child(file, "UnstructuredGrid");
     for (const auto& [name, piece] : grid)
       if (name == "Piece") read_piece(piece);
@@ -77,6 +97,7 @@ class VtuReader {
   }
 
  private:
+  static std::string shown(const std::string& text) { return TextScanner::printable(text); }
   [[noreturn]] void fail(const std::string& message) const { throw InputError(path_ + ": " + message); }
 
   /// Raw appended data is no XML and is cut out before.
@@ -90,6 +111,8 @@ class VtuReader {
       text.erase(first, close - first);
       has_appended_ = true;
     }
+    if (depth_of(text) > kDeepest)
+      fail(fmt::format("elements within elements to more than {} levels: expected a VTU file", kDeepest));
     std::istringstream stream(std::move(text));
     try {
       read_xml(stream, tree_);
@@ -201,7 +224,7 @@ class VtuReader {
     std::string bytes;
     if (format == "appended") {
       const auto offset = array.get<std::uint64_t>("<xmlattr>.offset", appended_.size() + 1);
-      if (offset > appended_.size()) fail("data array '" + name + "' lies behind the appended data");
+      if (offset > appended_.size()) fail("data array " + shown(name) + " lies behind the appended data");
       bytes = payload(std::string_view(appended_).substr(offset), raw_);
     } else {
       bytes = payload(array.data(), false);
@@ -216,7 +239,7 @@ class VtuReader {
     if (type == "UInt16") return values<std::uint16_t>(bytes);
     if (type == "Int8") return values<std::int8_t>(bytes);
     if (type == "UInt8") return values<std::uint8_t>(bytes);
-    fail("data array '" + name + "' of type '" + type + "': expected numbers");
+    fail("data array " + shown(name) + " of type " + shown(type) + ": expected numbers");
   }
 
   std::vector<double> read_text(const std::string& text, const std::string& name) const {
@@ -227,7 +250,7 @@ class VtuReader {
       if (at == end) return result;
       double value = 0;
       const auto [stop, error] = std::from_chars(at, end, value);
-      if (error != std::errc()) fail("data array '" + name + "': expected numbers");
+      if (error != std::errc()) fail("data array " + shown(name) + ": expected numbers");
       result.push_back(value);
       at = stop;
     }
@@ -261,7 +284,7 @@ class VtuReader {
           fail(fmt::format("cell {}: there is no point {}", c, corners[k]));
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
-      add_cell(static_cast<int>(types[c]), v, curve[c], region[c]);
+      add_cell(as_int(types[c]), v, curve[c], region[c]);
       begin = offsets[c];
     }
   }
@@ -318,7 +341,7 @@ class VtuReader {
         if (!title.starts_with(kind)) continue;
         const std::string name = title.substr(std::string_view(kind).size());
         for (const double number : read_array(array)) {
-          const auto found = index_.find({dim, static_cast<int>(number)});
+          const auto found = index_.find({dim, as_int(number)});
           if (found == index_.end()) continue;
           (dim == 1 ? mesh_.curves : mesh_.regions)[found->second].names.push_back(name);
         }

@@ -1,0 +1,66 @@
+#include <zlib.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "io/mesh_io.h"
+#include "mesh/check_mesh.h"
+#include "metrics/metrics.h"
+#include "tests/fuzz/input_file.h"
+#include "tests/fuzz/reader_seeds.h"
+#include "tests/fuzz/target.h"
+
+namespace delquad::fuzz {
+
+namespace {
+
+/// A mesh that was read has indices in range and finite points, and what looks at every mesh can look at it.
+void check_mesh(const Mesh& mesh) {
+  try {
+    require_readable(mesh, "read");
+  } catch (const InputError& error) {
+    require(false, error.what());
+  }
+  require(!mesh.lines.empty() || !mesh.triangles.empty() || !mesh.quads.empty(), "a mesh without elements");
+  check_invariants(mesh);
+  evaluate_metrics(mesh, nullptr);
+}
+
+template <auto read>
+bool try_reader(std::string_view bytes) {
+  static InputFile file("input");
+  const std::filesystem::path& path = file.hold(bytes);
+  return result_or_input_error(path.string(), [&] { check_mesh(read(path)); });
+}
+
+Mesh msh(const std::filesystem::path& path) {
+  DeclaredSurfaces surfaces;
+  return read_msh(path, &surfaces);
+}
+
+/// Mostly bytes of the model alone: no mutation finds the checksums of an archive.
+bool try_3mf(std::string_view bytes) {
+  static InputFile file("input");
+  const std::string archive = bytes.starts_with("PK") ? std::string(bytes) : archive_of(bytes);
+  const std::filesystem::path& path = file.hold(archive);
+  return result_or_input_error(path.string(), [&] {
+    ReadNotes notes;
+    check_mesh(read_3mf(path, &notes));
+  });
+}
+
+Mesh obj(const std::filesystem::path& path) { return read_obj(path); }
+Mesh off(const std::filesystem::path& path) { return read_off(path); }
+Mesh ply(const std::filesystem::path& path) { return read_ply(path); }
+
+}  // namespace
+
+std::vector<Target> reader_targets() {
+  return {{"msh", try_reader<msh>, msh_seeds},           {"obj", try_reader<obj>, obj_seeds},
+          {"off", try_reader<off>, off_seeds},           {"stl", try_reader<read_stl>, stl_seeds},
+          {"ply", try_reader<ply>, ply_seeds},           {"3mf", try_3mf, three_mf_seeds},
+          {"vtu", try_reader<read_vtu>, vtu_seeds},      {"inp", try_reader<read_inp>, inp_seeds},
+          {"medit", try_reader<read_medit>, medit_seeds}};
+}
+
+}  // namespace delquad::fuzz
