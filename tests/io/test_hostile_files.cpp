@@ -13,7 +13,6 @@
 namespace delquad {
 namespace {
 
-using testing_support::expect_input_error;
 using testing_support::TemporaryFolder;
 using testing_support::write_text;
 
