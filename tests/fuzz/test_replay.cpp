@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <ostream>
 
 #include "tests/fuzz/target.h"
 #include "tests/support/temporary_folder.h"
@@ -15,6 +16,13 @@ std::vector<Target> all_targets() {
     all.insert(all.end(), targets.begin(), targets.end());
   return all;
 }
+
+}  // namespace
+
+/// In names of tests.
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
+namespace {
 
 /// The targets of fuzzing, in every build.
 class FuzzTarget : public ::testing::TestWithParam<Target> {};
