@@ -67,6 +67,7 @@ struct MeshArguments {
   std::optional<std::string> size;    ///< else as the model says
   std::string cross, compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
+  std::optional<double> ignore_below;                     ///< a length
   bool glue = false;                                      ///< else as the model says
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string quality = kDefaultQuality;

@@ -224,6 +224,9 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "degrees by which triangles must turn for a curve between them, and curves for a corner");
   mesh->add_option("--weld", arguments.weld_tolerance,
                    "join ends of open edges of a triangulation up to this part of its diagonal");
+  mesh->add_option("--ignore-below", arguments.ignore_below,
+                   "length: narrower faces become part of neighbours, shorter curves points, each named")
+      ->check(CLI::PositiveNumber);
   mesh->add_flag("--glue", arguments.glue,
                  "bodies of a CAD model that touch share faces, curves and nodes there");
   mesh->add_option("--unit", arguments.unit,

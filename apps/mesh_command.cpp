@@ -34,6 +34,10 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
   }
   if (arguments.feature_angle)
     surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
+  if (arguments.ignore_below) {
+    given("--ignore-below");
+    surface.ignore_below = *arguments.ignore_below;
+  }
   if (arguments.glue) {
     given("--glue");
     surface.glue = true;

@@ -215,16 +215,17 @@ constexpr int kMostPieces = 4096;
 
 }  // namespace
 
-SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const PointSize& size,
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
                            std::span<const double> limits) {
   constexpr double kGauss = 0.21132486540518713;  // (1 - 1/sqrt 3) / 2
   SizeIntegral table;
+  int hint = -1;
   table.entries.push_back({0, 0});
   for (size_t i = 0; i + 1 < chain.points.size(); ++i) {
     const Vec3 a = fine.points[chain.points[i]], d = fine.points[chain.points[i + 1]] - a;
     const double length = norm(d), shortest = 1.0 / kMostPieces;
     const auto size_at = [&](double t) {
-      const double wanted = size(a + t * d);
+      const double wanted = size(chain.points[i], chain.points[i + 1], t, a + t * d, hint);
       return limits.empty() ? wanted : std::min(wanted, (1 - t) * limits[i] + t * limits[i + 1]);
     };
     for (double t = 0; t < 1;) {

@@ -61,9 +61,12 @@ struct SizeIntegral {
   double part_at(double s) const;
 };
 
+/// The size at x = (1 - t) a + t b of two fine points that are neighbours on a curve.
+using SizeOnLine = std::function<double(int a, int b, double t, const Vec3& x, int& hint)>;
+
 /// Two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if any): what the
 /// size may be at most at each point of the chain, linear between them.
-SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const PointSize& size,
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
                            std::span<const double> limits = {});
 
 /// Places along each curve, ascending, both ends included, in edges from its beginning: the k-th is k where

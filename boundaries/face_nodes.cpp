@@ -24,7 +24,7 @@ class Facing {
  public:
   Facing(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
          const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-         const std::vector<int>& group, const SizeField& size)
+         const std::vector<int>& group, const SizeOnLine& size)
       : fine_(fine),
         chains_(chains),
         across_(across),
@@ -57,11 +57,12 @@ class Facing {
   /// The place on the curve, as in CurveNode.
   double to_s(size_t c, double place) const { return integrals_[c].s_at(place / total(c)); }
 
-  Vec3 point(size_t c, double s) const {
+  double size_at(size_t c, double s, int& hint) const {
     const auto& points = chains_[c].points;
     const size_t line = std::min(static_cast<size_t>(s), points.size() - 2);
     const Vec3 a = fine_.points[points[line]], b = fine_.points[points[line + 1]];
-    return a + (s - static_cast<double>(line)) * (b - a);
+    const double t = s - static_cast<double>(line);
+    return size_(points[line], points[line + 1], t, a + t * (b - a), hint);
   }
 
   void look_all() {
@@ -79,7 +80,7 @@ class Facing {
       auto& sees = sees_[c][i];
       sees.clear();
       const double s = to_s(c, places_[c][i]);
-      const double delta = size_.at(point(c, s), hint);
+      const double delta = size_at(c, s, hint);
       for (const Opposite& o : across_.look(static_cast<int>(c), s, kReach * delta)) {
         const double ratio = delta / std::max(o.distance, 1e-3 * delta);
         sees.push_back({o.chain, integrals_[o.chain].part_at(o.s) * total(o.chain),
@@ -155,7 +156,7 @@ class Facing {
   const AcrossView& across_;
   const std::vector<SizeIntegral>& integrals_;
   const std::vector<int>& group_;
-  const SizeField& size_;
+  const SizeOnLine& size_;
   CurvePlaces places_;
   std::vector<std::vector<std::vector<Seen>>> sees_;
   std::vector<char> live_;
@@ -165,7 +166,7 @@ class Facing {
 
 CurvePlaces face_nodes(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
                        const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-                       const std::vector<int>& group, const SizeField& size) {
+                       const std::vector<int>& group, const SizeOnLine& size) {
   return Facing(fine, chains, across, integrals, counts, group, size).run();
 }
 

@@ -4,7 +4,6 @@
 
 #include "boundaries/across_view.h"
 #include "boundaries/curve_nodes.h"
-#include "fields/fields.h"
 
 namespace delquad {
 
@@ -13,6 +12,6 @@ namespace delquad {
 /// gradually. Ends of curves stay. `group` is group_facing_curves().
 CurvePlaces face_nodes(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
                        const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-                       const std::vector<int>& group, const SizeField& size);
+                       const std::vector<int>& group, const SizeOnLine& size);
 
 }  // namespace delquad

@@ -27,21 +27,21 @@ struct Gap {
 
 /// Looks across from places along all curves.
 std::vector<Gap> collect_gaps(const Mesh& fine, const std::vector<CurveChain>& chains,
-                              const AcrossView& across, const SizeField& size) {
+                              const AcrossView& across, const SizeOnLine& size) {
   std::vector<Gap> gaps;
   int hint = -1;
   for (size_t c = 0; c < chains.size(); ++c)
     for (size_t line = 0; line + 1 < chains[c].points.size(); ++line) {
-      const Vec3 a = fine.points[chains[c].points[line]], b = fine.points[chains[c].points[line + 1]];
-      const double length = norm(b - a);
-      const double spacing =
-          kSpacing * std::min({size.at(a, hint), size.at(b, hint), size.at(0.5 * (a + b), hint)});
+      const int first = chains[c].points[line], last = chains[c].points[line + 1];
+      const Vec3 a = fine.points[first], d = fine.points[last] - a;
+      const double length = norm(d);
+      const auto size_at = [&](double t) { return size(first, last, t, a + t * d, hint); };
+      const double spacing = kSpacing * std::min({size_at(0), size_at(1), size_at(0.5)});
       const int n = static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, double(kMostPlaces)));
       for (int i = 0; i < n; ++i) {
         const double t = (i + 0.5) / n;
-        const Vec3 x = a + t * (b - a);
         for (const Opposite& o :
-             across.look(static_cast<int>(c), static_cast<double>(line) + t, kReach * size.at(x, hint)))
+             across.look(static_cast<int>(c), static_cast<double>(line) + t, kReach * size_at(t)))
           gaps.push_back({o.patch, static_cast<int>(c), o.chain, length / n});
       }
     }
@@ -58,7 +58,7 @@ double length_of(const Mesh& fine, const CurveChain& chain) {
 }  // namespace
 
 std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
-                                     const AcrossView& across, const SizeField& size) {
+                                     const AcrossView& across, const SizeOnLine& size) {
   const std::vector<Gap> gaps = collect_gaps(fine, chains, across, size);
   std::map<std::array<int, 3>, double> along;  // patch, curve, curve that it faces
   for (const Gap& g : gaps) along[{g.patch, g.chain, g.facing}] += g.length;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "boundaries/across_view.h"
-#include "fields/fields.h"
+#include "boundaries/curve_nodes.h"
 
 namespace delquad {
 
@@ -11,6 +11,6 @@ namespace delquad {
 /// same number of edges, so that quads lie straight across. Returns for each curve the first of its group;
 /// curves that face none are groups of their own.
 std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
-                                     const AcrossView& across, const SizeField& size);
+                                     const AcrossView& across, const SizeOnLine& size);
 
 }  // namespace delquad

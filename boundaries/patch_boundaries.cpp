@@ -67,13 +67,13 @@ std::vector<int> curves_at_fault(const PatchBoundary& boundary, const std::vecto
 }  // namespace
 
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
-                                 const AcrossView& across, const CurveDemands& wanted, const SizeField& size,
-                                 const MatchingSolver& solver) {
+                                 const AcrossView& across, const CurveDemands& wanted,
+                                 const SurfaceSize& size, const MatchingSolver& solver) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
   placed.counts = even_counts(wanted.demands, static_cast<int>(maps.size()), solver, placed.odd_patches);
-  const CurvePlaces places =
-      face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts, wanted.group, size);
+  const CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
+                                        wanted.group, size_on_lines(size));
   placed.nodes = place_nodes(model, curves.chains, curves.cut_face, wanted.integrals, places);
   placed.boundaries.resize(maps.size());
   placed.at_fault.resize(maps.size());

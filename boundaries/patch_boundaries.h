@@ -21,7 +21,7 @@ struct PatchBoundaries {
 bool meshable(const PatchBoundary& boundary);
 
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
-                                 const AcrossView& across, const CurveDemands& wanted, const SizeField& size,
-                                 const MatchingSolver& solver);
+                                 const AcrossView& across, const CurveDemands& wanted,
+                                 const SurfaceSize& size, const MatchingSolver& solver);
 
 }  // namespace delquad

@@ -73,6 +73,12 @@ void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vec
 
 }  // namespace
 
+SizeOnLine size_on_lines(const SurfaceSize& size) {
+  return [&size](int a, int b, double t, const Vec3& x, int& hint) {
+    return size.on_fine(std::array{a, b}, std::array{1 - t, t}, x, hint);
+  };
+}
+
 std::string face_name(const Mesh& fine, const FlatPatch& map) {
   return fmt::format("face {}", fine.regions[map.face].tag);
 }
@@ -104,17 +110,18 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
 }
 
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SizeField& size, const SizeField& asked) {
+                            const SurfaceSize& size, const SizeField& asked) {
   const std::vector<CurveChain>& chains = curves.chains;
   const std::vector<std::vector<double>> limits = limits_on_curves(curves);
   CurveDemands wanted;
-  int hint = -1;
-  const PointSize delta = [&](const Vec3& x) { return size.at(x, hint); };
-  const PointSize delta_asked = [&](const Vec3& x) { return asked.at(x, hint); };
+  const SizeOnLine delta = size_on_lines(size);
+  const SizeOnLine delta_asked = [&](int, int, double, const Vec3& x, int& hint) {
+    return asked.at(x, hint);
+  };
   for (std::size_t c = 0; c < chains.size(); ++c) {
     wanted.integrals.push_back(size_integral(fine, chains[c], delta, limits[c]));
     const double total = wanted.integrals.back().total();
-    const bool same = limits[c].empty() && &asked == &size;
+    const bool same = limits[c].empty() && &asked == static_cast<const SizeField*>(&size);
     wanted.lengths.push_back(same ? total : size_integral(fine, chains[c], delta_asked).total());
     wanted.demands.push_back({total, chains[c].closed() ? 3 : 1, {}});
   }
@@ -124,7 +131,7 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
         if (side.begins(chains[side.chain]))
           wanted.demands[side.chain].patches.push_back(static_cast<int>(p));
   // The curves of a strip want the mean of what each wants alone.
-  wanted.group = group_facing_curves(fine, chains, across, size);
+  wanted.group = group_facing_curves(fine, chains, across, delta);
   std::vector<double> sum(chains.size(), 0), members(chains.size(), 0);
   for (std::size_t c = 0; c < chains.size(); ++c)
     sum[wanted.group[c]] += std::log(wanted.demands[c].integral), ++members[wanted.group[c]];

@@ -9,6 +9,7 @@
 #include "boundaries/face_corners.h"
 #include "boundaries/patch_outline.h"
 #include "delquad/fields.h"
+#include "fields/surface/surface_size.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 
@@ -37,9 +38,12 @@ struct CurveDemands {
   std::vector<CurveDemand> demands;
 };
 
+/// `size` outlives it.
+SizeOnLine size_on_lines(const SurfaceSize& size);
+
 /// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SizeField& size, const SizeField& asked);
+                            const SurfaceSize& size, const SizeField& asked);
 
 /// One for each curve that is much shorter than the size.
 std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,

@@ -24,8 +24,8 @@ constexpr int kRefinements = 8;
 
 /// Demands more edges of the curves that keep boundaries from enclosing quads, until none do.
 PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
-                                       const AcrossView& across, CurveDemands& wanted, const SizeField& size,
-                                       const MatchingSolver& solver) {
+                                       const AcrossView& across, CurveDemands& wanted,
+                                       const SurfaceSize& size, const MatchingSolver& solver) {
   for (int attempt = 0;; ++attempt) {
     PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver);
     const FlatPatch* crossing = nullptr;
@@ -131,7 +131,7 @@ Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, cons
 
 }  // namespace
 
-SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size);

@@ -50,7 +50,7 @@ struct SurfaceDomain {
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Throws FaceError when no refinement gives a valid boundary, naming the face.
-SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr);
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local

@@ -150,6 +150,7 @@ const TomlKeys& surface_keys() {
       {"feature_angle", "degrees", above(0, 180)},
       {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
       {"mirror", "the model is one half", "", mirror_keys},
+      {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
       {"glue", "whether bodies of CAD share what they touch at", kFlag},
       {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
   return keys;

@@ -51,6 +51,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
     for (const auto& group : spec.groups)
       if (group.size() < 2) throw InputError(table.where("compound") + ": a compound has two faces or more");
   }
+  if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
   if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");
   if (table.has("feature_angle"))
     spec.feature_angle = checked_feature_angle(table.number("feature_angle"), table.where("feature_angle"));

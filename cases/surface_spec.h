@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// The keys of a [surface] table: compound, merge_curves, feature_angle, weld_tolerance, mirror, glue, unit.
-/// Throws InputError with file and line.
+/// The keys of a [surface] table: compound, merge_curves, ignore_below, feature_angle, weld_tolerance,
+/// mirror, glue, unit. Throws InputError with file and line.
 SurfaceSpec read_surface_spec(const TomlTable& table);
 
 /// "all" or "tangent". Throws InputError, beginning with `where`, for anything else.

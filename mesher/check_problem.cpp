@@ -73,6 +73,7 @@ void check(const CrossSpec& cross) {
 }
 
 void check(const SurfaceSpec& surface, const std::string& where) {
+  check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
   check_length(surface.merge_curves, "the length of curves that are merged", where);
   if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
   if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);

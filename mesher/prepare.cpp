@@ -220,8 +220,8 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
 /// Refuses what is for surfaces.
 void check_planar(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
-  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.feature_angle || s.weld_tolerance ||
-      s.mirror || s.glue || !s.unit.empty())
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.feature_angle ||
+      s.weld_tolerance || s.mirror || s.glue || !s.unit.empty())
     throw InputError((s.where.empty() ? problem.where : s.where) +
                      ": the model is planar: compounds, feature angles, welding, gluing, mirrors and "
                      "units are for surfaces");

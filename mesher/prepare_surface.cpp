@@ -62,7 +62,7 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 }
 
 /// Meshes the curves; faces for which that is impossible go.
-SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const Options& options, Failures& failures) {
   const auto solver = matching_solver(recombination_options(options).solver, options);
   while (!flattening.patches.empty()) {
@@ -158,7 +158,12 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   if (!p.size_adapted_to.empty()) p.given_size = wanted.base;
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);
-  const auto on_curves = problem.seed == 0 ? p.size : jittered(p.size, problem.seed, diagonal(model.fine));
+  auto on_curves = surface->size;
+  if (problem.seed != 0) {
+    WantedSize other = wanted;
+    other.base = jittered(wanted.base, problem.seed, diagonal(model.fine));
+    on_curves = std::make_shared<SurfaceSize>(model, other);
+  }
   surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves,
                                    wanted.curvature ? nullptr : wanted.base.get(), problem.options, failures);
   surface->model = std::move(model);

@@ -10,6 +10,7 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/surface/compound.h"
+#include "geometry/surface/ignore_small.h"
 #include "geometry/surface/mirror.h"
 #include "geometry/surface/triangulated_model.h"
 #include "mesh/split_polygon.h"
@@ -60,6 +61,7 @@ SurfaceModel make_compounds(const SurfaceSpec& spec, SurfaceModel model) {
     const auto groups = faces_of_tags(spec, model.fine);
     model = make_compound(std::move(model), groups, options);
   }
+  if (spec.ignore_below > 0) model = ignore_small(std::move(model), spec.ignore_below, options);
   if (spec.merge_curves > 0) model = merge_short_curves(std::move(model), spec.merge_curves, options);
   return model;
 }
@@ -71,7 +73,8 @@ void check_for_cad(const SurfaceSpec& spec) {
   };
   if (spec.weld_tolerance) refuse("a weld tolerance");
   if (spec.mirror) refuse("a mirror");
-  if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0)
+  if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0 &&
+      spec.ignore_below == 0)
     refuse("a feature angle without compounds");
 }
 
@@ -121,10 +124,10 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
     throw InputError(problem.surface.where + ": lengths of the examples are in mm");
   SurfaceModel model = example != nullptr ? read_example(example->name, options)
                                           : read_cad(std::get<CadModel>(problem.model), options);
-  const bool changes_faces =
-      problem.surface.compounds != Compounds::kNone || problem.surface.merge_curves > 0;
+  const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
+                             problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0;
   if (!model.left_out.empty() && changes_faces)
-    throw InputError(model.left_out[0].reason + "; compounds need all faces");
+    throw InputError(model.left_out[0].reason + "; faces cannot be joined before all can be used");
   return make_compounds(problem.surface, std::move(model));
 }
 

@@ -68,6 +68,7 @@ Json surface_json(const SurfaceSpec& surface) {
   Json json = {{"compound", compound_json(surface)},
                {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
                {"feature_angle", surface.feature_angle ? Json(*surface.feature_angle) : Json()},
+               {"ignore_below", surface.ignore_below > 0 ? Json(surface.ignore_below) : Json()},
                {"glue", surface.glue},
                {"unit", surface.unit.empty() ? Json() : Json(surface.unit)},
                {"weld_tolerance", surface.weld_tolerance ? Json(*surface.weld_tolerance) : Json()},

@@ -240,6 +240,7 @@ void define_surface(py::class_<Problem>& c) {
       .def("weld", [](Problem& p, double tolerance) { p.problem.surface.weld_tolerance = tolerance; })
       .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
+      .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })
       .def("merge_curves", [](Problem& p, double length) { p.problem.surface.merge_curves = length; });
 }
 

@@ -8,76 +8,19 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
 #include "delquad/error.h"
+#include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 
 namespace {
 
-using Groups = std::vector<std::vector<int>>;
+using Groups = EntityGroups;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// Projects to those of the faces that became one on whose fine triangles the nearest point lies, and to the
-/// nearest of the curves. (The nearest of all faces would not do: beyond their edges, surfaces go on.)
-class CompoundProjector final : public SurfaceProjector {
- public:
-  /// `fine`: the former triangulation, its regions the base's faces.
-  CompoundProjector(std::shared_ptr<const SurfaceProjector> base, const Mesh& fine, const Groups& faces,
-                    Groups curves)
-      : base_(std::move(base)), members_(faces.size()), curves_(std::move(curves)) {
-    std::vector<int> face_of(fine.regions.size());
-    for (size_t face = 0; face < faces.size(); ++face) {
-      for (const int member : faces[face]) face_of[member] = static_cast<int>(face);
-      members_[face].only = faces[face].size() == 1 ? faces[face][0] : -1;
-    }
-    std::vector<std::vector<std::array<int, 3>>> triangles(faces.size());
-    for (size_t t = 0; t < fine.triangles.size(); ++t) {
-      Members& members = members_[face_of[fine.triangle_region[t]]];
-      if (members.only >= 0) continue;
-      triangles[face_of[fine.triangle_region[t]]].push_back(fine.triangles[t]);
-      members.of_triangle.push_back(fine.triangle_region[t]);
-    }
-    for (size_t face = 0; face < faces.size(); ++face) {
-      if (members_[face].only < 0) members_[face].triangles.emplace(fine.points, std::move(triangles[face]));
-    }
-  }
-
-  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(member_at(face, x), x); }
-  double face_curvature(int face, const Vec3& x) const override {
-    return base_->face_curvature(member_at(face, x), x);
-  }
-  Vec3 to_curve(int curve, const Vec3& x) const override {
-    const std::vector<int>& members = curves_[curve];
-    Vec3 best = base_->to_curve(members[0], x);
-    for (size_t i = 1; i < members.size(); ++i) {
-      const Vec3 other = base_->to_curve(members[i], x);
-      if (norm(other - x) < norm(best - x)) best = other;
-    }
-    return best;
-  }
-
- private:
-  struct Members {
-    int only = -1;  ///< the only face, else -1 and:
-    std::optional<NearestTriangle> triangles;
-    std::vector<int> of_triangle;  ///< the face of each
-  };
-
-  int member_at(int face, const Vec3& x) const {
-    const Members& members = members_[face];
-    return members.only >= 0 ? members.only : members.of_triangle[members.triangles->find(x).triangle];
-  }
-
-  std::shared_ptr<const SurfaceProjector> base_;
-  std::vector<Members> members_;  // of each face
-  Groups curves_;                 // members of each
-};
 
 /// Sets of faces that grow together; each is known by its least face.
 class FaceSets {
@@ -227,18 +170,6 @@ Groups join_faces(Mesh& mesh, const std::vector<int>& group_of) {
   return members;
 }
 
-Groups each_alone(size_t n) {
-  Groups groups;
-  for (size_t i = 0; i < n; ++i) groups.push_back({static_cast<int>(i)});
-  return groups;
-}
-
-/// `former`: the triangulation that the groups' faces are of.
-void wrap_projector(SurfaceModel& model, const Mesh& former, const Groups& faces, Groups curves) {
-  if (!model.projector) return;
-  model.projector = std::make_shared<CompoundProjector>(model.projector, former, faces, std::move(curves));
-}
-
 /// Directions of each face at points of its curves: area vectors of its triangles there, summed.
 std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   std::vector<char> on_curve(mesh.points.size(), 0);
@@ -258,7 +189,7 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
 
 /// What became of curves shorter than `length`. `members`: the former curves of each curve.
 void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
-                         const Groups& members, std::vector<Warning>& warnings) {
+                         const Groups& members, ShortRest rest, std::vector<Warning>& warnings) {
   for (const auto& curves : members) {
     for (const int curve : curves) {
       if (!(lengths[curve] < length)) continue;
@@ -267,6 +198,7 @@ void report_short_curves(const std::vector<Entity>& old, const std::vector<doubl
         if (other != curve) others += fmt::format("{}{}", others.empty() ? "" : ", ", old[other].tag);
       }
       const std::string name = fmt::format("curve {}, {:.3g} long,", old[curve].tag, lengths[curve]);
+      if (others.empty() && rest == ShortRest::kSilent) continue;
       if (others.empty())
         warnings.push_back({"short curves that continue no other smoothly", 1 / lengths[curve],
                             name + " is a short one, but continues no other smoothly"});
@@ -288,7 +220,7 @@ SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const Compo
   const Mesh former = model.fine;
   const Groups faces = join_faces(model.fine, group_of);
   Groups curves = rechain(model, corner);
-  wrap_projector(model, former, faces, std::move(curves));
+  model.projector = make_compound_projector(model.projector, former, faces, std::move(curves));
   return model;
 }
 
@@ -326,7 +258,8 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
   return groups;
 }
 
-SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options) {
+SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options,
+                                ShortRest rest) {
   const Mesh& mesh = model.fine;
   struct End {
     int line, from, at;  ///< the line runs from the inner point to the end
@@ -366,8 +299,9 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
   }
   const std::vector<Entity> old = mesh.curves;
   Groups curves = rechain(model, corner);
-  report_short_curves(old, lengths, length, curves, model.warnings);
-  wrap_projector(model, model.fine, each_alone(model.fine.regions.size()), std::move(curves));
+  report_short_curves(old, lengths, length, curves, rest, model.warnings);
+  model.projector = make_compound_projector(model.projector, model.fine,
+                                            each_alone(model.fine.regions.size()), std::move(curves));
   return model;
 }
 

@@ -23,9 +23,13 @@ SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int
 /// together are a group.
 std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double angle = 5);
 
+/// Whether merge_short_curves names the short curves that continue no other.
+enum class ShortRest { kNamed, kSilent };
+
 /// Makes each curve shorter than `length` one with a neighbour that it continues: where only these two curves
 /// meet, with the same names, and turn by less than the feature angle; the straighter of both ends is taken.
-/// The model's warnings name what became one, and the short curves that continue no other.
-SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {});
+/// The model's warnings name what became one, and, as `rest` says, the short curves that continue no other.
+SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {},
+                                ShortRest rest = ShortRest::kNamed);
 
 }  // namespace delquad

@@ -138,6 +138,9 @@ struct SurfaceSpec {
   Compounds compounds = Compounds::kNone;
   std::vector<std::vector<int>> groups;  ///< of kGroups: tags of faces
   double merge_curves = 0;               ///< curves shorter than this length become one with a neighbour
+  /// Faces narrower than this length become part of a neighbour, curves shorter than it one with a neighbour
+  /// or a point; 0: none.
+  double ignore_below = 0;
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;

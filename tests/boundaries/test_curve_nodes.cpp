@@ -108,7 +108,7 @@ TEST(PlaceNodes, AtEqualIntegrals) {
   model.fine.curves.push_back({1, {}});
   const auto chains = curve_chains(model);
   const std::vector<SizeIntegral> integrals = {
-      size_integral(model.fine, chains[0], [](const Vec3&) { return 0.5; })};
+      size_integral(model.fine, chains[0], [](int, int, double, const Vec3&, int&) { return 0.5; })};
   EXPECT_NEAR(integrals[0].total(), 8, 1e-12);
   const SurfaceNodes nodes = place_nodes(model, chains, {-1}, integrals, equal_places({4}));
   ASSERT_EQ(nodes.points.size(), 5u);

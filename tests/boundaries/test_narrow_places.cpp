@@ -17,14 +17,14 @@ namespace surfaces = testing_support;
 
 /// A model with all that the steps on curves need.
 struct Narrow {
-  explicit Narrow(SurfaceModel m, double h) : model(std::move(m)), size(make_constant_size(h)) {
+  explicit Narrow(SurfaceModel m, double h)
+      : model(std::move(m)), on_lines([h](int, int, double, const Vec3&, int&) { return h; }) {
     maps = flatten(model).patches;
     chains = curve_chains(model);
     const LineIndex lines(chains);
     for (const FlatPatch& map : maps) outlines.push_back(lines.outline(map, chains, "face"));
     across.emplace(model.fine, chains, maps, outlines);
-    for (const CurveChain& chain : chains)
-      integrals.push_back(size_integral(model.fine, chain, [h](const Vec3&) { return h; }));
+    for (const CurveChain& chain : chains) integrals.push_back(size_integral(model.fine, chain, on_lines));
   }
 
   /// The curve from one corner to another.
@@ -38,7 +38,7 @@ struct Narrow {
   }
 
   SurfaceModel model;
-  std::shared_ptr<const SizeField> size;
+  SizeOnLine on_lines;
   std::vector<FlatPatch> maps;
   std::vector<CurveChain> chains;
   std::vector<PatchOutline> outlines;
@@ -73,11 +73,11 @@ TEST(AcrossView, CornersAreNotNarrowButCuspsAre) {
 
 TEST(GroupFacingCurves, OnlySidesOfAStripBelongTogether) {
   const Narrow strip(surfaces::polygon_face(kStrip, 0.1), 1);
-  const auto group = group_facing_curves(strip.model.fine, strip.chains, *strip.across, *strip.size);
+  const auto group = group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines);
   EXPECT_EQ(group[strip.chain({0, 0}, {10, 0})], group[strip.chain({10, 0.4}, {0, 0.4})]);
   EXPECT_NE(group[strip.chain({0, 0}, {10, 0})], group[strip.chain({10, 0}, {10, 0.4})]);
   const Narrow square(surfaces::polygon_face({{0, 0}, {5, 0}, {5, 5}, {0, 5}}, 0.5), 1);
-  const auto alone = group_facing_curves(square.model.fine, square.chains, *square.across, *square.size);
+  const auto alone = group_facing_curves(square.model.fine, square.chains, *square.across, square.on_lines);
   for (size_t c = 0; c < alone.size(); ++c) EXPECT_EQ(alone[c], static_cast<int>(c));
 }
 
@@ -86,7 +86,8 @@ TEST(FaceNodes, NodesAcrossAStripLieOppositeEachOther) {
   Narrow strip(surfaces::polygon_face({{0, 0}, {10, 0}, {10, 0.2}, {0, 0.2}}, 0.1), 1);
   const int bottom = strip.chain({0, 0}, {10, 0}), top = strip.chain({10, 0.2}, {0, 0.2});
   strip.integrals[top] =
-      size_integral(strip.model.fine, strip.chains[top], [](const Vec3& x) { return 0.6 + 0.08 * x.x; });
+      size_integral(strip.model.fine, strip.chains[top],
+                    [](int, int, double, const Vec3& x, int&) { return 0.6 + 0.08 * x.x; });
   std::vector<int> counts(strip.chains.size(), 1);
   counts[bottom] = counts[top] = 10;
   const auto x_of = [&](const CurvePlaces& places, int chain, int k) {
@@ -101,7 +102,7 @@ TEST(FaceNodes, NodesAcrossAStripLieOppositeEachOther) {
   };
   const CurvePlaces faced = face_nodes(
       strip.model.fine, strip.chains, *strip.across, strip.integrals, counts,
-      group_facing_curves(strip.model.fine, strip.chains, *strip.across, *strip.size), *strip.size);
+      group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines), strip.on_lines);
   EXPECT_GT(shear(equal_places(counts)), 0.5);
   EXPECT_LT(shear(faced), 0.05);
   for (const auto& places : faced)

@@ -79,7 +79,7 @@ def _set_cross(problem, cross):
         )
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -90,6 +90,8 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, 
         problem.weld(weld)
     if merge_curves is not None:
         problem.merge_curves(merge_curves)
+    if ignore_below is not None:
+        problem.ignore_below(ignore_below)
     if mirror is not None:
         point, normal = mirror
         problem.mirror(point, normal)
@@ -121,6 +123,7 @@ def mesh(
     feature_angle=None,
     weld=None,
     merge_curves=None,
+    ignore_below=None,
     mirror=None,
     glue=False,
     unit=None,
@@ -148,6 +151,7 @@ def mesh(
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
+    ignore_below: a length; narrower faces become part of neighbours, shorter curves points.
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
@@ -166,7 +170,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, mirror, glue, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit)
     if word is None:
         word = problem.quality(quality or "good")
     for key, value in (options or {}).items():

@@ -1,0 +1,80 @@
+#include "geometry/surface/compound_projector.h"
+
+#include <optional>
+
+#include "mesh/nearest_triangle.h"
+
+namespace delquad {
+
+namespace {
+
+/// (The nearest of all faces would not do: beyond their edges, surfaces go on.)
+class CompoundProjector final : public SurfaceProjector {
+ public:
+  CompoundProjector(std::shared_ptr<const SurfaceProjector> base, const Mesh& fine, const EntityGroups& faces,
+                    EntityGroups curves)
+      : base_(std::move(base)), members_(faces.size()), curves_(std::move(curves)) {
+    std::vector<int> face_of(fine.regions.size());
+    for (size_t face = 0; face < faces.size(); ++face) {
+      for (const int member : faces[face]) face_of[member] = static_cast<int>(face);
+      members_[face].only = faces[face].size() == 1 ? faces[face][0] : -1;
+    }
+    std::vector<std::vector<std::array<int, 3>>> triangles(faces.size());
+    for (size_t t = 0; t < fine.triangles.size(); ++t) {
+      Members& members = members_[face_of[fine.triangle_region[t]]];
+      if (members.only >= 0) continue;
+      triangles[face_of[fine.triangle_region[t]]].push_back(fine.triangles[t]);
+      members.of_triangle.push_back(fine.triangle_region[t]);
+    }
+    for (size_t face = 0; face < faces.size(); ++face) {
+      if (members_[face].only < 0) members_[face].triangles.emplace(fine.points, std::move(triangles[face]));
+    }
+  }
+
+  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(member_at(face, x), x); }
+  double face_curvature(int face, const Vec3& x) const override {
+    return base_->face_curvature(member_at(face, x), x);
+  }
+  Vec3 to_curve(int curve, const Vec3& x) const override {
+    const std::vector<int>& members = curves_[curve];
+    Vec3 best = base_->to_curve(members[0], x);
+    for (size_t i = 1; i < members.size(); ++i) {
+      const Vec3 other = base_->to_curve(members[i], x);
+      if (norm(other - x) < norm(best - x)) best = other;
+    }
+    return best;
+  }
+
+ private:
+  struct Members {
+    int only = -1;  ///< the only face, else -1 and:
+    std::optional<NearestTriangle> triangles;
+    std::vector<int> of_triangle;  ///< the face of each
+  };
+
+  int member_at(int face, const Vec3& x) const {
+    const Members& members = members_[face];
+    return members.only >= 0 ? members.only : members.of_triangle[members.triangles->find(x).triangle];
+  }
+
+  std::shared_ptr<const SurfaceProjector> base_;
+  std::vector<Members> members_;  // of each face
+  EntityGroups curves_;           // members of each
+};
+
+}  // namespace
+
+EntityGroups each_alone(std::size_t n) {
+  EntityGroups groups;
+  for (std::size_t i = 0; i < n; ++i) groups.push_back({static_cast<int>(i)});
+  return groups;
+}
+
+std::shared_ptr<const SurfaceProjector> make_compound_projector(std::shared_ptr<const SurfaceProjector> base,
+                                                                const Mesh& fine, const EntityGroups& faces,
+                                                                EntityGroups curves) {
+  if (!base) return nullptr;
+  return std::make_shared<CompoundProjector>(std::move(base), fine, faces, std::move(curves));
+}
+
+}  // namespace delquad

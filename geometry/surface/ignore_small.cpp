@@ -1,0 +1,309 @@
+#include "geometry/surface/ignore_small.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "geometry/surface/compound_projector.h"
+#include "geometry/surface/surface_editor.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+
+namespace {
+
+std::string title(const char* kind, const Entity& entity) {
+  return entity.names.empty() ? fmt::format("{} {}", kind, entity.tag)
+                              : fmt::format("{} {} ({})", kind, entity.tag, fmt::join(entity.names, ", "));
+}
+
+double length_of(const Mesh& mesh, const std::array<int, 2>& line) {
+  return norm(mesh.points[line[1]] - mesh.points[line[0]]);
+}
+
+std::vector<double> curve_lengths(const Mesh& mesh) {
+  std::vector<double> lengths(mesh.curves.size(), 0);
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
+    lengths[mesh.line_curve[i]] += length_of(mesh, mesh.lines[i]);
+  return lengths;
+}
+
+/// Joins narrow faces with their neighbours, the narrowest first.
+class FaceJoiner {
+ public:
+  explicit FaceJoiner(const Mesh& mesh) : mesh_(mesh), sets_(mesh.regions.size()) {
+    for (std::size_t face = 0; face < sets_.size(); ++face) sets_[face].members = {static_cast<int>(face)};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      sets_[mesh.triangle_region[t]].area +=
+          norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+    }
+    const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+    for (const auto& line : mesh.lines) {
+      const double length = length_of(mesh, line);
+      const auto edge = sides_of_edge(std::span(sides), line[0], line[1]);
+      for (const HalfEdge& side : edge) set_of(side).outline += length;
+      if (edge.size() != 2) continue;
+      const int f = mesh.triangle_region[edge[0].element], g = mesh.triangle_region[edge[1].element];
+      if (f == g) {
+        sets_[f].outline -= 2 * length;  // a seam
+        continue;
+      }
+      sets_[f].common[g] += length;
+      sets_[g].common[f] += length;
+    }
+  }
+
+  /// Groups of faces, the one that keeps its name first. Says which became part of which.
+  EntityGroups join(double length, std::vector<Warning>& warnings) {
+    while (const std::optional<int> narrow = narrowest(length)) {
+      Set& thin = sets_[*narrow];
+      const int host =
+          std::ranges::max_element(thin.common, {}, [](const auto& c) { return c.second; })->first;
+      const Entity& face = mesh_.regions[thin.members[0]];
+      warnings.push_back({"narrow faces that became part of others", 1 / thin.width(),
+                          fmt::format("{}, {:.3g} wide, became part of {}", title("face", face), thin.width(),
+                                      title("face", mesh_.regions[sets_[host].members[0]]))});
+      unite(*narrow, host);
+    }
+    EntityGroups groups;
+    for (Set& set : sets_)
+      if (set.members.size() > 1) groups.push_back(std::move(set.members));
+    return groups;
+  }
+
+ private:
+  struct Set {
+    std::vector<int> members;  ///< faces; none: has become part of another set
+    double area = 0, outline = 0;
+    std::map<int, double> common;  ///< lengths of curves shared with other sets
+    double width() const {
+      return outline > 0 ? 2 * area / outline : std::numeric_limits<double>::infinity();
+    }
+  };
+
+  Set& set_of(const HalfEdge& side) { return sets_[mesh_.triangle_region[side.element]]; }
+
+  std::optional<int> narrowest(double length) const {
+    std::optional<int> best;
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+      const Set& set = sets_[i];
+      if (set.members.empty() || set.area == 0 || set.common.empty() || !(set.width() < length)) continue;
+      if (!best || set.width() < sets_[*best].width()) best = static_cast<int>(i);
+    }
+    return best;
+  }
+
+  void unite(int narrow, int host) {
+    Set from = std::move(sets_[narrow]);
+    sets_[narrow] = {};
+    Set& to = sets_[host];
+    to.members.insert(to.members.end(), from.members.begin(), from.members.end());
+    to.area += from.area;
+    to.outline += from.outline - 2 * from.common.at(host);
+    for (const auto& [other, length] : from.common) {
+      sets_[other].common.erase(narrow);
+      if (other == host) continue;
+      sets_[other].common[host] += length;
+      to.common[other] += length;
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<Set> sets_;
+};
+
+/// The lines of boundaries and branches: edges with one triangle, or with more than two.
+class OutlineLines {
+ public:
+  explicit OutlineLines(const Mesh& mesh) : sides_(sorted_half_edges(mesh)), at_(mesh.points.size(), 0) {
+    for (const auto& [a, b] : mesh.lines)
+      if (has(a, b)) at_[a] = at_[b] = 1;
+  }
+  bool has(int a, int b) const { return sides_of_edge(std::span(sides_), a, b).size() != 2; }
+  bool touch(int node) const { return at_[node] != 0; }
+
+ private:
+  std::vector<HalfEdge> sides_;
+  std::vector<char> at_;
+};
+
+/// The third corners of the triangles on an edge.
+std::vector<int> opposite_nodes(const Mesh& mesh, const SurfaceEditor& editor, int a, int b) {
+  std::vector<int> nodes;
+  for (const int t : editor.triangles_on(a, b))
+    for (const int v : mesh.triangles[t])
+      if (v != a && v != b) nodes.push_back(v);
+  return nodes;
+}
+
+std::vector<int> neighbours(const Mesh& mesh, const SurfaceEditor& editor, int node) {
+  std::vector<int> nodes;
+  for (const int t : editor.triangles_at(node))
+    for (const int v : mesh.triangles[t])
+      if (v != node) nodes.push_back(v);
+  std::ranges::sort(nodes);
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  return nodes;
+}
+
+/// Parts edges at `a` whose other ends would come onto edges of `b` when a moves there.
+void part_common_edges(SurfaceModel& model, int a, int b) {
+  SurfaceEditor editor(model);
+  const std::vector<int> opposite = opposite_nodes(model.fine, editor, a, b);
+  const std::vector<int> at_b = neighbours(model.fine, editor, b);
+  for (const int c : neighbours(model.fine, editor, a)) {
+    if (c == b || !std::ranges::binary_search(at_b, c)) continue;
+    const bool is_opposite = std::ranges::find(opposite, c) != opposite.end();
+    if (is_opposite && (editor.line_on(a, c) < 0 || editor.line_on(b, c) < 0)) continue;
+    editor.split_edge(a, c, 0.5 * (model.fine.points[a] + model.fine.points[c]));
+  }
+  editor.finish();
+}
+
+Vec3 area_vector(const std::array<Vec3, 3>& x) { return cross(x[1] - x[0], x[2] - x[0]); }
+
+/// Whether no triangle at `a` turns over when a moves to `b`.
+bool keeps_sides(const Mesh& mesh, int a, int b) {
+  for (const auto& triangle : mesh.triangles) {
+    if (std::ranges::find(triangle, a) == triangle.end()) continue;
+    if (std::ranges::find(triangle, b) != triangle.end()) continue;
+    std::array<Vec3, 3> before, after;
+    for (int k = 0; k < 3; ++k) {
+      before[k] = mesh.points[triangle[k]];
+      after[k] = triangle[k] == a ? mesh.points[b] : before[k];
+    }
+    if (!(dot(area_vector(before), area_vector(after)) > 0)) return false;
+  }
+  return true;
+}
+
+/// Moves the end `a` of a line to its other end `b`; false: the surface would not be what it was.
+bool contract_line(SurfaceModel& model, int a, int b) {
+  Mesh& mesh = model.fine;
+  const OutlineLines outline(mesh);
+  if (outline.touch(a) && outline.touch(b) && !outline.has(a, b)) return false;
+  part_common_edges(model, a, b);
+  if (!keeps_sides(mesh, a, b)) return false;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    auto triangle = mesh.triangles[t];
+    const bool has_b = std::ranges::find(triangle, b) != triangle.end();
+    if (has_b && std::ranges::find(triangle, a) != triangle.end()) continue;
+    std::ranges::replace(triangle, a, b);
+    mesh.triangles[kept] = triangle;
+    mesh.triangle_region[kept++] = mesh.triangle_region[t];
+  }
+  mesh.triangles.resize(kept);
+  mesh.triangle_region.resize(kept);
+  kept = 0;
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
+    auto line = mesh.lines[i];
+    std::ranges::replace(line, a, b);
+    if (line[0] == line[1]) continue;
+    mesh.lines[kept] = line;
+    mesh.line_curve[kept++] = mesh.line_curve[i];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  return true;
+}
+
+/// The nodes of a curve from end to end.
+std::vector<int> nodes_of_curve(const Mesh& mesh, int curve) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
+    if (mesh.line_curve[i] != curve) continue;
+    if (nodes.empty()) nodes.push_back(mesh.lines[i][0]);
+    nodes.push_back(mesh.lines[i][1]);
+  }
+  return nodes;
+}
+
+/// The model with the curve's nodes in the last of `nodes`; nothing where that cannot be.
+std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int>& nodes) {
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    if (!contract_line(model, nodes[i], nodes[i + 1])) return std::nullopt;
+  return model;
+}
+
+/// Whether something became of a curve.
+bool contract_curve(SurfaceModel& model, int curve) {
+  std::vector<int> nodes = nodes_of_curve(model.fine, curve);
+  if (nodes.front() == nodes.back()) return false;
+  for (const bool reversed : {false, true}) {
+    if (reversed) std::ranges::reverse(nodes);
+    if (std::optional<SurfaceModel> result = contracted(model, nodes)) {
+      model = std::move(*result);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Takes unused points and curves without lines out. Returns the former number of each curve.
+EntityGroups tidy(SurfaceModel& model) {
+  Mesh& mesh = model.fine;
+  std::vector<char> used(mesh.points.size(), 0);
+  for (const auto& line : mesh.lines) used[line[0]] = used[line[1]] = 1;
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) used[v] = 1;
+  std::vector<int> number(used.size());
+  for (std::size_t p = 0, n = 0; p < used.size(); ++p) number[p] = used[p] ? static_cast<int>(n++) : -1;
+  std::erase_if(model.corners, [&](int p) { return !used[p]; });
+  for (int& p : model.corners) p = number[p];
+  drop_unused_points(mesh);
+
+  std::vector<int> new_curve(mesh.curves.size(), -1);
+  for (const int curve : mesh.line_curve) new_curve[curve] = 0;
+  EntityGroups former;
+  for (std::size_t c = 0; c < new_curve.size(); ++c) {
+    if (new_curve[c] < 0) continue;
+    new_curve[c] = static_cast<int>(former.size());
+    mesh.curves[former.size()] = mesh.curves[c];
+    former.push_back({static_cast<int>(c)});
+  }
+  mesh.curves.resize(former.size());
+  for (int& curve : mesh.line_curve) curve = new_curve[curve];
+  return former;
+}
+
+/// Contracts curves shorter than `length`, the shortest first.
+SurfaceModel contract_short_curves(SurfaceModel model, double length) {
+  const std::vector<double> lengths = curve_lengths(model.fine);
+  std::vector<int> order;
+  for (std::size_t c = 0; c < lengths.size(); ++c)
+    if (lengths[c] < length) order.push_back(static_cast<int>(c));
+  if (order.empty()) return model;
+  std::ranges::stable_sort(order, {}, [&](int c) { return lengths[c]; });
+  const Mesh former = model.fine;
+  for (const int curve : order) {
+    const std::string name =
+        fmt::format("{}, {:.3g} long,", title("curve", former.curves[curve]), lengths[curve]);
+    const bool gone = contract_curve(model, curve);
+    model.warnings.push_back(
+        {gone ? "short curves that became points" : "short curves that stay", 1 / lengths[curve],
+         gone ? name + " became a point"
+              : name + " stays: it is closed, or the surface would fold or tear without it"});
+  }
+  model.projector =
+      make_compound_projector(model.projector, former, each_alone(former.regions.size()), tidy(model));
+  return model;
+}
+
+}  // namespace
+
+SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptions& options) {
+  const EntityGroups groups = FaceJoiner(model.fine).join(length, model.warnings);
+  for (const auto& group : groups)
+    for (const int face : group) model.fine.regions[face] = model.fine.regions[group[0]];
+  model = make_compound(std::move(model), groups, options);
+  return contract_short_curves(merge_short_curves(std::move(model), length, options, ShortRest::kSilent),
+                               length);
+}
+
+}  // namespace delquad

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/surface/ignore_small.h"
+#include "geometry/surface/triangulated_model.h"
+#include "tests/support/surface_model_checks.h"
+#include "tests/support/triangulated_shapes.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::box;
+using testing_support::expect_counts;
+using testing_support::TriangulatedShape;
+using testing_support::volume;
+
+constexpr double kLength = 0.05;
+
+/// Regions 1 and 2 are bottom (z = 0) and top, then one for each side of the convex polygon.
+Mesh prism(const std::vector<Vec2>& polygon, double height) {
+  TriangulatedShape shape;
+  const auto at = [&](std::size_t i, double z) {
+    const Vec2 p = polygon[i % polygon.size()];
+    return Vec3{p.x, p.y, z};
+  };
+  shape.region();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) shape.triangle(at(0, 0), at(i + 1, 0), at(i, 0));
+  shape.region();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    shape.triangle(at(0, height), at(i, height), at(i + 1, height));
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    shape.region();
+    shape.triangle(at(i, 0), at(i + 1, 0), at(i + 1, height));
+    shape.triangle(at(i, 0), at(i + 1, height), at(i, height));
+  }
+  return shape.mesh;
+}
+
+SurfaceModel model_of(Mesh mesh) { return make_surface_model(std::move(mesh), {.feature_angle = 30}); }
+
+std::vector<std::string> new_texts(const SurfaceModel& before, const SurfaceModel& after) {
+  std::vector<std::string> all = texts(after.warnings);
+  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before.warnings.size()));
+  return all;
+}
+
+bool has_text(const std::vector<std::string>& all, const std::string& part) {
+  return std::ranges::any_of(all, [&](const std::string& s) { return s.find(part) != std::string::npos; });
+}
+
+TEST(IgnoreSmall, LeavesWhatIsLargerAlone) {
+  const SurfaceModel model = model_of(box(2));
+  const SurfaceModel same = ignore_small(model, kLength);
+  EXPECT_EQ(same.fine.points, model.fine.points);
+  EXPECT_EQ(same.fine.triangles, model.fine.triangles);
+  EXPECT_EQ(same.fine.lines, model.fine.lines);
+  EXPECT_EQ(same.corners, model.corners);
+  EXPECT_EQ(same.warnings.size(), model.warnings.size());
+}
+
+TEST(IgnoreSmall, TheRimOfAPlateBecomesPartOfIt) {
+  Mesh mesh = box(3, 1, 1, 0.01);
+  mesh.regions[4].names = {"lower"};
+  mesh.regions[5].names = {"upper"};
+  mesh.regions[0].names = {"rim"};
+  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel plate = ignore_small(model, kLength);
+  expect_counts(plate, 2, 4, 4);
+  for (const Entity& face : plate.fine.regions) EXPECT_EQ(face.names.size(), 1u) << "the rim's name went on";
+  const auto said = new_texts(model, plate);
+  EXPECT_EQ(std::ranges::count_if(said, [](const auto& s) { return s.find("became part of") != s.npos; }), 4);
+  EXPECT_TRUE(has_text(said, "face 1 (rim), 0.0099 wide, became part of face 5 (lower)")) << said[0];
+}
+
+TEST(IgnoreSmall, AChamferGoesWithItsShortCurves) {
+  const SurfaceModel model = model_of(prism({{0, 0}, {1, 0}, {1, 0.99}, {0.99, 1}, {0, 1}}, 1));
+  expect_counts(model, 7, 15, 10);
+  const SurfaceModel brick = ignore_small(model, kLength);
+  expect_counts(brick, 6, 12, 8);
+  EXPECT_NEAR(volume(brick.fine), 1, 0.02);
+  const auto said = new_texts(model, brick);
+  EXPECT_EQ(std::ranges::count_if(said, [](const auto& s) { return s.find("became a point") != s.npos; }), 2);
+}
+
+TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
+  // A wedge whose edge is cut off: a face .01 wide and 1 high, between two long ones.
+  const SurfaceModel model = model_of(prism({{0, 0}, {1, -0.005}, {1, 0.005}}, 1));
+  const SurfaceModel wedge = ignore_small(model, 0.012);
+  EXPECT_EQ(testing_support::violations(wedge), std::vector<std::string>{});
+  EXPECT_LT(wedge.fine.regions.size(), model.fine.regions.size());
+}
+
+/// Two squares joined by a neck .01 wide, each a face.
+Mesh neck() {
+  TriangulatedShape shape;
+  const Vec3 low{0, -0.005, 0}, high{0, 0.005, 0};
+  shape.region();
+  shape.triangle({-1, -1, 0}, low, high);
+  shape.triangle({-1, -1, 0}, high, {-1, 1, 0});
+  shape.region();
+  shape.triangle({1, -1, 0}, high, low);
+  shape.triangle({1, -1, 0}, {1, 1, 0}, high);
+  return shape.mesh;
+}
+
+TEST(IgnoreSmall, ANeckIsNotTorn) {
+  const SurfaceModel model = model_of(neck());
+  const SurfaceModel same = ignore_small(model, kLength);
+  EXPECT_EQ(same.fine.triangles, model.fine.triangles);
+  EXPECT_TRUE(has_text(new_texts(model, same), "0.01 long, stays"));
+}
+
+}  // namespace
+}  // namespace delquad
