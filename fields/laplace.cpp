@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <stdexcept>
 
 namespace delquad {
@@ -11,10 +13,11 @@ namespace {
 // Twice the least area a triangle is taken to have, relative to its longest side squared: slivers below it
 // have no reliable area in floating point. The matrix stays positive definite whatever the areas.
 constexpr double kLeastArea = 1e-12;
+// Where points coincide, values hang together by nothing, or by less than rounding. Then each triangle is
+// taken to be this part of an equilateral one.
+constexpr std::array<double, 5> kEquilateralParts = {0, 1e-12, 1e-9, 1e-6, 1e-3};
 
-}  // namespace
-
-LocalStiffness local_stiffness(const TriPatch& tri, int t) {
+LocalStiffness stiffness(const TriPatch& tri, int t, double equilateral_part) {
   const auto& v = tri.triangles[t];
   Vec2 side[3];
   double longest2 = 0;
@@ -27,8 +30,60 @@ LocalStiffness local_stiffness(const TriPatch& tri, int t) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) matrix[i][j] = dot(side[i], side[j]) / area;
   }
+  if (equilateral_part == 0) return matrix;
+  double most = 1;
+  for (int i = 0; i < 3; ++i) most = std::max(most, matrix[i][i]);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!(longest2 > 0)) matrix[i][j] = 0;
+      matrix[i][j] += equilateral_part * most * (i == j ? 1 : -0.5);
+    }
+  }
   return matrix;
 }
+
+/// The factors of the matrix between free dofs; its product with the fixed values goes to `right`.
+class Factors {
+ public:
+  Factors(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs, const std::vector<int>& row,
+          int n, std::span<const std::vector<double>> columns, double equilateral_part)
+      : right_(Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(columns.size()))) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(6 * tri.triangles.size());
+    for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+      const LocalStiffness local = stiffness(tri, static_cast<int>(t), equilateral_part);
+      for (int i = 0; i < 3; ++i) {
+        const int r = row[dofs[t][i]];
+        if (r < 0) continue;
+        for (int j = 0; j < 3; ++j) {
+          const int c = row[dofs[t][j]];
+          if (c >= 0 && c <= r) entries.emplace_back(r, c, local[i][j]);
+          for (std::size_t k = 0; c < 0 && k < columns.size(); ++k)
+            right_(r, static_cast<Eigen::Index>(k)) -= local[i][j] * columns[k][dofs[t][j]];
+        }
+      }
+    }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    factors_.compute(matrix);
+  }
+
+  /// Nothing where rounding left no positive definite matrix.
+  std::optional<Eigen::MatrixXd> solution() const {
+    if (factors_.info() != Eigen::Success) return std::nullopt;
+    Eigen::MatrixXd x = factors_.solve(right_);
+    if (!x.allFinite()) return std::nullopt;
+    return x;
+  }
+
+ private:
+  Eigen::MatrixXd right_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+};
+
+}  // namespace
+
+LocalStiffness local_stiffness(const TriPatch& tri, int t) { return stiffness(tri, t, 0); }
 
 void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
                    const std::vector<char>& fixed, std::span<std::vector<double>> columns) {
@@ -39,33 +94,16 @@ void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& d
   }
   if (n == 0) return;
 
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(6 * tri.triangles.size());
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-    const LocalStiffness local = local_stiffness(tri, static_cast<int>(t));
-    for (int i = 0; i < 3; ++i) {
-      const int r = row[dofs[t][i]];
-      if (r < 0) continue;
-      for (int j = 0; j < 3; ++j) {
-        const int c = row[dofs[t][j]];
-        if (c >= 0 && c <= r) entries.emplace_back(r, c, local[i][j]);
-        for (std::size_t k = 0; c < 0 && k < columns.size(); ++k) {
-          right(r, static_cast<Eigen::Index>(k)) -= local[i][j] * columns[k][dofs[t][j]];
-        }
-      }
-    }
+  std::optional<Eigen::MatrixXd> solution;
+  for (const double part : kEquilateralParts) {
+    solution = Factors(tri, dofs, row, n, columns, part).solution();
+    if (solution) break;
   }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-  if (factors.info() != Eigen::Success)
-    throw std::runtime_error("the background mesh's Laplace matrix is singular");
-  const Eigen::MatrixXd solution = factors.solve(right);
+  if (!solution) throw std::runtime_error("the background mesh's Laplace matrix is singular");
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     if (row[i] < 0) continue;
     for (std::size_t k = 0; k < columns.size(); ++k)
-      columns[k][i] = solution(row[i], static_cast<Eigen::Index>(k));
+      columns[k][i] = (*solution)(row[i], static_cast<Eigen::Index>(k));
   }
 }
 

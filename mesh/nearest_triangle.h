@@ -33,7 +33,15 @@ class NearestTriangle {
 
   std::vector<Vec3> points_;
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<Box<Vec3>> boxes_;
+  /// A triangle's part with its box. Slivers have several: one box around all would hold much else.
+  struct Part {
+    int triangle;
+    Box<Vec3> box;
+  };
+  static std::vector<Part> parts_of(const std::vector<Vec3>& points,
+                                    const std::vector<std::array<int, 3>>& triangles);
+
+  std::vector<Part> parts_;
   BoxTree<Vec3> tree_;
 };
 
