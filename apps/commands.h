@@ -96,7 +96,7 @@ struct CompareArguments {
 int compare_command(const CompareArguments& arguments);
 
 struct InfoArguments {
-  std::filesystem::path model, json;
+  std::filesystem::path model, json, output;
   std::optional<std::string> size;
 };
 int info_command(const InfoArguments& arguments);

@@ -294,6 +294,10 @@ void add_info(CLI::App& app, InfoArguments& arguments, CommonArguments& common) 
       ->required();
   add_size(*info, arguments.size, "wanted edge length, a number: name what is smaller");
   info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
+  info->add_option(
+      "-o,--output", arguments.output,
+      "the model as it is understood, to look at (.vtu, .msh): triangles by face, lines by curve, as "
+      "they are found in a triangulation");
   add_time_limit(*info, common);
 }
 

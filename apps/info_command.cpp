@@ -129,12 +129,17 @@ void print_difficulties(const ModelInfo& info, double size) {
 int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
   const Case c = read_model_case(arguments.model);
-  check_distinct({{"the model", arguments.model}, {"--json", arguments.json}});
+  check_distinct({{"the model", arguments.model}, {"--json", arguments.json}, {"-o", arguments.output}});
   if (!arguments.json.empty()) check_output(arguments.json);
+  if (!arguments.output.empty()) {
+    check_mesh_format(arguments.output);
+    check_output(arguments.output);
+  }
   ModelInfo info = model_info(c);
   if (size > 0) warn_of_large_size(*make_constant_size(size), info.model.fine, info.model.warnings);
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, [&](std::ostream& out) { out << info_record(info, size); });
+  if (!arguments.output.empty()) write_mesh(arguments.output, info.model.fine);
   print_overview(info);
   print_parts(info);
   print_difficulties(info, size);

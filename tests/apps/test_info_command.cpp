@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "delquad/mesh.h"
 #include "tests/apps/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -43,6 +44,18 @@ TEST(InfoCommand, TellsOfTrianglesAndTheirRepair) {
     EXPECT_TRUE(contains(run.out, part)) << part << "\n" << run.out;
 }
 
+TEST(InfoCommand, WritesTheFeaturesThatItFinds) {
+  const TemporaryFolder folder;
+  // Two triangles at a right angle: the edge between them is a feature.
+  std::ofstream(folder / "angle.off") << "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n";
+  const auto run = delquad({"info", folder / "angle.off", "-o", folder / "parts.msh"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Mesh parts = read_mesh(folder / "parts.msh");
+  EXPECT_EQ(parts.regions.size(), 2u);
+  EXPECT_EQ(parts.curves.size(), 5u) << "two sides of each face, between three corners, and the edge";
+  EXPECT_EQ(parts.lines.size(), 5u);
+}
+
 TEST(InfoCommand, LongListsAreShortened) {
   const TemporaryFolder folder;
   std::ofstream(folder / "plate.toml")
@@ -65,6 +78,8 @@ TEST(InfoCommand, BadInput) {
       {{"info", folder / "square.toml", "--size", "0"}, "--size 0: expected"},
       {{"info", folder / "square.toml", "--size", "x"}, "--size x: expected"},
       {{"info", folder / "square.toml", "--json", folder / "square.toml"}, "the same file"},
+      {{"info", folder / "square.toml", "-o", folder / "square.toml"}, "the same file"},
+      {{"info", folder / "square.toml", "-o", folder / "parts.doc"}, "parts.doc"},
       {{"info", folder / "square.toml", "--json", folder / "no/where.json"}, "there is no folder"}};
   for (const auto& [arguments, part] : cases) {
     const auto run = delquad(arguments);

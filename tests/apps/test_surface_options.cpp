@@ -40,6 +40,12 @@ TEST(SurfaceOptions, CompoundsAndAnglesJoinFaces) {
   EXPECT_EQ(faces_and_curves({"--feature-angle", "91"}).first, 1);
 }
 
+TEST(SurfaceOptions, NarrowFacesAreIgnored) {
+  // Both are half a length wide: twice the area by the outline.
+  EXPECT_EQ(faces_and_curves({"--ignore-below", "0.49"}), std::pair(2, 7));
+  EXPECT_EQ(faces_and_curves({"--ignore-below", "0.51"}), std::pair(1, 6));
+}
+
 TEST(SurfaceOptions, WeldingClosesGaps) {
   EXPECT_EQ(faces_and_curves({}, true), std::pair(2, 8));
   EXPECT_EQ(faces_and_curves({"--weld", "1e-3"}, true), std::pair(2, 7));

@@ -83,6 +83,29 @@ TEST(NearestTriangle, AgreesWithLookingAtAll) {
   }
 }
 
+// Slivers that cross each other's boxes.
+TEST(NearestTriangle, AgreesWithLookingAtAllSlivers) {
+  Random random;
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int t = 0; t < 200; ++t) {
+    const Vec3 a = random.point(), b = random.point(), tip = 1e-4 * random.point();
+    const int first = static_cast<int>(points.size());
+    points.insert(points.end(), {a, 0.3 * a + 0.7 * b + tip, b});
+    triangles.push_back({first + t % 3, first + (t + 1) % 3, first + (t + 2) % 3});
+  }
+  const NearestTriangle nearest(points, triangles);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3 x = trial % 2 == 0 ? 1.5 * random.point() : points[random.below(600)];
+    double least = 1e9;
+    for (const auto& [a, b, c] : triangles) {
+      const auto w = nearest_weights(points[a], points[b], points[c], x);
+      least = std::min(least, norm(w[0] * points[a] + w[1] * points[b] + w[2] * points[c] - x));
+    }
+    EXPECT_NEAR(nearest.find(x).distance, least, 1e-14);
+  }
+}
+
 TEST(NearestTriangle, TheFirstOfSeveral) {
   const NearestTriangle nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}},
                                 {{0, 1, 2}, {0, 3, 1}, {0, 1, 2}});

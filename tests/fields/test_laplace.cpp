@@ -56,6 +56,18 @@ TEST(Laplace, ReproducesLinearFunctions) {
   }
 }
 
+// Two sides of the inner triangle have one place: no value of its third side reaches another.
+TEST(Laplace, PointsMayCoincide) {
+  TriPatch tri;
+  tri.points = {{0, 0}, {1, 0}, {1, 0}, {0, 1}};
+  tri.triangles = {{0, 1, 3}, {1, 2, 3}};
+  const std::vector<std::array<int, 3>> dofs = {{0, 1, 2}, {3, 0, 4}};
+  const std::vector<char> fixed = {0, 1, 1, 0, 0};
+  std::vector<double> columns[] = {{0, 2, 2, 0, 0}};
+  solve_laplace(tri, dofs, fixed, columns);
+  for (const double value : columns[0]) EXPECT_NEAR(value, 2, 1e-6);
+}
+
 TEST(Laplace, StaysFiniteOnSlivers) {
   const auto background = background_of(shapes::polygon({{0, 0}, {1, 0}, {1, 1e-11}}, 10));
   const TriPatch& tri = background->triangles();
