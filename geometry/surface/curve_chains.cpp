@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "geometry/surface/triangle_sides.h"
+
 namespace delquad {
 
 namespace {
@@ -30,6 +32,14 @@ class PointLines {
   std::vector<int> start_, lines_;
 };
 
+/// Triangles at each line.
+std::vector<std::size_t> triangles_on_lines(const Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<std::size_t> counts;
+  for (const auto& [a, b] : mesh.lines) counts.push_back(sides_of_edge(sides, a, b).size());
+  return counts;
+}
+
 int other_end(const std::array<int, 2>& line, int end) { return line[0] == end ? line[1] : line[0]; }
 
 }  // namespace
@@ -53,11 +63,15 @@ std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector
                                           std::vector<char> corner) {
   Mesh& mesh = model.fine;
   const PointLines lines(mesh);
+  const std::vector<std::size_t> triangles = triangles_on_lines(mesh);
+  const auto continues = [&](int line, int other) {
+    return line_kind[line] == line_kind[other] && triangles[line] == triangles[other];
+  };
   model.corners.clear();
   for (int p = 0; p < static_cast<int>(corner.size()); ++p) {
     const auto here = lines.at(p);
     if (here.empty()) continue;
-    if (here.size() != 2 || line_kind[here[0]] != line_kind[here[1]]) corner[p] = 1;
+    if (here.size() != 2 || !continues(here[0], here[1])) corner[p] = 1;
     if (corner[p]) model.corners.push_back(p);
   }
 

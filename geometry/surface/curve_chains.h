@@ -14,9 +14,9 @@ double turn_angle(const Vec3& a, const Vec3& b, const Vec3& c);
 void mark_turns(const Mesh& mesh, double angle, const std::vector<char>& among, std::vector<char>& corner);
 
 /// Joins the lines of model.fine into maximal chains, which end at the marked points, where other than two
-/// lines meet and where the kind of the lines changes. Sorts the lines and sets line_curve and the model's
-/// corners; returns for each chain the numbers that its lines had before. model.fine.curves is left to the
-/// caller.
+/// lines meet and where the kind of the lines or the number of triangles on them changes. Sorts the lines and
+/// sets line_curve and the model's corners; returns for each chain the numbers that its lines had before.
+/// model.fine.curves is left to the caller.
 std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector<int>& line_kind,
                                           std::vector<char> corner);
 

@@ -80,9 +80,14 @@ inline std::vector<std::string> violations(const SurfaceModel& model) {
   }
   const auto sides = sorted_half_edges(mesh);
   std::vector<char> branching(mesh.curves.size(), 0);
+  std::map<int, std::size_t> triangles_on;  // the first line of each curve
+  std::set<int> uneven;
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     const auto at = lines.find({edge[0].lo, edge[0].hi});
-    if (edge.size() > 2 && at != lines.end()) branching[at->second] = 1;
+    if (at == lines.end()) return;
+    if (edge.size() > 2) branching[at->second] = 1;
+    const auto [first, is_first] = triangles_on.try_emplace(at->second, edge.size());
+    if (first->second != edge.size()) uneven.insert(at->second);
   });
   std::vector<std::string> wrong = check_invariants(mesh, branching);
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
@@ -92,6 +97,8 @@ inline std::vector<std::string> violations(const SurfaceModel& model) {
       wrong.push_back("no line between faces at point " + std::to_string(edge[0].lo));
     }
   });
+  for (const int curve : uneven)
+    wrong.push_back("curve " + std::to_string(curve) + " lies between faces and elsewhere");
   check_chains(model, wrong);
   check_faces(mesh, lines, wrong);
   return wrong;

@@ -439,5 +439,22 @@ TEST(TriangleRepair, LinesOffTheTrianglesGo) {
   EXPECT_TRUE(has_warning(model, "left out 1 line along no side"));
 }
 
+// A wall that stands on a floor, and leaves it in the middle without a turn.
+TEST(TriangulatedModel, BranchingEndsInsideACurve) {
+  testing_support::TriangulatedShape shape;
+  const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    shape.triangle(a, b, c);
+    shape.triangle(a, c, d);
+  };
+  shape.region();
+  for (const double y : {0.0, 1.0})
+    for (const double x : {-1.0, 0.0}) quad({x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0});
+  quad({0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1});
+  quad({0, 1, 0}, {0, 2, 0.05}, {0, 2, 1}, {0, 1, 1});
+  const SurfaceModel model = make_surface_model(shape.mesh);
+  EXPECT_EQ(violations(model), std::vector<std::string>{});
+  EXPECT_TRUE(has_warning(model, "branches at 1 edge with three triangles or more"));
+}
+
 }  // namespace
 }  // namespace delquad
