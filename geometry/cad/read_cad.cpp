@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <TopExp_Explorer.hxx>
+
 #include <algorithm>
 #include <utility>
 
@@ -39,6 +41,35 @@ std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_I
     for (int f = 1; f <= own.Extent(); ++f) of.push_back(faces.FindIndex(own(f)) - 1);
   }
   return all;
+}
+
+/// Whether the faces of a group, and no others, have a name in common that is more than a colour.
+bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
+  const auto has = [&](int face, const std::string& name) {
+    return std::ranges::find(mesh.regions[face].names, name) != mesh.regions[face].names.end();
+  };
+  return std::ranges::any_of(mesh.regions[group[0]].names, [&](const std::string& name) {
+    int holders = 0;
+    for (int f = 0; f < static_cast<int>(mesh.regions.size()); ++f) holders += has(f, name);
+    return !name.starts_with(kColourName) && holders == static_cast<int>(group.size()) &&
+           std::ranges::all_of(group, [&](int f) { return has(f, name); });
+  });
+}
+
+/// Of several solids, names those that have none of their own: "solid 1", ... by their order in the file.
+/// Faces that solids share have the names of both. `groups`: the faces of each body, solids first.
+void name_solids(const TopoDS_Shape& shape, const std::vector<std::vector<int>>& groups, Mesh& mesh) {
+  std::size_t n_solids = 0;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) ++n_solids;
+  if (n_solids < 2) return;
+  std::vector<char> named;
+  for (std::size_t k = 0; k < n_solids; ++k)
+    named.push_back(groups[k].empty() || has_own_name(mesh, groups[k]));
+  for (std::size_t k = 0; k < n_solids; ++k) {
+    const std::string name = fmt::format("solid {}", k + 1);
+    for (const int f : groups[k])
+      if (!named[k]) mesh.regions[f].names.push_back(name);
+  }
 }
 
 /// Faces of bodies that only coincide get meshes of their own there.
@@ -106,6 +137,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   model.corners = std::move(welded.corners);
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
   const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);
+  name_solids(cad.shape, groups, model.fine);
   orient(model, groups);
   report_edges(model);
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);

@@ -74,6 +74,12 @@ TEST_F(Glue, EqualFacesBecomeOne) {
   EXPECT_EQ(model.fine.regions.size(), 11u);
   EXPECT_EQ(model.fine.curves.size(), 20u);
   EXPECT_NEAR(count(model.fine).area, 6 + 10 - 1, 1e-9);
+  const auto n_with = [&](const std::vector<std::string>& names) {
+    return std::ranges::count_if(model.fine.regions, [&](const Entity& face) { return face.names == names; });
+  };
+  EXPECT_EQ(n_with({"solid 1"}), 5);
+  EXPECT_EQ(n_with({"solid 2"}), 5);
+  EXPECT_EQ(n_with({"solid 1", "solid 2"}), 1);
 }
 
 TEST_F(Glue, LargerFacesAreCut) {
