@@ -196,6 +196,23 @@ void add_schema(CLI::App& app, bool& options) {
   schema->add_flag("--options", options, "print the options of the stages as a table (Markdown) instead");
 }
 
+/// How the faces of surfaces are made.
+void add_surface(CLI::App& mesh, MeshArguments& arguments) {
+  mesh.add_option("--compound", arguments.compound,
+                  "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
+  mesh.add_option("--feature-angle", arguments.feature_angle,
+                  "degrees by which triangles must turn for a curve between them, and curves for a corner");
+  mesh.add_option("--weld", arguments.weld_tolerance,
+                  "join ends of open edges of a triangulation up to this part of its diagonal");
+  mesh.add_option("--ignore-below", arguments.ignore_below,
+                  "length: narrower faces become part of neighbours, shorter curves points, each named")
+      ->check(CLI::PositiveNumber);
+  mesh.add_flag("--glue", arguments.glue,
+                "bodies of a CAD model that touch share faces, curves and nodes there");
+  mesh.add_option("--unit", arguments.unit,
+                  "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
+}
+
 void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option(
@@ -218,19 +235,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
       ->check(kLength);
   mesh->add_option("--cross", arguments.cross,
                    "directions: 'boundary', 'size-aware', 'gradient' or an angle expression (radians)");
-  mesh->add_option("--compound", arguments.compound,
-                   "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
-  mesh->add_option("--feature-angle", arguments.feature_angle,
-                   "degrees by which triangles must turn for a curve between them, and curves for a corner");
-  mesh->add_option("--weld", arguments.weld_tolerance,
-                   "join ends of open edges of a triangulation up to this part of its diagonal");
-  mesh->add_option("--ignore-below", arguments.ignore_below,
-                   "length: narrower faces become part of neighbours, shorter curves points, each named")
-      ->check(CLI::PositiveNumber);
-  mesh->add_flag("--glue", arguments.glue,
-                 "bodies of a CAD model that touch share faces, curves and nodes there");
-  mesh->add_option("--unit", arguments.unit,
-                   "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
+  add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
     qualities +=
