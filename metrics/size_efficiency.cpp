@@ -17,8 +17,9 @@ namespace {
 constexpr double kAgreement = 1e-3;
 /// Panels are halved at most this often: a jump of delta is found to 1e-6 of the edge.
 constexpr int kMaxHalvings = 20;
-/// Values of delta on an edge, enough for some jumps: where sheets lie on each other it may jump anywhere.
-constexpr int kMostValues = 256;
+/// Values of delta on an edge, far more than any that jumps some times needs: where sheets lie on each other,
+/// it may jump everywhere.
+constexpr int kMostValues = 16384;
 
 class EdgeIntegral {
  public:

@@ -67,6 +67,15 @@ TEST(AdimensionalLength, EndsAtJumps) {
   EXPECT_LT(size.evaluations, 200);
 }
 
+// As of two sheets in one place: which is nearer, rounding decides.
+TEST(AdimensionalLength, EndsWhereSizesJumpEverywhere) {
+  const SizeBy size([](const Vec3& x) { return std::sin(1e9 * x.x) < 0 ? 0.5 : 1.0; });
+  const double length = adimensional_length({0, 0, 0}, {1, 0, 0}, size);
+  EXPECT_GT(length, 1);
+  EXPECT_LT(length, 2);
+  EXPECT_LT(size.evaluations, 20000);
+}
+
 double tau(const Mesh& mesh, const SizeField& size) { return evaluate_metrics(mesh, &size).values.at("tau"); }
 
 TEST(Tau, CountsEachEdgeOnceWithItsOwnLength) {
