@@ -7,9 +7,10 @@
 #include <map>
 #include <optional>
 
-#include "geometry/surface/compound_projector.h"
+#include "delquad/error.h"
+#include "geometry/surface/close_small_holes.h"
 #include "geometry/surface/surface_editor.h"
-#include "mesh/drop_unused_points.h"
+#include "geometry/surface/tidy_model.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {
@@ -245,33 +246,6 @@ bool contract_curve(SurfaceModel& model, int curve) {
   return false;
 }
 
-/// Takes unused points and curves without lines out. Returns the former number of each curve.
-EntityGroups tidy(SurfaceModel& model) {
-  Mesh& mesh = model.fine;
-  std::vector<char> used(mesh.points.size(), 0);
-  for (const auto& line : mesh.lines) used[line[0]] = used[line[1]] = 1;
-  for (const auto& triangle : mesh.triangles)
-    for (const int v : triangle) used[v] = 1;
-  std::vector<int> number(used.size());
-  for (std::size_t p = 0, n = 0; p < used.size(); ++p) number[p] = used[p] ? static_cast<int>(n++) : -1;
-  std::erase_if(model.corners, [&](int p) { return !used[p]; });
-  for (int& p : model.corners) p = number[p];
-  drop_unused_points(mesh);
-
-  std::vector<int> new_curve(mesh.curves.size(), -1);
-  for (const int curve : mesh.line_curve) new_curve[curve] = 0;
-  EntityGroups former;
-  for (std::size_t c = 0; c < new_curve.size(); ++c) {
-    if (new_curve[c] < 0) continue;
-    new_curve[c] = static_cast<int>(former.size());
-    mesh.curves[former.size()] = mesh.curves[c];
-    former.push_back({static_cast<int>(c)});
-  }
-  mesh.curves.resize(former.size());
-  for (int& curve : mesh.line_curve) curve = new_curve[curve];
-  return former;
-}
-
 /// Contracts curves shorter than `length`, the shortest first.
 SurfaceModel contract_short_curves(SurfaceModel model, double length) {
   const std::vector<double> lengths = curve_lengths(model.fine);
@@ -290,14 +264,20 @@ SurfaceModel contract_short_curves(SurfaceModel model, double length) {
          gone ? name + " became a point"
               : name + " stays: it is closed, or the surface would fold or tear without it"});
   }
-  model.projector =
-      make_compound_projector(model.projector, former, each_alone(former.regions.size()), tidy(model));
+  TidyGroups kept = tidy_model(model);
+  model.projector = make_compound_projector(model.projector, former, kept.faces, std::move(kept.curves));
   return model;
 }
 
 }  // namespace
 
 SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptions& options) {
+  if (const double size = diagonal(model.fine); !(length < size))
+    throw InputError(
+        fmt::format("{}: faces and curves below {:.6g} are to be ignored: expected a length far below the "
+                    "diagonal, {:.3g}",
+                    model.source, length, size));
+  model = close_small_holes(std::move(model), length);
   const EntityGroups groups = FaceJoiner(model.fine).join(length, model.warnings);
   for (const auto& group : groups)
     for (const int face : group) model.fine.regions[face] = model.fine.regions[group[0]];

@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
+#include "geometry/surface/close_small_holes.h"
 #include "geometry/surface/ignore_small.h"
 #include "geometry/surface/triangulated_model.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
 #include "tests/support/surface_model_checks.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -59,6 +65,11 @@ TEST(IgnoreSmall, LeavesWhatIsLargerAlone) {
   EXPECT_EQ(same.warnings.size(), model.warnings.size());
 }
 
+TEST(IgnoreSmall, LengthsBeyondTheModelAreRefused) {
+  const SurfaceModel model = make_surface_model(box(1), {.source = "box.stl"});
+  expect_input_error([&] { ignore_small(model, 2); }, {"box.stl", "2", "1.73"});
+}
+
 TEST(IgnoreSmall, TheRimOfAPlateBecomesPartOfIt) {
   Mesh mesh = box(3, 1, 1, 0.01);
   mesh.regions[4].names = {"lower"};
@@ -89,6 +100,72 @@ TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
   const SurfaceModel wedge = ignore_small(model, 0.012);
   EXPECT_EQ(testing_support::violations(wedge), std::vector<std::string>{});
   EXPECT_LT(wedge.fine.regions.size(), model.fine.regions.size());
+}
+
+/// The unit cube with an octagonal hole of this radius in its top, region 2, which goes down to `depth`;
+/// region 7 is its wall, region 8 its bottom when it does not go through. Regions 3 to 6 are sides, 1 is the
+/// bottom.
+Mesh cube_with_hole(double radius, double depth) {
+  TriangulatedShape shape;
+  const auto outer = [](int i, double z) {
+    constexpr std::array<double, 8> kX = {0, 0.5, 1, 1, 1, 0.5, 0, 0}, kY = {0, 0, 0, 0.5, 1, 1, 1, 0.5};
+    return Vec3{kX[i % 8], kY[i % 8], z};
+  };
+  const auto inner = [&](int i, double z) {
+    const double angle = (i % 8 - 3) * std::numbers::pi / 4;
+    return Vec3{0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle), z};
+  };
+  const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    shape.triangle(a, b, c);
+    shape.triangle(a, c, d);
+  };
+  const bool through = depth >= 1;
+  shape.region();
+  for (int i = 0; i < 8; ++i)
+    if (through)
+      quad(outer(i + 1, 0), outer(i, 0), inner(i, 0), inner(i + 1, 0));
+    else
+      shape.triangle(outer(i + 1, 0), outer(i, 0), {0.5, 0.5, 0});
+  shape.region();
+  for (int i = 0; i < 8; ++i) quad(outer(i, 1), outer(i + 1, 1), inner(i + 1, 1), inner(i, 1));
+  for (int i = 0; i < 8; ++i) {
+    if (i % 2 == 0) shape.region();
+    quad(outer(i, 0), outer(i + 1, 0), outer(i + 1, 1), outer(i, 1));
+  }
+  const double low = 1 - std::min(depth, 1.0);
+  shape.region();
+  for (int i = 0; i < 8; ++i) quad(inner(i + 1, low), inner(i, low), inner(i, 1), inner(i + 1, 1));
+  if (through) return shape.mesh;
+  shape.region();
+  for (int i = 0; i < 8; ++i) shape.triangle(inner(i, low), inner(i + 1, low), {0.5, 0.5, low});
+  return shape.mesh;
+}
+
+void expect_hole_closes(const Mesh& mesh, std::size_t faces) {
+  const SurfaceModel model = make_surface_model(mesh, {.feature_angle = 60});
+  EXPECT_EQ(model.fine.regions.size(), faces);
+  const SurfaceModel cube = ignore_small(model, kLength);
+  expect_counts(cube, 6, 12, 8);
+  EXPECT_NEAR(volume(cube.fine), 1, 1e-12);
+  EXPECT_TRUE(has_text(new_texts(model, cube), "face 2: closed a hole of 0.0306 around"));
+}
+
+TEST(IgnoreSmall, HolesTubesAndPocketsAreClosed) {
+  expect_hole_closes(cube_with_hole(0.005, 1), 7);
+  expect_hole_closes(cube_with_hole(0.005, 0.5), 8);
+}
+
+TEST(IgnoreSmall, LargerHolesStay) {
+  const SurfaceModel model = make_surface_model(cube_with_hole(0.01, 1), {.feature_angle = 60});
+  const SurfaceModel same = ignore_small(model, kLength);
+  EXPECT_EQ(same.fine.triangles, model.fine.triangles);
+}
+
+TEST(IgnoreSmall, WhatIsSmallAltogetherIsNoHole) {
+  const SurfaceModel cube = model_of(box(1));
+  EXPECT_EQ(close_small_holes(cube, 100).fine.triangles, cube.fine.triangles);
+  const SurfaceModel square = make_surface_model(testing_support::triangle_grid(2, 2));
+  EXPECT_EQ(close_small_holes(square, 100).fine.triangles, square.fine.triangles);
 }
 
 /// Two squares joined by a neck .01 wide, each a face.

@@ -1,0 +1,257 @@
+#include "geometry/surface/close_small_holes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <set>
+#include <span>
+
+#include "base/box.h"
+#include "geometry/surface/compound_projector.h"
+#include "geometry/surface/tidy_model.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+
+namespace {
+
+/// How much more area a tube may have than girth times extent: its ends count, and a bend.
+constexpr double kTubeArea = 1.5;
+
+/// A closed chain of lines at which a face ends.
+struct Loop {
+  int face = -1, other = -1;  ///< on the other side; -1: none, -2: several
+  double length = 0;
+  std::vector<std::array<int, 2>> sides;  ///< as they run around the face
+  bool simple = true;                     ///< every point has one side that comes and one that goes
+};
+
+/// Sets of numbers that grow together.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// The loops of all faces, by face.
+std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
+  struct Side {
+    std::array<int, 2> ends;
+    int other;
+  };
+  std::vector<std::vector<Side>> of_face(mesh.regions.size());
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (const auto& line : mesh.lines) {
+    const auto edge = sides_of_edge(std::span(sides), line[0], line[1]);
+    for (const HalfEdge& side : edge) {
+      const int face = mesh.triangle_region[side.element];
+      const int other = edge.size() == 1   ? -1
+                        : edge.size() == 2 ? mesh.triangle_region[edge[&side == &edge[0]].element]
+                                           : -2;
+      if (other == face) continue;  // a seam
+      of_face[face].push_back(
+          {side.forward ? std::array{side.lo, side.hi} : std::array{side.hi, side.lo}, other});
+    }
+  }
+  std::vector<std::vector<Loop>> loops(mesh.regions.size());
+  for (std::size_t face = 0; face < of_face.size(); ++face) {
+    std::map<int, int> number;  // of points
+    for (const Side& side : of_face[face])
+      for (const int p : side.ends) number.try_emplace(p, static_cast<int>(number.size()));
+    Sets sets(number.size());
+    for (const Side& side : of_face[face]) sets.join(number.at(side.ends[0]), number.at(side.ends[1]));
+    std::map<int, Loop> by_set;
+    for (const Side& side : of_face[face]) {
+      Loop& loop = by_set[sets.find(number.at(side.ends[0]))];
+      if (loop.face >= 0 && loop.other != side.other) loop.other = -2;
+      if (loop.face < 0) loop.other = side.other;
+      loop.face = static_cast<int>(face);
+      loop.length += norm(mesh.points[side.ends[1]] - mesh.points[side.ends[0]]);
+      loop.sides.push_back(side.ends);
+    }
+    for (auto& [set, loop] : by_set) {
+      std::map<int, std::array<int, 2>> passes;
+      for (const auto& [from, to] : loop.sides) ++passes[from][0], ++passes[to][1];
+      loop.simple = std::ranges::all_of(passes, [](const auto& p) { return p.second == std::array{1, 1}; });
+      loops[face].push_back(std::move(loop));
+    }
+  }
+  return loops;
+}
+
+class SmallHoles {
+ public:
+  SmallHoles(SurfaceModel& model, double length)
+      : model_(model),
+        mesh_(model.fine),
+        length_(length),
+        loops_(find_loops(mesh_)),
+        tube_(mesh_.regions.size(), 0) {}
+
+  /// Whether anything was closed.
+  bool close() {
+    find_tubes();
+    std::set<int> kept;  // tubes with an end that cannot be closed
+    for (const auto& loops : loops_)
+      for (const Loop& loop : loops)
+        if (is_end(loop) && loop.other != -1 && !(loop.other >= 0 && closable(counterpart(loop))))
+          kept.insert(tube_[loop.face]);
+    for (int& tube : tube_)
+      if (kept.contains(tube)) tube = 0;
+    std::vector<const Loop*> holes;
+    for (const auto& loops : loops_)
+      for (const Loop& loop : loops)
+        if (closable(loop) &&
+            (loop.other == -1 ? !is_little(loop.face) : loop.other >= 0 && tube_[loop.other] > 0))
+          holes.push_back(&loop);
+    for (const Loop* hole : holes) fill(*hole);
+    if (holes.empty()) return false;
+    drop_tubes();
+    return true;
+  }
+
+ private:
+  bool is_short(const Loop& loop) const { return loop.length < length_; }
+  bool is_end(const Loop& loop) const {
+    return tube_[loop.face] > 0 && (loop.other < 0 || tube_[loop.other] != tube_[loop.face]);
+  }
+  bool closable(const Loop& loop) const {
+    return is_short(loop) && loop.simple && loop.sides.size() > 2 && tube_[loop.face] == 0;
+  }
+  /// The same loop as the face on the other side has it; a loop that cannot be closed where that has more.
+  Loop counterpart(const Loop& loop) const {
+    for (const Loop& other : loops_[loop.other]) {
+      const auto [from, to] = loop.sides[0];
+      const bool shares = std::ranges::any_of(other.sides, [&](const auto& s) {
+        return (s[0] == to && s[1] == from) || (s[0] == from && s[1] == to);
+      });
+      if (shares && other.sides.size() == loop.sides.size() && other.other == loop.face) return other;
+    }
+    return {};
+  }
+  bool all_short(int face) const {
+    return !loops_[face].empty() &&
+           std::ranges::all_of(loops_[face], [&](const Loop& loop) { return is_short(loop); });
+  }
+  /// A face that ends nowhere else and is small itself: its outline is no hole.
+  bool is_little(int face) const { return all_short(face) && area_of({face}) < length_ * length_; }
+
+  double area_of(const std::set<int>& faces) const {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (faces.contains(mesh_.triangle_region[t]))
+        area += norm(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a])) / 2;
+    }
+    return area;
+  }
+
+  double extent_of(const std::set<int>& faces) const {
+    std::vector<Vec3> points;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (faces.contains(mesh_.triangle_region[t]))
+        for (const int v : mesh_.triangles[t]) points.push_back(mesh_.points[v]);
+    return diagonal(points);
+  }
+
+  /// Numbers the tubes from 1 in `tube_`.
+  void find_tubes() {
+    Sets sets(loops_.size());
+    for (const auto& loops : loops_)
+      for (const Loop& loop : loops)
+        if (loop.other >= 0 && all_short(loop.face) && all_short(loop.other))
+          sets.join(loop.face, loop.other);
+    std::map<int, std::set<int>> groups;
+    for (int face = 0; face < static_cast<int>(loops_.size()); ++face)
+      if (all_short(face)) groups[sets.find(face)].insert(face);
+    int n = 0;
+    for (const auto& [first, faces] : groups) {
+      bool has_end = false;
+      for (const int face : faces)
+        for (const Loop& loop : loops_[face]) has_end |= loop.other >= 0 && !faces.contains(loop.other);
+      if (!has_end || area_of(faces) > kTubeArea * length_ * extent_of(faces)) continue;
+      ++n;
+      for (const int face : faces) tube_[face] = n;
+    }
+  }
+
+  /// Closes a hole by triangles around its middle.
+  void fill(const Loop& hole) {
+    Vec3 middle;
+    for (const auto& side : hole.sides)
+      middle = middle + (1.0 / static_cast<double>(hole.sides.size())) * mesh_.points[side[0]];
+    if (model_.projector) middle = model_.projector->to_face(hole.face, middle);
+    const int node = static_cast<int>(mesh_.points.size());
+    mesh_.points.push_back(middle);
+    std::set<std::array<int, 2>> gone;
+    for (const auto& [from, to] : hole.sides) {
+      mesh_.triangles.push_back({to, from, node});
+      mesh_.triangle_region.push_back(hole.face);
+      gone.insert({std::min(from, to), std::max(from, to)});
+    }
+    const Entity& face = mesh_.regions[hole.face];
+    model_.warnings.push_back(
+        {"small holes that were closed", 1 / hole.length,
+         fmt::format("face {}: closed a hole of {:.3g} around at ({:.6g}, {:.6g}, {:.6g})", face.tag,
+                     hole.length, middle.x, middle.y, middle.z)});
+    drop_lines([&](int a, int b) { return gone.contains({std::min(a, b), std::max(a, b)}); });
+  }
+
+  template <class Goes>
+  void drop_lines(Goes goes) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
+      if (goes(mesh_.lines[i][0], mesh_.lines[i][1])) continue;
+      mesh_.lines[kept] = mesh_.lines[i];
+      mesh_.line_curve[kept++] = mesh_.line_curve[i];
+    }
+    mesh_.lines.resize(kept);
+    mesh_.line_curve.resize(kept);
+  }
+
+  void drop_tubes() {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (tube_[mesh_.triangle_region[t]] > 0) continue;
+      mesh_.triangles[kept] = mesh_.triangles[t];
+      mesh_.triangle_region[kept++] = mesh_.triangle_region[t];
+    }
+    mesh_.triangles.resize(kept);
+    mesh_.triangle_region.resize(kept);
+    const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
+    drop_lines([&](int a, int b) { return sides_of_edge(std::span(sides), a, b).empty(); });
+    for (std::size_t face = 0; face < tube_.size(); ++face)
+      if (tube_[face] > 0)
+        model_.warnings.push_back(
+            {"faces of small holes that went", 0,
+             fmt::format("face {} went with the hole that it lines", mesh_.regions[face].tag)});
+  }
+
+  SurfaceModel& model_;
+  Mesh& mesh_;
+  double length_;
+  std::vector<std::vector<Loop>> loops_;
+  std::vector<int> tube_;  ///< of each face, from 1; 0: none
+};
+
+}  // namespace
+
+SurfaceModel close_small_holes(SurfaceModel model, double length) {
+  const Mesh former = model.fine;
+  if (!SmallHoles(model, length).close()) return model;
+  TidyGroups kept = tidy_model(model);
+  model.projector = make_compound_projector(model.projector, former, kept.faces, std::move(kept.curves));
+  return model;
+}
+
+}  // namespace delquad
