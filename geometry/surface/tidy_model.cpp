@@ -1,6 +1,7 @@
 #include "geometry/surface/tidy_model.h"
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/drop_unused_points.h"
 
@@ -24,10 +25,64 @@ EntityGroups keep_used(std::vector<Entity>& entities, std::vector<int>& of) {
   return former;
 }
 
+/// Triangles around one point that hang together along edges of it.
+struct Fan {
+  std::vector<int> triangles;
+  std::set<int> neighbours;  ///< of the point
+};
+
+std::vector<Fan> fans_at(const Mesh& mesh, int point, const std::vector<int>& triangles) {
+  std::vector<Fan> fans;
+  for (const int t : triangles) {
+    Fan fan{{t}, {}};
+    for (const int v : mesh.triangles[t])
+      if (v != point) fan.neighbours.insert(v);
+    std::erase_if(fans, [&](Fan& other) {
+      const bool meets =
+          std::ranges::any_of(fan.neighbours, [&](int v) { return other.neighbours.contains(v); });
+      if (!meets) return false;
+      fan.triangles.insert(fan.triangles.end(), other.triangles.begin(), other.triangles.end());
+      fan.neighbours.merge(other.neighbours);
+      return true;
+    });
+    fans.push_back(std::move(fan));
+  }
+  return fans;
+}
+
+/// Where fans touch at a point, those without a line there get points of their own: no node of a mesh will
+/// hold them together.
+void part_touching_fans(Mesh& mesh) {
+  std::vector<std::vector<int>> triangles_at(mesh.points.size()), lines_to(mesh.points.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t]) triangles_at[v].push_back(static_cast<int>(t));
+  for (const auto& [a, b] : mesh.lines) {
+    lines_to[a].push_back(b);
+    lines_to[b].push_back(a);
+  }
+  for (std::size_t p = 0; p < triangles_at.size(); ++p) {
+    const int point = static_cast<int>(p);
+    std::vector<Fan> fans = fans_at(mesh, point, triangles_at[p]);
+    if (fans.size() < 2) continue;
+    std::ranges::stable_partition(fans, [&](const Fan& fan) {
+      return std::ranges::any_of(lines_to[p], [&](int v) { return fan.neighbours.contains(v); });
+    });
+    for (std::size_t f = 1; f < fans.size(); ++f) {
+      const bool has_line =
+          std::ranges::any_of(lines_to[p], [&](int v) { return fans[f].neighbours.contains(v); });
+      if (has_line) continue;
+      for (const int t : fans[f].triangles)
+        std::ranges::replace(mesh.triangles[t], point, static_cast<int>(mesh.points.size()));
+      mesh.points.push_back(mesh.points[p]);
+    }
+  }
+}
+
 }  // namespace
 
 TidyGroups tidy_model(SurfaceModel& model) {
   Mesh& mesh = model.fine;
+  part_touching_fans(mesh);
   std::vector<char> used(mesh.points.size(), 0), on_line(mesh.points.size(), 0);
   for (const auto& line : mesh.lines)
     for (const int v : line) used[v] = on_line[v] = 1;

@@ -10,7 +10,7 @@ struct TidyGroups {
 };
 
 /// Takes points out that no triangle and no line has, faces without triangles, curves without lines and
-/// corners without curves.
+/// corners without curves. Parts the surface where it touches itself at a point without a line.
 TidyGroups tidy_model(SurfaceModel& model);
 
 }  // namespace delquad

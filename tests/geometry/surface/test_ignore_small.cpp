@@ -7,6 +7,7 @@
 
 #include "geometry/surface/close_small_holes.h"
 #include "geometry/surface/ignore_small.h"
+#include "geometry/surface/tidy_model.h"
 #include "geometry/surface/triangulated_model.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
@@ -153,6 +154,37 @@ void expect_hole_closes(const Mesh& mesh, std::size_t faces) {
 TEST(IgnoreSmall, HolesTubesAndPocketsAreClosed) {
   expect_hole_closes(cube_with_hole(0.005, 1), 7);
   expect_hole_closes(cube_with_hole(0.005, 0.5), 8);
+}
+
+/// Two tetrahedra that touch at the point 0; with a line at it in the first one, in both, or in none.
+SurfaceModel touching_tetrahedra(const std::vector<std::array<int, 2>>& lines) {
+  SurfaceModel model;
+  Mesh& mesh = model.fine;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
+  for (const int n : {1, 4})
+    for (const auto& [a, b, c] :
+         {std::array{0, n + 1, n}, {0, n + 2, n + 1}, {0, n, n + 2}, {n, n + 1, n + 2}})
+      mesh.triangles.push_back({a, b, c});
+  mesh.triangle_region = {0, 0, 0, 0, 1, 1, 1, 1};
+  mesh.regions = {{1, {}}, {2, {}}};
+  mesh.lines = lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    mesh.line_curve.push_back(static_cast<int>(i));
+    mesh.curves.push_back({static_cast<int>(i) + 1, {}});
+  }
+  return model;
+}
+
+TEST(TidyModel, BodiesThatTouchWhereNoCurveIsArePartedThere) {
+  for (const auto& [lines, points] : {std::pair<std::vector<std::array<int, 2>>, std::size_t>{{}, 8},
+                                      {{{0, 1}}, 8},
+                                      {{{0, 4}}, 8},
+                                      {{{0, 1}, {0, 4}}, 7}}) {
+    SurfaceModel model = touching_tetrahedra(lines);
+    tidy_model(model);
+    EXPECT_EQ(model.fine.points.size(), points);
+    EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
+  }
 }
 
 TEST(IgnoreSmall, LargerHolesStay) {
