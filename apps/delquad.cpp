@@ -205,8 +205,7 @@ void add_surface(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option("--weld", arguments.weld_tolerance,
                   "join ends of open edges of a triangulation up to this part of its diagonal");
   mesh.add_option("--ignore-below", arguments.ignore_below,
-                  "length: close smaller holes, join narrower faces to neighbours, shorter curves to points")
-      ->check(CLI::PositiveNumber);
+                  "length: close smaller holes, join narrower faces to neighbours, shorter curves to points");
   mesh.add_flag("--glue", arguments.glue,
                 "bodies of a CAD model that touch share faces, curves and nodes there");
   mesh.add_option("--unit", arguments.unit,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -35,6 +36,8 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
   if (arguments.feature_angle)
     surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
   if (arguments.ignore_below) {
+    if (!(*arguments.ignore_below > 0) || !std::isfinite(*arguments.ignore_below))
+      throw InputError(fmt::format("--ignore-below {}: expected a length > 0", *arguments.ignore_below));
     given("--ignore-below");
     surface.ignore_below = *arguments.ignore_below;
   }

@@ -69,6 +69,10 @@ TEST(SurfaceOptions, NonsenseIsRefused) {
     refused("roof.off", {"--feature-angle", angle}, "--feature-angle: feature angle");
   for (const char* part : {"-1e-3", "0.2", "nan"}) refused("roof.off", {"--weld", part}, "--weld: weld");
   refused("roof.off", {"--weld", "wide"}, "--weld");
+  for (const char* length : {"0", "-1", "nan", "inf"})
+    refused("roof.off", {"--ignore-below", length}, "expected a length > 0");
+  refused("roof.off", {"--ignore-below", "3"}, "expected a length far below the diagonal");
+  refused("square.toml", {"--ignore-below", "0.1"}, "--ignore-below: the model is planar");
   refused("square.toml", {"--compound", "all"}, "--compound: the model is planar");
 }
 
