@@ -116,6 +116,11 @@ CadShape prepare_shape(const CadShape& shape, const CadOptions& options) {
 
 }  // namespace delquad::cad
 
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)  // Clang's word for it
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #ifdef __SANITIZE_ADDRESS__
 /// The kernel keeps tables until the end of the program.
 extern "C" const char* __lsan_default_suppressions();
