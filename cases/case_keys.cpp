@@ -104,14 +104,31 @@ const TomlKeys& expression_keys() {
   return keys;
 }
 
+namespace {
+
+/// Those that begin, then the shapes.
+TomlKeys with_shapes(TomlKeys keys) {
+  for (const TomlKey& shape : TomlKeys{{"segment", "two points", two_points()},
+                                       {"polyline", "points, each of which gets a node", points(2)},
+                                       {"arc", "a part of a circle", "", arc_keys},
+                                       {"circle", "a circle", "", circle_keys},
+                                       {"expression", "formulas", "", expression_keys}})
+    keys.push_back(shape);
+  return keys;
+}
+
+}  // namespace
+
 const TomlKeys& curve_keys() {
-  static const TomlKeys keys = {{"name", "what loops call it", kText, nullptr, false, true},
-                                {"boundary", "its physical group; else the name", kText},
-                                {"segment", "two points", two_points()},
-                                {"polyline", "points, each of which gets a node", points(2)},
-                                {"arc", "a part of a circle", "", arc_keys},
-                                {"circle", "a circle", "", circle_keys},
-                                {"expression", "formulas", "", expression_keys}};
+  static const TomlKeys keys = with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
+                                            {"boundary", "its physical group; else the name", kText}});
+  return keys;
+}
+
+const TomlKeys& embed_keys() {
+  static const TomlKeys keys = with_shapes({{"name", "its physical group", kText},
+                                            {"crack", "whether the mesh comes apart along it", kFlag},
+                                            {"point", "a point that becomes a node", kPoint}});
   return keys;
 }
 
@@ -186,6 +203,7 @@ TomlKeys case_keys() {
   TomlKeys keys = {{"loop", "closed loops", "", loop_keys, true},
                    {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
                    {"curve", "curves that loops are made of", "", curve_keys, true},
+                   {"embed", "curves and points inside of regions", "", embed_keys, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file", kText},
                    {"model", "a model file, a surface or an MSH file", kText},

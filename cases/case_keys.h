@@ -10,6 +10,7 @@ namespace delquad {
 TomlKeys case_keys();
 /// Of the tables inside.
 const TomlKeys& curve_keys();
+const TomlKeys& embed_keys();
 const TomlKeys& loop_keys();
 const TomlKeys& pattern_keys();
 const TomlKeys& circle_keys();

@@ -116,6 +116,20 @@ class ModelReader {
     used_.push_back(false);
   }
 
+  void read_embedded(const TomlTable& table) {
+    const std::string name = group_name(table, "name", table.text("name", ""));
+    const bool is_crack = table.flag("crack", false);
+    if (table.has("point")) {
+      if (is_crack) throw InputError(table.where("crack") + ": a point is no crack: expected a curve");
+      model_.points.push_back({table.point("point"), name, table.where()});
+    } else {
+      const auto shape = located(table.where(), [&] { return read_shape(table); });
+      model_.curves.push_back({shape, name, table.where(), is_crack});
+      used_.push_back(true);
+    }
+    table.finish(embed_keys());
+  }
+
   void read_loop(const TomlTable& table) {
     const std::string key = only_key(table, {"curves", "rectangle", "polygon", "circle"});
     const Inside inside = read_inside(table);
@@ -220,7 +234,7 @@ class ModelReader {
 
 bool has_planar_model(const TomlTable& table) {
   bool found = false;  // every key is asked for, so that all of them are known to finish()
-  for (const char* key : {"curve", "loop", "pattern"}) found = table.has(key) || found;
+  for (const char* key : {"curve", "loop", "pattern", "embed"}) found = table.has(key) || found;
   return found;
 }
 
@@ -229,6 +243,7 @@ PlanarModel read_planar_model(const TomlTable& table) {
   for (const TomlTable& curve : table.tables("curve")) reader.read_curve(curve);
   for (const TomlTable& loop : table.tables("loop")) reader.read_loop(loop);
   for (const TomlTable& pattern : table.tables("pattern")) reader.read_pattern(pattern);
+  for (const TomlTable& embedded : table.tables("embed")) reader.read_embedded(embedded);
   PlanarModel model = reader.finish();
   if (model.loops.empty()) throw InputError(table.where() + ": the model has no loops");
   return model;

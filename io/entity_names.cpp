@@ -1,6 +1,7 @@
 #include "io/entity_names.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 namespace delquad {
@@ -17,7 +18,10 @@ std::string cut(const std::string& text, size_t longest) {
 
 }  // namespace
 
-std::string tag_label(int dim, int tag) { return (dim == 1 ? "curve_" : "region_") + std::to_string(tag); }
+std::string tag_label(int dim, int tag) {
+  constexpr std::array kKinds = {"point_", "curve_", "region_"};
+  return kKinds.at(static_cast<size_t>(dim)) + std::to_string(tag);
+}
 
 std::string one_line(std::string_view name) {
   std::string text;

@@ -11,7 +11,8 @@
 
 namespace delquad {
 
-/// What an entity without a name is called in files: "curve_7" (dimension 1) or "region_7" (dimension 2).
+/// What an entity without a name is called in files: "point_7" (dimension 0), "curve_7" (1) or "region_7"
+/// (2).
 std::string tag_label(int dim, int tag);
 
 /// One name for each entity of one dimension, for formats that take no more. Of several the one that says

@@ -25,7 +25,7 @@ constexpr size_t kLongestNumber = 20;
 constexpr double kNegligible = 1e-13;
 
 /// What a label is the name of.
-enum Kind { kCurveTag, kRegionTag, kCurveName, kRegionName };
+enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName };
 
 /// A label as Abaqus takes it: letters, digits and underscores, beginning with a letter; letters of other
 /// alphabets become underscores.
@@ -39,8 +39,8 @@ std::string plain(const std::string& name) {
 std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
   std::vector<UniqueLabels::Key> keys;
   for (const Entity& entity : entities) {
-    keys.emplace_back(dim == 1 ? kCurveTag : kRegionTag, tag_label(dim, entity.tag));
-    for (const std::string& name : entity.names) keys.emplace_back(dim == 1 ? kCurveName : kRegionName, name);
+    keys.emplace_back(kPointTag + dim, tag_label(dim, entity.tag));
+    for (const std::string& name : entity.names) keys.emplace_back(kPointName + dim, name);
   }
   return keys;
 }
@@ -48,6 +48,8 @@ std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int 
 UniqueLabels make_labels(const Mesh& mesh) {
   std::vector<UniqueLabels::Key> keys = keys_of(mesh.curves, 1), of_regions = keys_of(mesh.regions, 2);
   keys.insert(keys.end(), of_regions.begin(), of_regions.end());
+  for (const NamedPoint& named : mesh.named_points)
+    for (auto& key : keys_of({named.entity}, 0)) keys.push_back(std::move(key));
   // Names that are tags keep them.
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
     return a.first <= kRegionTag && b.first > kRegionTag;
@@ -85,6 +87,8 @@ class InpWriter {
     write_elements(planar_ ? "CPS4" : "S4", mesh_.quads, n);
     collect_regions();
     collect_curves();
+    for (const NamedPoint& named : mesh_.named_points)
+      for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
     for (auto* sets : {&element_sets_, &sides_}) write_sets("ELSET", *sets);
     write_sets("NSET", node_sets_);
     write_surfaces();
@@ -103,8 +107,11 @@ class InpWriter {
 
   void write_renamed() {
     for (const auto& [key, label] : labels_.renamed())
-      out_ << "** " << (key.first == kCurveName ? "curve" : "region") << " \"" << one_line(key.second)
-           << "\" is " << label << '\n';
+      out_ << "** "
+           << (key.first == kPointName   ? "point"
+               : key.first == kCurveName ? "curve"
+                                         : "region")
+           << " \"" << one_line(key.second) << "\" is " << label << '\n';
   }
 
   void write_nodes() {

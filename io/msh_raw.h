@@ -27,11 +27,20 @@ struct Element {
   int dim() const { return n_nodes == 2 ? 1 : 2; }
 };
 
+/// A point element.
+struct Point {
+  int entity;      ///< elementary tag
+  int physical;    ///< physical tag (2.2 only), 0: none
+  long long node;  ///< node tag
+  int line;        ///< of the file
+};
+
 using DimTag = std::pair<int, int>;
 
 struct Contents {
   std::vector<Node> nodes;
   std::vector<Element> elements;
+  std::vector<Point> points;
   std::map<DimTag, std::vector<int>> entity_physicals;
   std::map<int, std::vector<int>> surface_curves;  ///< tags, ascending (4.1 only)
   std::map<DimTag, std::string> physical_names;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -55,6 +56,13 @@ int node_index(const std::vector<Node>& sorted, long long tag) {
   const auto it = std::lower_bound(sorted.begin(), sorted.end(), tag,
                                    [](const Node& node, long long t) { return node.tag < t; });
   return it != sorted.end() && it->tag == tag ? static_cast<int>(it - sorted.begin()) : -1;
+}
+
+/// Names of a point element's entity, or of its own group.
+std::vector<std::string> point_names(const Contents& contents, const Point& point) {
+  if (point.physical == 0) return names_of(contents, DimTag{0, point.entity});
+  const auto name = contents.physical_names.find({0, point.physical});
+  return {name != contents.physical_names.end() ? name->second : std::to_string(point.physical)};
 }
 
 /// Curves and regions in the order in which elements first name them.
@@ -161,10 +169,26 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner) {
   }
   Mesh mesh;
   mesh.unit = contents.unit;
+  // Programs list all points of a model: those without a group say nothing.
+  std::erase_if(contents.points, [&](const Point& point) { return point_names(contents, point).empty(); });
+  for (Point& point : contents.points) {
+    const int i = node_index(contents.nodes, point.node);
+    if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", point.node), point.line);
+    point.node = i;
+    new_index[i] = 0;
+  }
   for (size_t i = 0; i < new_index.size(); ++i) {
     if (new_index[i] < 0) continue;
     new_index[i] = static_cast<int>(mesh.points.size());
     mesh.points.push_back(contents.nodes[i].at);
+  }
+  std::map<int, size_t> named;  // by node
+  for (const Point& point : contents.points) {
+    const int i = new_index[point.node];
+    const auto [at, is_new] = named.emplace(i, mesh.named_points.size());
+    if (is_new) mesh.named_points.push_back({i, {static_cast<int>(at->second) + 1, {}}});
+    auto& names = mesh.named_points[at->second].entity.names;
+    for (const std::string& name : point_names(contents, point)) names.push_back(name);
   }
   EntityTable entities(contents, mesh);
   for (const Element& e : contents.elements) {

@@ -336,7 +336,10 @@ class SectionReader {
   void element(int n_nodes, int entity, int physical) {
     Element e{n_nodes, entity, physical, {}, in_.line()};
     for (int k = 0; k < n_nodes; ++k) e.nodes[k] = node_tag();
-    if (n_nodes > 1) contents_.elements.push_back(e);
+    if (n_nodes > 1)
+      contents_.elements.push_back(e);
+    else
+      contents_.points.push_back({entity, physical, e.nodes[0], e.line});
   }
 
   [[noreturn]] void partitioned() { in_.fail("partitioned mesh: expected one that is saved whole"); }

@@ -21,7 +21,7 @@ struct Block {
   int dim;
   const Entity* entity;
   std::string group;
-  std::vector<int> nodes, lines, triangles, quads;
+  std::vector<int> points, nodes, lines, triangles, quads;
   int group_tag = 0;
   Vec3 low{kMax, kMax, kMax}, high{-kMax, -kMax, -kMax};
 
@@ -30,7 +30,7 @@ struct Block {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  bool is_empty() const { return lines.empty() && triangles.empty() && quads.empty(); }
+  bool is_empty() const { return points.empty() && lines.empty() && triangles.empty() && quads.empty(); }
 };
 
 /// Lines with more than one element, which lie inside the mesh.
@@ -51,15 +51,17 @@ std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
   return chosen;
 }
 
-/// Sorts elements and nodes into their entities' blocks, the curves' first. A node belongs to the first curve
-/// that holds it, or else to the first region.
-std::vector<Block> make_blocks(const Mesh& mesh, MshCurves curves) {
+/// Sorts elements and nodes into their entities' blocks, the points' first, then the curves'. A node belongs
+/// to the first block that holds it.
+std::vector<Block> make_blocks(const Mesh& mesh, const std::vector<Entity>& point_entities,
+                               MshCurves curves) {
   std::vector<Block> blocks;
   const auto add_blocks = [&](int dim, const std::vector<Entity>& entities) {
     const std::vector<std::string> groups = group_names(entities, dim);
     for (size_t i = 0; i < entities.size(); ++i)
-      blocks.push_back({dim, &entities[i], groups[i], {}, {}, {}, {}});
+      blocks.push_back({dim, &entities[i], groups[i], {}, {}, {}, {}, {}});
   };
+  add_blocks(0, point_entities);
   add_blocks(1, mesh.curves);
   add_blocks(2, mesh.regions);
   constexpr int kNone = std::numeric_limits<int>::max();
@@ -76,9 +78,16 @@ std::vector<Block> make_blocks(const Mesh& mesh, MshCurves curves) {
       }
     }
   };
-  const int first_region = static_cast<int>(mesh.curves.size());
+  const int first_curve = static_cast<int>(point_entities.size());
+  const int first_region = first_curve + static_cast<int>(mesh.curves.size());
   const std::vector<char> chosen = chosen_lines(mesh, curves);
-  add(mesh.lines, mesh.line_curve, 0, &Block::lines, &chosen);
+  for (int i = 0; i < first_curve; ++i) {
+    const int v = mesh.named_points[i].point;
+    blocks[i].points.push_back(v);
+    blocks[i].cover(mesh.points[v]);
+    owner[v] = std::min(owner[v], i);
+  }
+  add(mesh.lines, mesh.line_curve, first_curve, &Block::lines, &chosen);
   add(mesh.triangles, mesh.triangle_region, first_region, &Block::triangles);
   add(mesh.quads, mesh.quad_region, first_region, &Block::quads);
   for (size_t i = 0; i < owner.size(); ++i) {
@@ -207,13 +216,17 @@ void write_groups(MshNumbers& out, const std::set<std::tuple<int, int, std::stri
 }
 
 void write_entities(MshNumbers& out, const std::vector<Block>& blocks) {
-  const auto n_curves = static_cast<size_t>(
-      std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.dim == 1; }));
+  const auto n_of = [&](int dim) {
+    return static_cast<size_t>(std::ranges::count(blocks, dim, &Block::dim));
+  };
   out.line("$Entities");
-  out.size(0).size(n_curves).size(blocks.size() - n_curves).size(0).end_line();
+  out.size(n_of(0)).size(n_of(1)).size(n_of(2)).size(0).end_line();
   for (const Block& block : blocks) {
-    out.integer(block.entity->tag).point(block.low).point(block.high);
-    out.size(1).integer(block.group_tag).size(0).end_line();
+    out.integer(block.entity->tag).point(block.low);
+    if (block.dim > 0) out.point(block.high);
+    out.size(1).integer(block.group_tag);
+    if (block.dim > 0) out.size(0);
+    out.end_line();
   }
   out.end_section("$EndEntities");
 }
@@ -238,8 +251,8 @@ void write_nodes(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& bl
 void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
   size_t n_blocks = 0, count = 0;
   for (const Block& b : blocks) {
-    n_blocks += !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
-    count += b.lines.size() + b.triangles.size() + b.quads.size();
+    n_blocks += !b.points.empty() + !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
+    count += b.points.size() + b.lines.size() + b.triangles.size() + b.quads.size();
   }
   out.line("$Elements");
   out.size(n_blocks).size(count).size(1).size(count).end_line();
@@ -254,6 +267,10 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
     }
   };
   for (const Block& block : blocks) {
+    if (!block.points.empty()) {
+      out.integer(0).integer(block.entity->tag).integer(15).size(1).end_line();
+      out.size(++tag).size(block.points[0] + 1).end_line();
+    }
     write(block, mesh.lines, block.lines, 1);
     write(block, mesh.triangles, block.triangles, 2);
     write(block, mesh.quads, block.quads, 3);
@@ -264,7 +281,9 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
 }  // namespace
 
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options) {
-  std::vector<Block> blocks = make_blocks(mesh, options.curves);
+  std::vector<Entity> point_entities;
+  for (const NamedPoint& named : mesh.named_points) point_entities.push_back(named.entity);
+  std::vector<Block> blocks = make_blocks(mesh, point_entities, options.curves);
   const auto groups = number_groups(blocks);
   MshNumbers out(stream, options.binary);
   write_header(out, options.binary);

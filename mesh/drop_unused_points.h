@@ -7,7 +7,8 @@
 
 namespace delquad {
 
-/// Takes out the points that no element uses; the others keep their order. Returns how many went.
+/// Takes out the points that no element uses, and their names; the others keep their order. Returns how many
+/// went.
 inline int drop_unused_points(Mesh& mesh) {
   std::vector<int> index(mesh.points.size(), -1);
   const auto each_vertex = [&](auto&& visit) {
@@ -23,6 +24,8 @@ inline int drop_unused_points(Mesh& mesh) {
     index[i] = kept++;
   }
   mesh.points.resize(kept);
+  std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return index[named.point] < 0; });
+  for (NamedPoint& named : mesh.named_points) named.point = index[named.point];
   each_vertex([&](int& v) { v = index[v]; });
   return static_cast<int>(index.size()) - kept;
 }

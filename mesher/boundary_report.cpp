@@ -44,41 +44,7 @@ std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, 
                      at.y, loop.size());
 }
 
-double signed_area(const std::vector<int>& loop, const PatchBoundary& patch) {
-  double area = 0;
-  for (const int e : loop)
-    area += cross(patch.points[patch.edges[e][0]], patch.points[patch.edges[e][1]]) / 2;
-  return area;
-}
-
-/// The boundary nodes on loops that surround a patch.
-std::vector<bool> outer_nodes(const PlanarDomain& domain) {
-  std::vector<bool> outer(domain.boundary.points.size());
-  for (const PatchBoundary& patch : domain.patches)
-    for (const auto& loop : loops_of(patch))
-      if (signed_area(loop, patch) > 0)
-        for (const int e : loop) outer[patch.point_node[patch.edges[e][0]]] = true;
-  return outer;
-}
-
 }  // namespace
-
-void check_holes(const PlanarModel& model, const PlanarDomain& domain) {
-  if (std::ranges::none_of(model.loops, &ModelLoop::is_hole)) return;
-  const std::vector<bool> outer = outer_nodes(domain);
-  const std::vector<Vec3>& nodes = domain.boundary.points;
-  for (const ModelLoop& loop : model.loops) {
-    if (!loop.is_hole) continue;
-    const Vec2 first = model.curves[loop.curves.front()].shape->point(0);
-    const Vec3 on{first.x, first.y, 0};
-    const auto nearest = std::min_element(nodes.begin(), nodes.end(), [&](const Vec3& a, const Vec3& b) {
-      return norm(a - on) < norm(b - on);
-    });
-    if (outer[nearest - nodes.begin()])
-      throw InputError(fmt::format("{}: the hole through ({:.6g}, {:.6g}) lies outside of every region",
-                                   loop.where, on.x, on.y));
-  }
-}
 
 std::vector<std::string> odd_boundaries(const PlanarDomain& domain) {
   std::vector<std::string> lines;

@@ -11,9 +11,6 @@ namespace delquad {
 /// are merged to quads: names the region, its odd loops and their curves.
 std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
 
-/// Throws InputError for a loop that should be a hole but bounds a region from outside.
-void check_holes(const PlanarModel& model, const PlanarDomain& domain);
-
 /// The boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has none.
 Mesh outline(const Mesh& mesh);
 

@@ -12,6 +12,7 @@
 #include "fields/sampled_fields.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
+#include "mesher/fine_spots.h"
 #include "mesher/named_domain.h"
 #include "mesher/perturb.h"
 #include "mesher/prepare_surface.h"
@@ -115,7 +116,8 @@ PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
   return make_domain(model, as_function(on_curves), options);
 }
 
-PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model, PreparedProblem& p) {
+PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
+                           const std::vector<SizeSpot>& spots, PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
   p.size = make_size(spec, {box_of(model)}, p.warnings, [&] {
     return largest_size(
@@ -130,6 +132,20 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     domain = mesh_model(problem, model, p.size);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
+  std::vector<FineSpot> fine = short_edges(domain, *p.size);
+  if (!fine.empty()) p.size_adapted_to.push_back("short curves");
+  if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
+  for (const SizeSpot& spot : spots) {
+    const Vec2 turned{spot.at.x, spot.at.y};
+    const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
+    fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
+  }
+  if (fine.empty()) return domain;
+  p.given_size = p.size;
+  p.size = finer_near(p.size, std::move(fine));
+  check_count_early(problem, model, p.size);
+  domain = mesh_model(problem, model, p.size);
+  p.background = std::make_shared<BackgroundMesh>(domain.patches);
   return domain;
 }
 
@@ -147,6 +163,11 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
   p.size = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
                      [&] { return make_boundary_size(p.background, domain.boundary); });
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
+  if (has_single_points(mesh)) {
+    const PointSize size_at = as_function(p.size);
+    domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  }
   for (const std::string& line : odd_boundaries(domain))
     p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   return domain;
@@ -191,6 +212,7 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) 
   rotate(rotation, domain);
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = rotated(std::move(p.size), rotation);
+  if (p.given_size) p.given_size = rotated(std::move(p.given_size), rotation);
 }
 
 PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
@@ -248,21 +270,18 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
   p.times.emplace_back("fields", fields.time());
 }
 
-PreparedProblem prepare_planar(const MeshProblem& problem) {
+PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& refinement) {
   check_planar(problem);
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   PreparedProblem p = with_settings_of(problem);
   const Stopwatch watch;
   const DoingStage meshing_curves("boundary");
-  PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, p)
+  PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, refinement.spots, p)
                                          : prepare_lines(problem, std::get<LineModel>(problem.model), p);
   p.expected_quads = expected_quads(*p.background, *p.size);
   check_count(p.expected_quads, problem);
   warn_of_large_size(*p.size, domain.boundary, p.warnings);
-  if (model != nullptr) {
-    check_holes(*model, domain);
-    warn_of_coarse_turns(*model, domain.boundary, p.warnings);
-  }
+  if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);
   const auto cross = given_cross(problem.cross, domain.boundary, p);
   if (problem.seed != 0) turn(problem, domain, p);
   p.boundary = std::move(domain.boundary);
@@ -288,7 +307,7 @@ PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement
   check_problem(problem);
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  return is_planar ? prepare_planar(problem) : prepare_surface_problem(problem, refinement);
+  return is_planar ? prepare_planar(problem, refinement) : prepare_surface_problem(problem, refinement);
 }
 
 }  // namespace delquad

@@ -82,7 +82,7 @@ struct Refinement {
 
 /// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be
 /// meshed, and for a size that would need more than problem.max_elements, with the estimate, before that work
-/// begins. `refinement`: of surfaces.
+/// begins. `refinement`: of surfaces and of planar models of curves.
 PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement = {});
 
 }  // namespace delquad

@@ -160,10 +160,12 @@ void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Wa
       fmt::format("the size, {:.4g}, is larger than the model, whose diagonal is {:.4g}", least, extent));
 }
 
-void warn_of_coarse_turns(const PlanarModel& model, const Mesh& boundary, std::vector<Warning>& warnings) {
+void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
+                          std::vector<Warning>& warnings) {
   CoarseTurns turns;
   std::vector<int> edges(model.curves.size(), 0);
-  for (const int curve : boundary.line_curve) ++edges[static_cast<std::size_t>(curve)];
+  for (const int curve : domain.boundary.line_curve)
+    for (const int c : domain.model_curves[curve]) ++edges[c];
   for (std::size_t c = 0; c < edges.size(); ++c) {
     if (edges[c] == 0) continue;
     const auto [angle, length] = turning(*model.curves[c].shape, edges[c]);

@@ -96,6 +96,7 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
     throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
+  triangles.named_points.clear();
   convert(model.source, spec, triangles);
   const std::string& source = model.source;
   split_quads(triangles, notes);

@@ -28,7 +28,7 @@ const std::string kSolvers =
     R"({"type": "array", "items": {"enum": ["poisson", "elasticity"]}, "uniqueItems": true})";
 const std::string kCalibrate = one_of({"quads", "none"});
 /// What a model is made of, which does not vary.
-const std::vector<std::string> kModels = {"loop", "pattern", "curve", "example",
+const std::vector<std::string> kModels = {"loop", "pattern", "curve", "embed",  "example",
                                           "mesh", "model",   "data",  "compare"};
 
 Json table_schema(const TomlKeys& keys);

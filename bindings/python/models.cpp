@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <variant>
 
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
@@ -37,7 +38,8 @@ ModelHandle make_polygons(const std::vector<py::object>& loops) {
 }
 
 /// A curve that stands in two loops is one curve of both.
-ModelHandle make_planar(const std::vector<Loop>& loops) {
+ModelHandle make_planar(const std::vector<Loop>& loops,
+                        const std::vector<std::variant<ModelCurve, ModelPoint>>& embed) {
   PlanarModel model{"planar model", {}, {}};
   for (const Loop& loop : loops) {
     ModelLoop& target = model.loops.emplace_back();
@@ -48,6 +50,12 @@ ModelHandle make_planar(const std::vector<Loop>& loops) {
       target.curves.push_back(static_cast<int>(found - model.curves.begin()));
       if (found == model.curves.end()) model.curves.push_back(curve);
     }
+  }
+  for (const auto& embedded : embed) {
+    if (const auto* curve = std::get_if<ModelCurve>(&embedded))
+      model.curves.push_back(*curve);
+    else
+      model.points.push_back(std::get<ModelPoint>(embedded));
   }
   return handle_of(std::move(model), "planar model");
 }
@@ -142,6 +150,21 @@ void define_curves(py::module_& m) {
       arg("centre"), arg("radius"), arg("name") = "");
   m.def("curve", &sampled_curve, arg("function"), arg("t0"), arg("t1"), arg("name") = "",
         "function(t) of an array of parameters returns points of shape (n, 2).");
+  m.def(
+      "crack",
+      [](ModelCurve curve) {
+        curve.is_crack = true;
+        return curve;
+      },
+      arg("curve"),
+      "The same curve, along which the mesh comes apart: its nodes are doubled, but for tips inside.");
+  py::class_<ModelPoint>(m, "ModelPoint", "A point that becomes a node, see point().");
+  m.def(
+      "point",
+      [](const py::object& at, const std::string& name) {
+        return ModelPoint{read_vec2(at, "the point"), name, ""};
+      },
+      arg("at"), arg("name") = "");
   py::class_<Loop>(m, "Loop", "A closed chain of curves, see loop().");
   m.def(
       "loop",
@@ -169,7 +192,7 @@ void define_models(py::module_& m) {
            [](const ModelHandle& model) { return "<delquad.Model '" + model.problem.name + "'>"; });
   define_curves(m);
   m.def("polygons", &make_polygons, arg("polygons"));
-  m.def("planar", &make_planar, arg("loops"));
+  m.def("planar", &make_planar, arg("loops"), arg("embed"));
   m.def("lines", &make_lines, arg("points"), arg("lines"), arg("line_curve") = py::none());
   m.def("triangles", &make_triangles, arg("points"), arg("triangles"), arg("triangle_region") = py::none());
   m.def("from_mesh", &from_mesh, arg("mesh"));

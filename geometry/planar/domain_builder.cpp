@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
 #include <utility>
 
 #include "delquad/error.h"
@@ -12,123 +15,308 @@ namespace delquad {
 
 namespace {
 
-using RegionNames = std::vector<std::optional<std::string>>;
-
-RegionNames region_names(const std::vector<BoundaryLoop>& loops, std::size_t node_count,
-                         const std::vector<std::pair<int, std::string>>& loop_regions,
-                         const std::string& source) {
-  const std::string prefix = source.empty() ? "" : source + ": ";
-  const std::vector<int> loop_of = loop_of_nodes(loops, node_count);
-  RegionNames names(loops.size());
-  for (const auto& [node, name] : loop_regions) {
-    const auto v = static_cast<std::size_t>(node);
-    if (v >= node_count || loop_of[v] < 0)
-      throw InputError(fmt::format("{}region '{}' is inside the loop of node {}, which lies on no loop",
-                                   prefix, name, node));
-    std::optional<std::string>& mine = names[static_cast<std::size_t>(loop_of[v])];
-    if (mine && *mine != name)
-      throw InputError(fmt::format("{}one loop has two regions inside: '{}' and '{}'", prefix, *mine, name));
-    mine = name;
+/// A side of a line, and the corner of its face at which it begins, stand for each other.
+class DomainBuilder {
+ public:
+  DomainBuilder(Mesh lines, const Arrangement& arrangement, FaceRegions regions, const BoundaryNames& names,
+                const SpecialCurves& special)
+      : arrangement_(arrangement), regions_(std::move(regions)), names_(names) {
+    domain_.boundary = std::move(lines);
+    domain_.boundary.regions = std::move(regions_.regions);
+    if (!special.may_bound_nothing) check_lines();
+    drop_points_without_lines();
+    orient_lines();
+    for (int s = 0; s < n_sides(); ++s) node_.push_back(start(s));
   }
-  return names;
-}
 
-// One region a patch; those without a name share "domain".
-std::vector<Entity> make_regions(const std::vector<BoundaryLoop>& loops, const std::vector<bool>& filled,
-                                 const RegionNames& names) {
-  std::vector<Entity> regions;
-  std::vector<std::size_t> unnamed;
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    if (!filled[l]) continue;
-    Entity region{static_cast<int>(regions.size()) + 1, {}};
-    if (names[l] && !names[l]->empty())
-      region.names.push_back(*names[l]);
-    else
-      unnamed.push_back(regions.size());
-    regions.push_back(std::move(region));
+  void open_cracks(const std::vector<char>& cracks) {
+    const std::vector<int> next = next_sides();
+    join_corners(next, cracks);
+    double_nodes(cracks);
+    for (int l = 0, n = static_cast<int>(lines_.size()); l < n; ++l) redraw(l, next, cracks);
   }
-  for (std::size_t i = 0; i < unnamed.size(); ++i)
-    regions[unnamed[i]].names.push_back(unnamed.size() == 1 ? "domain" : fmt::format("domain_{}", i + 1));
-  return regions;
-}
 
-// Drops the points without lines and flattens the rounding of z; indices in loops are brought along.
-void compact(Mesh& mesh, std::vector<BoundaryLoop>& loops) {
-  const std::vector<int> loop_of = loop_of_nodes(loops, mesh.points.size());
-  std::vector<int> renamed(mesh.points.size(), -1);
-  std::vector<Vec3> points;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (loop_of[v] < 0) continue;
-    renamed[v] = static_cast<int>(points.size());
-    const Vec3& p = mesh.points[v];
-    points.push_back({p.x, p.y, points.empty() ? p.z : points.front().z});
+  PlanarDomain domain() {
+    std::vector<int> n_lines(mesh().points.size(), 0);
+    for (const auto& line : mesh().lines)
+      for (const int v : line) ++n_lines[v];
+    domain_.has_junctions = std::ranges::any_of(n_lines, [](int n) { return n != 2; });
+    for (std::size_t f = 0; f < arrangement_.faces.size(); ++f) {
+      if (regions_.region[f] < 0) continue;
+      domain_.patch_region.push_back(regions_.region[f]);
+      add_patch(arrangement_.faces[f]);
+    }
+    return std::move(domain_);
   }
-  mesh.points = std::move(points);
-  for (BoundaryLoop& loop : loops)
-    for (int& v : loop.nodes) v = renamed[static_cast<std::size_t>(v)];
-}
 
-// Turns the lines of a loop so that its region is on the left.
-void orient(Mesh& mesh, const BoundaryLoop& loop, bool counterclockwise) {
-  for (std::size_t k = 0; k < loop.nodes.size(); ++k) {
-    const int a = loop.nodes[k], b = loop.nodes[(k + 1) % loop.nodes.size()];
-    mesh.lines[static_cast<std::size_t>(loop.lines[k])] =
-        counterclockwise ? std::array{a, b} : std::array{b, a};
+ private:
+  int n_sides() const { return static_cast<int>(arrangement_.face_of.size()); }
+  const Mesh& mesh() const { return domain_.boundary; }
+  int start(int side) const { return start_of(lines_, side); }
+  Vec2 at(int v) const { return {mesh().points[v].x, mesh().points[v].y}; }
+  int region_at(int side) const {
+    const int face = arrangement_.face_of[side];
+    return face < 0 ? -1 : regions_.region[face];
   }
-}
 
-void append(PatchBoundary& patch, const Mesh& mesh, const BoundaryLoop& loop, bool counterclockwise) {
-  const std::size_t n = loop.nodes.size();
-  const int base = static_cast<int>(patch.points.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    const int v = loop.nodes[counterclockwise ? i : (n - i) % n];
-    const int line = loop.lines[counterclockwise ? i : n - 1 - i];
-    const Vec3& p = mesh.points[static_cast<std::size_t>(v)];
-    patch.points.push_back({p.x, p.y});
-    patch.point_node.push_back(v);
-    patch.edges.push_back({base + static_cast<int>(i), base + static_cast<int>((i + 1) % n)});
-    patch.edge_curve.push_back(mesh.line_curve[static_cast<std::size_t>(line)]);
+  void check_lines() const {
+    for (std::size_t l = 0; l < mesh().lines.size(); ++l) {
+      const int side = 2 * static_cast<int>(l);
+      if (region_at(side) >= 0 || region_at(side + 1) >= 0) continue;
+      const Vec3 &a = mesh().points[mesh().lines[l][0]], &b = mesh().points[mesh().lines[l][1]];
+      throw InputError(
+          fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
+                      names_.source.empty() ? "" : names_.source + ": ", names_.curve(mesh().line_curve[l]),
+                      a.x, a.y, b.x, b.y));
+    }
   }
+
+  /// And flattens the rounding of z.
+  void drop_points_without_lines() {
+    Mesh& mesh = domain_.boundary;
+    std::vector<int> renamed(mesh.points.size(), -1);
+    for (const auto& line : mesh.lines)
+      for (const int v : line) renamed[v] = 0;
+    std::vector<Vec3> points;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      if (renamed[v] < 0) continue;
+      renamed[v] = static_cast<int>(points.size());
+      const Vec3& p = mesh.points[v];
+      points.push_back({p.x, p.y, points.empty() ? p.z : points.front().z});
+    }
+    mesh.points = std::move(points);
+    std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
+    for (auto& line : mesh.lines)
+      for (int& v : line) v = renamed[v];
+    for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
+  }
+
+  /// The region comes to lie on the left; of two, the one that the other is around. Sides keep their numbers.
+  void orient_lines() {
+    lines_ = mesh().lines;
+    for (int l = 0; l < static_cast<int>(lines_.size()); ++l)
+      if (belongs_left(2 * l + 1)) std::swap(domain_.boundary.lines[l][0], domain_.boundary.lines[l][1]);
+  }
+  bool belongs_left(int side) const {
+    if (region_at(side) < 0) return false;
+    if (region_at(side ^ 1) < 0) return true;
+    return arrangement_.faces[arrangement_.face_of[side]].around == arrangement_.face_of[side ^ 1];
+  }
+
+  std::vector<int> next_sides() const {
+    std::vector<int> next(n_sides());
+    const auto add = [&](const Arrangement::Cycle& cycle) {
+      for (std::size_t i = 0; i < cycle.size(); ++i) next[cycle[i]] = cycle[(i + 1) % cycle.size()];
+    };
+    for (const auto& face : arrangement_.faces) std::ranges::for_each(face.cycles, add);
+    std::ranges::for_each(arrangement_.outside, add);
+    return next;
+  }
+  bool is_crack(int line, const std::vector<char>& cracks) const { return cracks[mesh().line_curve[line]]; }
+
+  int root(int corner) const {
+    while (joined_[corner] != corner) corner = joined_[corner];
+    return corner;
+  }
+
+  /// Corners of regions that meet along a line share its node, unless that is a crack.
+  void join_corners(const std::vector<int>& next, const std::vector<char>& cracks) {
+    for (int s = 0; s < n_sides(); ++s) joined_.push_back(s);
+    for (int s = 0; s < n_sides(); ++s) {
+      if (is_crack(s / 2, cracks) || region_at(s) < 0 || region_at(s ^ 1) < 0) continue;
+      const int a = root(next[s]), b = root(s ^ 1);
+      joined_[std::max(a, b)] = std::min(a, b);
+    }
+  }
+
+  void double_nodes(const std::vector<char>& cracks) {
+    Mesh& mesh = domain_.boundary;
+    std::vector<char> on_crack(mesh.points.size(), 0);
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      if (is_crack(static_cast<int>(l), cracks))
+        for (const int v : lines_[l]) on_crack[v] = 1;
+    std::vector<int> owner(mesh.points.size(), -1);  // the joined corners that keep the node
+    std::vector<int> node(n_sides(), -1);            // of joined corners, by root
+    for (int s = 0; s < n_sides(); ++s) {
+      const int v = start(s), corner = root(s);
+      if (!on_crack[v] || region_at(s) < 0) continue;
+      if (owner[v] < 0) {
+        owner[v] = corner;
+        domain_.on_crack.push_back(v);
+      }
+      if (node[corner] < 0) {
+        node[corner] = v;
+        if (owner[v] != corner) {
+          node[corner] = static_cast<int>(mesh.points.size());
+          mesh.points.push_back(Vec3(mesh.points[v]));
+          domain_.on_crack.push_back(node[corner]);
+        }
+      }
+      node_[s] = node[corner];
+    }
+  }
+
+  /// Lines with the nodes of their corners; cracks have lines on both lips.
+  void redraw(int l, const std::vector<int>& next, const std::vector<char>& cracks) {
+    Mesh& mesh = domain_.boundary;
+    const auto ends = [&](int side) { return std::array{node_[side], node_[next[side]]}; };
+    const bool turned = mesh.lines[l][0] != lines_[l][0];
+    const int side = 2 * l + (region_at(2 * l) < 0 || turned);
+    mesh.lines[l] = ends(side);
+    if (side % 2 == 1 && !turned) std::swap(mesh.lines[l][0], mesh.lines[l][1]);
+    const auto other = ends(side ^ 1);
+    if (!is_crack(l, cracks) || region_at(side ^ 1) < 0 ||
+        other == std::array{mesh.lines[l][1], mesh.lines[l][0]})
+      return;
+    const int curve = mesh.line_curve[l];
+    other_lip_.resize(lines_.size(), -1);
+    const auto known = lip_curves_.try_emplace(curve, static_cast<int>(mesh.curves.size()));
+    if (known.second) {
+      Entity lip = mesh.curves[curve];
+      lip.tag = 0;
+      for (const Entity& c : mesh.curves) lip.tag = std::max(lip.tag, c.tag + 1);
+      mesh.curves.push_back(std::move(lip));
+    }
+    other_lip_[l] = side ^ 1;
+    mesh.lines.push_back(other);
+    mesh.line_curve.push_back(known.first->second);
+  }
+
+  void add_patch(const Arrangement::Face& face) {
+    PatchBoundary& patch = domain_.patches.emplace_back();
+    std::vector<int> visited;
+    for (const auto& cycle : face.cycles)
+      for (const int side : cycle) visited.push_back(start(side));
+    std::ranges::sort(visited);
+    for (const auto& cycle : face.cycles) {
+      const int n = static_cast<int>(cycle.size()), base = static_cast<int>(patch.points.size());
+      for (int i = 0; i < n; ++i) {
+        const int side = cycle[i];
+        const bool meets_itself = std::ranges::equal_range(visited, start(side)).size() > 1;
+        patch.points.push_back(meets_itself ? opened(cycle[(i + n - 1) % n], side) : at(start(side)));
+        patch.point_node.push_back(node_[side]);
+        patch.edges.push_back({base + i, base + (i + 1) % n});
+        patch.edge_curve.push_back(curve_of(side));
+      }
+    }
+  }
+
+  /// The corner between two sides, moved into it along its bisector.
+  Vec2 opened(int before, int after) const {
+    const int v = start(after);
+    const Vec2 out = at(start(after ^ 1)) - at(v), in = at(start(before)) - at(v);
+    const double from = std::atan2(out.y, out.x);
+    double turn = std::atan2(in.y, in.x) - from;
+    if (turn <= 0) turn += 2 * std::numbers::pi;
+    const double angle = from + turn / 2;
+    return at(v) + kOpening * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
+  }
+
+  int curve_of(int side) const {
+    const int curve = mesh().line_curve[side / 2];
+    return !other_lip_.empty() && other_lip_[side / 2] == side ? lip_curves_.at(curve) : curve;
+  }
+
+  const Arrangement& arrangement_;
+  FaceRegions regions_;
+  const BoundaryNames& names_;
+  PlanarDomain domain_;
+  std::vector<std::array<int, 2>> lines_;  ///< as the arrangement knows them
+  std::vector<int> node_;                  ///< of each corner
+  std::vector<int> joined_;                ///< of each corner one that has the same node, or itself
+  std::vector<int> other_lip_;             ///< of each line: its side that has a line of its own; -1: none
+  std::map<int, int> lip_curves_;          ///< of cracks: the curve of those lines
+};
+
+/// Its edges stay in the patches.
+void drop_curve(PlanarDomain& domain, int curve) {
+  Mesh& mesh = domain.boundary;
+  const auto rename = [&](int& c) { c = c == curve ? -1 : c - (c > curve); };
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    rename(mesh.line_curve[l]);
+    if (mesh.line_curve[l] < 0) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  mesh.curves.erase(mesh.curves.begin() + curve);
+  for (PatchBoundary& patch : domain.patches) std::ranges::for_each(patch.edge_curve, rename);
 }
 
 }  // namespace
 
-PlanarDomain build_domain(Mesh lines, const std::vector<std::pair<int, std::string>>& loop_regions,
-                          const BoundaryNames& names) {
-  std::vector<BoundaryLoop> loops = find_loops(lines, names);
-  const RegionNames named = region_names(loops, lines.points.size(), loop_regions, names.source);
-  std::vector<bool> is_named(loops.size());
-  for (std::size_t l = 0; l < loops.size(); ++l) is_named[l] = named[l].has_value();
-  const std::vector<bool> filled = filled_loops(loops, is_named);
-
-  PlanarDomain domain;
-  Mesh& mesh = domain.boundary;
-  mesh.points = std::move(lines.points);
-  mesh.lines = std::move(lines.lines);
-  mesh.line_curve = std::move(lines.line_curve);
-  mesh.curves = std::move(lines.curves);
-  mesh.regions = make_regions(loops, filled, named);
-  compact(mesh, loops);
-
-  std::vector<int> patch_of(loops.size(), -1);
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    orient(mesh, loops[l], filled[l]);
-    if (filled[l]) {
-      patch_of[l] = static_cast<int>(domain.patches.size());
-      domain.patch_region.push_back(patch_of[l]);
-      append(domain.patches.emplace_back(), mesh, loops[l], true);
-    }
-    // A parent's outer loop is there already: it comes first.
-    const int parent = loops[l].parent;
-    const int around = parent < 0 ? -1 : patch_of[static_cast<std::size_t>(parent)];
-    if (around >= 0) append(domain.patches[static_cast<std::size_t>(around)], mesh, loops[l], false);
-  }
+PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegions regions,
+                          const BoundaryNames& names, const SpecialCurves& special) {
+  DomainBuilder builder(std::move(lines), arrangement, std::move(regions), names, special);
+  if (!special.cracks.empty()) builder.open_cracks(special.cracks);
+  PlanarDomain domain = builder.domain();
+  if (special.whiskers >= 0) drop_curve(domain, special.whiskers);
   return domain;
+}
+
+void drop_stray_lines(PlanarDomain& domain) {
+  std::set<std::pair<int, int>> of_patches;
+  std::vector<int> renamed(domain.boundary.points.size(), -1);
+  for (const PatchBoundary& patch : domain.patches)
+    for (const auto& edge : patch.edges) {
+      const int a = patch.point_node[edge[0]], b = patch.point_node[edge[1]];
+      of_patches.insert(std::minmax(a, b));
+      renamed[a] = renamed[b] = 0;
+    }
+  Mesh& mesh = domain.boundary;
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (!of_patches.contains(std::minmax(mesh.lines[l][0], mesh.lines[l][1]))) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  int n = 0;
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (renamed[v] < 0) continue;
+    mesh.points[n] = mesh.points[v];
+    if (!domain.places.empty()) domain.places[n] = domain.places[v];
+    renamed[v] = n++;
+  }
+  mesh.points.resize(n);
+  if (!domain.places.empty()) domain.places.resize(n);
+  for (auto& line : mesh.lines)
+    for (int& v : line) v = renamed[v];
+  for (PatchBoundary& patch : domain.patches)
+    for (int& v : patch.point_node) v = renamed[v];
+  for (int& v : domain.on_crack) v = renamed[v];
+  std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
+  for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
 }
 
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options) {
   const BoundaryNames names = names_of_curves(lines, options.source);
-  return build_domain(std::move(lines), options.loop_regions, names);
+  const Arrangement arrangement = arrange_lines(lines, names);
+  FaceNames of_faces(arrangement.faces.size());
+  const std::string prefix = options.source.empty() ? "" : options.source + ": ";
+  for (const auto& [node, name] : options.loop_regions) {
+    const std::string what =
+        fmt::format("{}region '{}' is inside the loop of node {}, which lies on", prefix, name, node);
+    int face = -1;
+    for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
+      const auto& outline = arrangement.faces[f].cycles[0];
+      if (std::ranges::none_of(outline, [&](int side) { return start_of(lines.lines, side) == node; }))
+        continue;
+      if (face >= 0) throw InputError(what + " several loops");
+      face = static_cast<int>(f);
+    }
+    if (face < 0) throw InputError(what + " no loop");
+    auto& mine = of_faces[face];
+    const auto names_here = name.empty() ? std::vector<std::string>{} : std::vector{name};
+    if (mine && *mine != names_here)
+      throw InputError(fmt::format("{}one loop has two regions inside: '{}' and '{}'", prefix,
+                                   fmt::join(*mine, ""), name));
+    mine = names_here;
+  }
+  return build_domain(std::move(lines), arrangement, regions_by_nesting(arrangement, of_faces), names);
 }
 
 }  // namespace delquad

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/planar/boundary_loops.h"
+#include "geometry/planar/check_lines.h"
 #include "geometry/planar/planar_model.h"
 
 namespace delquad {

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/box.h"
+#include "base/box_tree.h"
 #include "delquad/error.h"
+#include "geometry/planar/curve_span.h"
 
 namespace delquad {
 
@@ -57,6 +60,36 @@ struct Outline {
   }
 };
 
+/// Points by cells as wide as the tolerance.
+class PointGrid {
+ public:
+  PointGrid(Vec2 low, double tolerance) : low_(low), tolerance_(tolerance) {}
+
+  void add(Vec2 x, int number) { cells_[cell(x)].push_back(number); }
+  /// The first of `points` within the tolerance of x; -1: none.
+  int find(Vec2 x, const std::vector<Vec2>& points) const {
+    int found = -1;
+    const auto [cx, cy] = cell(x);
+    for (long long i = cx - 1; i <= cx + 1; ++i)
+      for (long long j = cy - 1; j <= cy + 1; ++j)
+        if (const auto at = cells_.find({i, j}); at != cells_.end())
+          for (const int k : at->second)
+            if (norm(points[k] - x) <= tolerance_ && (found < 0 || k < found)) found = k;
+    return found;
+  }
+
+ private:
+  std::pair<long long, long long> cell(Vec2 x) const {
+    const Vec2 d = x - low_;
+    return {static_cast<long long>(std::floor(d.x / tolerance_)),
+            static_cast<long long>(std::floor(d.y / tolerance_))};
+  }
+
+  Vec2 low_;
+  double tolerance_;
+  std::map<std::pair<long long, long long>, std::vector<int>> cells_;
+};
+
 class Chainer {
  public:
   explicit Chainer(const PlanarModel& model) : model_(model) {
@@ -73,62 +106,135 @@ class Chainer {
       ends_.push_back(model.curves[c].shape->point(1));
     }
     partner_.assign(ends_.size(), -1);
+    grid_.emplace(low_, tolerance_);
   }
 
   ModelChain run() {
-    ModelChain chain;
-    chain.loops = merge_loops();
-    for (const ModelLoop& loop : chain.loops) close(loop);
-    chain.curve_ends.resize(model_.curves.size());
-    std::vector<int> node(ends_.size(), -1);
-    for (std::size_t e = 0; e < ends_.size(); ++e) {
-      if (node[e] < 0) {
-        node[e] = node[static_cast<std::size_t>(partner_[e])] = static_cast<int>(chain.nodes.size());
-        chain.nodes.push_back(ends_[e]);
-      }
-      chain.curve_ends[e / 2][e % 2] = node[e];
-    }
-    return chain;
+    chain_.loops = merge_loops();
+    for (const ModelLoop& loop : chain_.loops) close(loop);
+    chain_.curve_ends.resize(model_.curves.size());
+    for (std::size_t e = 0; e < ends_.size(); ++e) chain_.curve_ends[e / 2][e % 2] = node_at(ends_[e]);
+    add_corners();
+    for (const ModelPoint& point : model_.points) chain_.point_nodes.push_back(node_at(point.at));
+    if (model_.loops.size() > 1 || !model_.points.empty() || !embedded_.empty()) join_spans();
+    return std::move(chain_);
   }
 
  private:
+  /// Curves that no loop has.
+  bool is_embedded(int curve) const { return std::ranges::binary_search(embedded_, curve); }
+
+  /// The node near x, made where there is none.
+  int node_at(Vec2 x) {
+    const int known = grid_->find(x, chain_.nodes);
+    if (known >= 0) return known;
+    grid_->add(x, static_cast<int>(chain_.nodes.size()));
+    chain_.nodes.push_back(x);
+    return static_cast<int>(chain_.nodes.size()) - 1;
+  }
+
+  void add_corners() {
+    for (const ModelCurve& curve : model_.curves) {
+      std::vector<CurveStop>& stops = chain_.stops.emplace_back();
+      for (const double t : curve.shape->fixed_parameters())
+        stops.push_back({t, node_at(curve.shape->point(t))});
+    }
+  }
+
+  /// A span between two stops.
+  struct Span {
+    int curve;
+    std::array<int, 2> ends;
+    CurveSpan shape;
+  };
+
+  void join_spans() {
+    std::vector<Span> spans;
+    std::vector<Box<Vec2>> boxes;
+    const Vec2 margin{tolerance_, tolerance_};
+    for (int c = 0; c < static_cast<int>(model_.curves.size()); ++c) {
+      double t = 0;
+      int node = chain_.curve_ends[c][0];
+      std::vector<CurveStop> stops = chain_.stops[c];
+      stops.push_back({1, chain_.curve_ends[c][1]});
+      for (const CurveStop& stop : stops) {
+        spans.push_back({c, {node, stop.node}, CurveSpan(*model_.curves[c].shape, t, stop.t)});
+        const Box<Vec2>& box = spans.back().shape.box();
+        boxes.push_back({box.low - margin, box.high + margin});
+        t = stop.t;
+        node = stop.node;
+      }
+    }
+    const BoxTree<Vec2> tree(boxes);
+    const auto near = [&](const Box<Vec2>& box, const auto& visit) {
+      const double limit = 0;
+      tree.search(
+          limit, [&](const auto& n) { return n.box.overlaps(box) ? 0.0 : 1.0; },
+          [&](int i) {
+            if (boxes[i].overlaps(box)) visit(spans[i]);
+          });
+    };
+    for (int v = 0, n = static_cast<int>(chain_.nodes.size()); v < n; ++v)
+      near({chain_.nodes[v], chain_.nodes[v]}, [&](const Span& span) { stop_at(span, v); });
+    for (std::size_t i = 0; i < spans.size(); ++i)
+      if (is_embedded(spans[i].curve))
+        near(boxes[i], [&](const Span& other) {
+          if (&other != &spans[i] && (&other > &spans[i] || !is_embedded(other.curve)))
+            cross(spans[i], other);
+        });
+    for (auto& stops : chain_.stops) std::ranges::sort(stops, {}, &CurveStop::t);
+  }
+
+  /// A stop where the node lies on the span, and is neither of its ends.
+  void stop_at(const Span& span, int node) {
+    if (node == span.ends[0] || node == span.ends[1]) return;
+    const CurveSpan::Place place = span.shape.nearest(chain_.nodes[node]);
+    if (place.distance <= tolerance_) add_stop(span.curve, place.t, node);
+  }
+
+  void cross(const Span& span, const Span& other) {
+    for (const auto& crossing : span.shape.crossings(other.shape)) {
+      const int node = node_at(crossing.at);
+      for (const auto& [s, t] : {std::pair(&span, crossing.mine), std::pair(&other, crossing.other)})
+        if (node != s->ends[0] && node != s->ends[1]) add_stop(s->curve, t, node);
+    }
+  }
+
+  void add_stop(int curve, double t, int node) {
+    auto& stops = chain_.stops[curve];
+    if (std::ranges::find(stops, node, &CurveStop::node) == stops.end()) stops.push_back({t, node});
+  }
+
   std::string label(End e) const { return curve_label(model_, e / 2); }
   Vec2 at(End e) const { return ends_[static_cast<std::size_t>(e)]; }
 
-  // Loops by their set of curves; the filling of a hole may be a loop of its own.
-  std::vector<ModelLoop> merge_loops() const {
+  // The filling of a hole may be a loop of its own, with the same curves.
+  std::vector<ModelLoop> merge_loops() {
     std::vector<ModelLoop> merged;
-    std::vector<int> owner(model_.curves.size(), -1), first_index;
+    std::vector<int> first_index;
+    std::map<std::vector<int>, std::size_t> known;  // by curves, ascending
+    std::vector<char> has_loop(model_.curves.size(), 0);
     for (std::size_t l = 0; l < model_.loops.size(); ++l) {
       const ModelLoop& loop = model_.loops[l];
       check_curves(loop, static_cast<int>(l));
-      int other = -1;
-      for (int c : loop.curves) other = std::max(other, owner[static_cast<std::size_t>(c)]);
-      if (other < 0) {
-        for (int c : loop.curves) owner[static_cast<std::size_t>(c)] = static_cast<int>(merged.size());
+      for (const int c : loop.curves) has_loop[c] = 1;
+      std::vector<int> curves = loop.curves;
+      std::ranges::sort(curves);
+      const auto [at, is_new] = known.try_emplace(curves, merged.size());
+      if (is_new) {
         merged.push_back(loop);
         first_index.push_back(static_cast<int>(l));
         continue;
       }
-      ModelLoop& twin = merged[static_cast<std::size_t>(other)];
-      std::vector<int> a = loop.curves, b = twin.curves;
-      std::ranges::sort(a);
-      std::ranges::sort(b);
-      const std::string both =
-          fmt::format("{} and {}", loop_label(model_, first_index[static_cast<std::size_t>(other)]),
-                      loop_label(model_, static_cast<int>(l)));
-      if (a != b)
-        throw InputError(fmt::format("{}{} share some of their curves; two loops may share all or none",
-                                     prefix(model_.source), both));
+      ModelLoop& twin = merged[at->second];
       if (twin.region.empty() == loop.region.empty())
-        throw InputError(fmt::format("{}{} consist of the same curves: one of them is too many",
-                                     prefix(model_.source), both));
+        throw InputError(fmt::format("{}{} and {} consist of the same curves: one of them is too many",
+                                     prefix(model_.source), loop_label(model_, first_index[at->second]),
+                                     loop_label(model_, static_cast<int>(l))));
       if (twin.region.empty()) twin.region = loop.region;
     }
-    for (std::size_t c = 0; c < owner.size(); ++c)
-      if (owner[c] < 0)
-        throw InputError(fmt::format("{}{} belongs to no loop", prefix(model_.source),
-                                     curve_label(model_, static_cast<int>(c))));
+    for (std::size_t c = 0; c < has_loop.size(); ++c)
+      if (!has_loop[c]) embedded_.push_back(static_cast<int>(c));
     return merged;
   }
 
@@ -207,8 +313,11 @@ class Chainer {
   const PlanarModel& model_;
   std::vector<Vec2> ends_;
   std::vector<End> partner_;
+  std::vector<int> embedded_;
   Vec2 low_;
   double tolerance_ = 0;
+  std::optional<PointGrid> grid_;
+  ModelChain chain_;
 };
 
 }  // namespace
@@ -218,6 +327,13 @@ std::string curve_label(const PlanarModel& model, int curve) {
   const std::string name =
       c.name.empty() ? fmt::format("curve {}", curve + 1) : fmt::format("curve '{}'", c.name);
   return c.where.empty() ? name : fmt::format("{} ({})", name, c.where);
+}
+
+std::string point_label(const PlanarModel& model, int point) {
+  const ModelPoint& p = model.points[static_cast<std::size_t>(point)];
+  const std::string name =
+      p.name.empty() ? fmt::format("point {}", point + 1) : fmt::format("point '{}'", p.name);
+  return p.where.empty() ? name : fmt::format("{} ({})", name, p.where);
 }
 
 ModelChain chain_model(const PlanarModel& model) {

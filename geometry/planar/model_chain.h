@@ -12,19 +12,31 @@ namespace delquad {
 /// coordinates in a model are written with about seven digits.
 inline constexpr double kJoinTolerance = 1e-7;
 
-/// The loops of a model, each checked to be one closed chain of curves.
+/// A compulsory node inside of a curve.
+struct CurveStop {
+  double t;
+  int node;
+};
+
+/// How the curves of a model hang together.
 struct ModelChain {
   std::vector<Vec2> nodes;                     ///< where curves join: the end point of the first curve listed
   std::vector<std::array<int, 2>> curve_ends;  ///< nodes at the start and end of each curve
+  /// Of each curve, ascending: its corners, and where others end on it or stand across it.
+  std::vector<std::vector<CurveStop>> stops;
+  std::vector<int> point_nodes;  ///< of the model's points
   /// The model's loops. A loop listed twice, once with a region (the filling of a hole), stands once.
   std::vector<ModelLoop> loops;
 };
 
-/// Throws InputError for open loops, curves without length, curves that no loop uses, loops that share some
-/// curves but not all.
+/// Each loop is checked to be one closed chain of curves. Ends, corners and points nearer to each other than
+/// kJoinTolerance are one node. Throws InputError for open loops, curves without length, a model without
+/// loops.
 ModelChain chain_model(const PlanarModel& model);
 
 /// The curve as messages call it: its name or number, and where it was read.
 std::string curve_label(const PlanarModel& model, int curve);
+/// The same for a point.
+std::string point_label(const PlanarModel& model, int point);
 
 }  // namespace delquad

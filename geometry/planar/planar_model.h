@@ -32,6 +32,7 @@ Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMes
 struct CurvePlace {
   std::shared_ptr<const Curve> curve;  ///< null: the node stays
   double t = 0, from = 0, to = 1;
+  bool is_free = false;  ///< it is on no curve: it may go anywhere
 };
 
 /// The regions that a line mesh bounds.
@@ -40,6 +41,11 @@ struct PlanarDomain {
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
+  bool has_junctions = false;     ///< some node has other than two lines
+  std::vector<int> on_crack;      ///< nodes along cracks, those that were doubled and the others
+  /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second
+  /// lips of cracks.
+  std::vector<std::vector<int>> model_curves;
 };
 
 struct DomainOptions {
@@ -49,14 +55,13 @@ struct DomainOptions {
   std::vector<std::pair<int, std::string>> loop_regions;
 };
 
-/// Chains the lines to loops and tells outer loops, holes and islands by nesting, whatever their order and
-/// orientation. Regions are in the order of their lexicographically smallest nodes; those without a name are
-/// called "domain", or "domain_1", "domain_2", ... when there are more. In `boundary` the points keep their
-/// order (those without lines are dropped) and so do the lines, turned so that the region lies on their left
-/// (on an interface: the inner one). A patch's points go round the outer loop, then round the holes, each
-/// from its lexicographically smallest node. Throws InputError, naming curves and coordinates, for open,
-/// self-intersecting, touching or duplicate loops, zero-length lines, coincident nodes, loops of fewer than
-/// three nodes, non-finite coordinates, z not constant.
+/// Tells what the lines enclose, whatever their order and orientation: regions side by side, and by nesting
+/// outer ones, holes and islands (see regions_by_nesting()). Lines with a region on both sides are
+/// interfaces, lines that end inside of a region stand in it. Regions are in the order of their
+/// lexicographically smallest nodes. In `boundary` the points keep their order (those without lines are
+/// dropped) and so do the lines, turned so that the region lies on their left (the inner one of two). A
+/// patch's points go round its outline, then round what lies inside, each from its lexicographically smallest
+/// node. Throws InputError as arrange_lines() and build_domain().
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options = {});
 
 /// The two steps at once: curves meshed, then told apart by nesting, regions named as in the model. Throws

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/predicates.h"
-#include "geometry/planar/loop_sweep.h"
+#include "geometry/planar/nest_loops.h"
 
 namespace delquad {
 

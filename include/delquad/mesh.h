@@ -43,7 +43,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
-/// A named part of a model: a curve (dimension 1) or a region (dimension 2).
+/// A named part of a model: a point, a curve or a region.
 struct Entity {
   int tag = 0;                     ///< number in files, > 0
   std::vector<std::string> names;  ///< physical groups that hold it; may be empty
@@ -51,6 +51,12 @@ struct Entity {
 
 /// How the names begin that CAD faces have from their colours.
 inline constexpr std::string_view kColourName = "colour #";
+
+/// A point of a mesh that stands for a point of the model.
+struct NamedPoint {
+  int point;  ///< index into Mesh::points
+  Entity entity;
+};
 
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
 /// Indices count from 0.
@@ -64,6 +70,7 @@ struct Mesh {
   std::vector<int> quad_region;
   std::vector<Entity> curves;
   std::vector<Entity> regions;
+  std::vector<NamedPoint> named_points;
   std::string unit;  ///< of lengths, such as "mm"; empty: not known
 };
 
@@ -104,7 +111,7 @@ struct PatchBoundary {
   /// Indices into `points`; the patch lies on the left of each edge, and every point has one edge in, one
   /// out.
   std::vector<std::array<int, 2>> edges;
-  /// Curve of each edge (index into Mesh::curves).
+  /// Curve of each edge (index into Mesh::curves); -1: an edge that is no line.
   std::vector<int> edge_curve;
   /// Node of the boundary mesh that each point stands for. Two points may share a node (a seam).
   std::vector<int> point_node;

@@ -45,10 +45,13 @@ std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> p
 
 struct ModelCurve {
   std::shared_ptr<const Curve> shape;
-  std::string name;   ///< physical group of the boundary; may be empty
-  std::string where;  ///< file and line (or entity) it was read from, for messages
+  std::string name;       ///< physical group of the boundary; may be empty
+  std::string where;      ///< file and line (or entity) it was read from, for messages
+  bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
 };
 
+/// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
+/// another.
 struct ModelLoop {
   std::vector<int> curves;  ///< indices into PlanarModel::curves, end to start, closed; either orientation
   std::string region;  ///< name of the region inside; on a hole: the hole is filled by a region of that name
@@ -56,11 +59,23 @@ struct ModelLoop {
   bool is_hole = false;  ///< it must bound no region from outside
 };
 
+/// A point that becomes a node of the mesh.
+struct ModelPoint {
+  Vec2 at;
+  std::string name;   ///< physical group; may be empty
+  std::string where;  ///< as that of a curve
+};
+
 /// A planar model bounded by analytic curves.
+///
+/// Curves that touch another with an end share a node with it, and those that lie on each other are one
+/// there. Those that no loop has stand in the regions: they may cross any others and end anywhere in a
+/// region, and become chains of edges of the mesh.
 struct PlanarModel {
   std::string source;  ///< file it was read from, for messages
   std::vector<ModelCurve> curves;
   std::vector<ModelLoop> loops;
+  std::vector<ModelPoint> points = {};  ///< in regions or on curves
 };
 
 /// A domain bounded by polygons, each a loop of at least three corners without the first repeated. Loops

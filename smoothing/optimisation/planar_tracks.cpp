@@ -39,7 +39,7 @@ PlanarTracks::PlanarTracks(std::vector<Vec2> nodes, const std::vector<CurvePlace
 }
 
 Vec2 PlanarTracks::put(int v, Vec2 position) {
-  if (!is_node(v)) return points_[v] = position;
+  if (!slides(v)) return points_[v] = position;
   CurvePlace& place = places_[v];
   place.t = std::clamp(position.x, place.from, place.to);
   return points_[v] = place.curve->point(place.t);
@@ -47,7 +47,7 @@ Vec2 PlanarTracks::put(int v, Vec2 position) {
 
 std::array<Vec2, 2> PlanarTracks::axes(int v) const {
   if (stays_[v]) return {};
-  if (!is_node(v)) return {Vec2{1, 0}, Vec2{0, 1}};
+  if (!slides(v)) return {Vec2{1, 0}, Vec2{0, 1}};
   const CurvePlace& place = places_[v];
   if (!place.curve) return {};
   const double step = kStep * (place.to - place.from);

@@ -29,14 +29,14 @@ class PlanarTracks final : public VertexTracks<Vec2> {
   /// Writes places back to the patches.
   void store(const std::vector<Vec2>& points);
 
-  Vec2 position(int v) const override { return is_node(v) ? Vec2{places_[v].t, 0} : points_[v]; }
+  Vec2 position(int v) const override { return slides(v) ? Vec2{places_[v].t, 0} : points_[v]; }
   Vec2 put(int v, Vec2 position) override;
   std::array<Vec2, 2> axes(int v) const override;
   double delta(const Vec2& place, TrackHint& hint) const override { return size_.at(place, hint.size); }
   Vec2 arm(int quad, int side, TrackHint& hint) const override;
 
  private:
-  bool is_node(int v) const { return v < static_cast<int>(places_.size()); }
+  bool slides(int v) const { return v < static_cast<int>(places_.size()) && !places_[v].is_free; }
 
   std::vector<CurvePlace> places_;  ///< of the nodes
   std::vector<Patch> patches_;

@@ -63,6 +63,26 @@ TEST_F(ModelFiles, PatternRepeatsItsShape) {
   EXPECT_EQ(model.curves[model.loops[2].curves[0]].shape->point(0), (Vec2{1.75, 0.5}));
 }
 
+TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {
+  const PlanarModel model = read(
+      "loop = { rectangle = [[0, 0], [2, 2]] }\n"
+      "embed = [{ segment = [[0, 1], [1, 1]], name = \"fault\" }, { point = [1.5, 0.5], name = \"sensor\" "
+      "},\n"
+      "         { arc = { centre = [1, 1], radius = 0.5, from = 0, to = 90 }, crack = true }]\n");
+  ASSERT_EQ(model.curves.size(), 6u);
+  EXPECT_EQ(model.curves[4].name, "fault");
+  EXPECT_FALSE(model.curves[4].is_crack);
+  EXPECT_TRUE(model.curves[5].is_crack);
+  ASSERT_EQ(model.points.size(), 1u);
+  EXPECT_EQ(model.points[0].at, (Vec2{1.5, 0.5}));
+  EXPECT_EQ(model.points[0].name, "sensor");
+  const std::string square = "loop = { rectangle = [[0, 0], [2, 2]] }\n";
+  expect_input_error([&] { read(square + "embed = { point = [1, 1], crack = true }"); },
+                     {"m.toml:2", "no crack"});
+  expect_input_error([&] { read(square + "embed = { segment = [[1, 1], [1, 1]] }"); }, {"m.toml:2"});
+  expect_input_error([&] { read(square + "embed = { name = \"nothing\" }"); }, {"m.toml:2", "no shape"});
+}
+
 TEST_F(ModelFiles, MistakesAreLocated) {
   const std::string circle = "circle = { centre = [0, 0], radius = 1 }";
   expect_input_error(

@@ -66,6 +66,20 @@ TEST(NamedDomain, SurfacesAreKnownByTheirCurves) {
   EXPECT_EQ(make_named_domain(mesh, twice, "m.msh").boundary.regions[0].names, Names{"domain"});
 }
 
+/// A line ties a hole to the border: without a word on surfaces both are regions.
+TEST(NamedDomain, FacesBesideAKnownOneAreHoles) {
+  Mesh mesh = nested_squares();
+  mesh.lines.push_back({0, 4});
+  mesh.line_curve.push_back(2);
+  mesh.curves.push_back({3, {"tie"}});
+  EXPECT_EQ(make_named_domain(mesh, {}, "m.msh").patches.size(), 2u);
+  const DeclaredSurfaces ring{{"shell"}, {{{1, {"shell"}}, {1, 2}}}};
+  const PlanarDomain domain = make_named_domain(mesh, ring, "m.msh");
+  ASSERT_EQ(domain.patches.size(), 1u);
+  EXPECT_EQ(domain.boundary.regions[0].names, Names{"shell"});
+  EXPECT_EQ(domain.patches[0].edges.size(), 10u);
+}
+
 TEST(NamedDomain, OnlyNamedGroupNamesTheOnlyPatch) {
   Mesh mesh = nested_squares();
   EXPECT_EQ(make_named_domain(mesh, {{"plate"}, {}}, "m.msh").boundary.regions[0].names, Names{"plate"});

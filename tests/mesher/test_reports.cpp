@@ -36,29 +36,6 @@ TEST(OddBoundaries, TwoOddLoopsOfOneRegionAreEven) {
   EXPECT_TRUE(odd_boundaries(make_domain(lines)).empty());
 }
 
-TEST(Holes, MustLieInside) {
-  Mesh lines;
-  add_ring(lines, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, "outer");
-  add_ring(lines, {{1, 1}, {2, 1}, {1, 2}}, "hole");
-  add_ring(lines, {{6, 1}, {7, 1}, {6, 2}}, "elsewhere");
-  const PlanarDomain domain = make_domain(lines);
-  const auto holes = [&](const std::vector<Vec2>& at) {
-    PlanarModel model;
-    for (const Vec2 p : at) {
-      model.loops.push_back(
-          {{static_cast<int>(model.curves.size())}, "", "m.toml:" + std::to_string(p.x), true});
-      model.curves.push_back({make_segment(p, {2, 2}), "", ""});
-    }
-    return model;
-  };
-  EXPECT_NO_THROW(check_holes(holes({{1, 1}}), domain));
-  expect_input_error(
-      [&] {
-        check_holes(holes({{1, 1}, {6, 1}}), domain);
-      },
-      {"m.toml:6", "(6, 1)", "outside"});
-}
-
 TEST(Outline, OfElementsIsWhatOneElementHas) {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};

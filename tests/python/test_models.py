@@ -16,6 +16,18 @@ def test_polygons_with_a_hole():
     assert len(r.triangles) == 0 and r.sound and r.unsound == []
 
 
+def test_curves_and_points_inside():
+    square = [delquad.polyline([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], "wall")]
+    model = delquad.planar([square], embed=[delquad.segment((0.2, 0.3), (0.7, 0.6), "fault"),
+                                            delquad.crack(delquad.segment((0, 0.8), (0.4, 0.8), "crack")),
+                                            delquad.point((0.8, 0.2), "sensor")])
+    mesh = delquad.mesh(model, size=0.1)
+    assert np.any(np.all(np.isclose(mesh.points, [0.8, 0.2, 0]), axis=1))
+    assert len(mesh.triangles) == 0
+    doubled = len(mesh.points) - len(np.unique(mesh.points, axis=0))
+    assert doubled in (3, 4, 5)
+
+
 def test_planar_curves_and_their_names():
     sides = [
         delquad.segment((0, 0), (2, 0), name="bottom"),

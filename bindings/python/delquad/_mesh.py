@@ -23,9 +23,13 @@ def polygons(polygons):
     return _core.polygons(list(polygons))
 
 
-def planar(loops):
-    """A planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region."""
-    return _core.planar([l if isinstance(l, _core.Loop) else _core.loop(list(l)) for l in loops])
+def planar(loops, embed=()):
+    """A planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region.
+
+    Loops may lie side by side: where their curves lie on each other, regions share nodes. embed: curves and
+    point()s inside of the regions, which become chains of edges and nodes of the mesh; crack()s come apart.
+    """
+    return _core.planar([l if isinstance(l, _core.Loop) else _core.loop(list(l)) for l in loops], list(embed))
 
 
 def cad(source):

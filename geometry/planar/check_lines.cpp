@@ -1,4 +1,4 @@
-#include "geometry/planar/boundary_loops.h"
+#include "geometry/planar/check_lines.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "base/box.h"
 #include "base/predicates.h"
 #include "delquad/error.h"
-#include "geometry/planar/loop_sweep.h"
 
 namespace delquad {
 
@@ -21,20 +20,23 @@ namespace {
 /// Spread of z, relative to the extent in x and y, that counts as rounding of a plane z = constant.
 constexpr double kFlatness = 1e-9;
 
-class LoopFinder {
+class LineArranger {
  public:
-  LoopFinder(const Mesh& mesh, const BoundaryNames& names) : mesh_(mesh), names_(names) {}
+  LineArranger(const Mesh& mesh, const BoundaryNames& names) : mesh_(mesh), names_(names) {}
 
-  std::vector<BoundaryLoop> run() {
+  Arrangement run() {
     check_ranges();
     collect_nodes();
     check_coordinates();
     check_lines();
     check_coincidence();
-    check_valence();
-    std::vector<BoundaryLoop> loops = chain();
-    nest(loops);
-    return loops;
+    std::vector<Vec2> points;
+    points.reserve(mesh_.points.size());
+    for (const Vec3& p : mesh_.points) points.push_back({p.x, p.y});
+    Arrangement arrangement = arrange(points, mesh_.lines);
+    if (arrangement.conflict) report_meeting((*arrangement.conflict)[0], (*arrangement.conflict)[1]);
+    check_closed(arrangement);
+    return arrangement;
   }
 
  private:
@@ -134,64 +136,24 @@ class LoopFinder {
     }
   }
 
-  void check_valence() const {
+  void check_closed(const Arrangement& arrangement) const {
+    const auto is_open = [&](int l) {
+      return arrangement.has_one_face(l) && arrangement.face_of[2 * l] < 0 &&
+             mesh_.line_curve[static_cast<std::size_t>(l)] != names_.whiskers;
+    };
     std::vector<int> ends;
     for (int v : used_) {
-      const std::size_t begin = first_line_[static_cast<std::size_t>(v)];
-      if (valence(v) == 1) ends.push_back(v);
-      if (valence(v) > 2)
-        fail("{} lines meet at {}, of {}, {} and {}; two were expected: loops must not share nodes",
-             valence(v), place(v), curve(lines_at_[begin]), curve(lines_at_[begin + 1]),
-             curve(lines_at_[begin + 2]));
+      const int l = lines_at_[first_line_[static_cast<std::size_t>(v)]];
+      if (valence(v) == 1 && is_open(l)) ends.push_back(v);
     }
-    if (ends.empty()) return;
-    fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {}", ends.size(),
-         place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
-  }
-
-  // From each lexicographically smallest node, where the direction is plain, round the loop.
-  std::vector<BoundaryLoop> chain() const {
-    std::vector<BoundaryLoop> loops;
-    std::vector<bool> done(mesh_.points.size(), false);
-    for (int start : used_) {
-      if (done[static_cast<std::size_t>(start)]) continue;
-      const std::size_t begin = first_line_[static_cast<std::size_t>(start)];
-      int in = lines_at_[begin], out = lines_at_[begin + 1];
-      const int turn = orient2d(at(other_end(in, start)), at(start), at(other_end(out, start)));
-      if (turn == 0) report_meeting(in, out);
-      if (turn < 0) std::swap(in, out);
-      BoundaryLoop loop;
-      int v = start, l = out;
-      do {
-        done[static_cast<std::size_t>(v)] = true;
-        loop.nodes.push_back(v);
-        loop.lines.push_back(l);
-        v = other_end(l, v);
-        const std::size_t i = first_line_[static_cast<std::size_t>(v)];
-        l = lines_at_[i] == l ? lines_at_[i + 1] : lines_at_[i];
-      } while (v != start);
-      loops.push_back(std::move(loop));
-    }
-    return loops;
-  }
-
-  int other_end(int l, int v) const { return line(l)[0] == v ? line(l)[1] : line(l)[0]; }
-
-  void nest(std::vector<BoundaryLoop>& loops) const {
-    std::vector<Vec2> points;
-    points.reserve(mesh_.points.size());
-    for (const Vec3& p : mesh_.points) points.push_back({p.x, p.y});
-    std::vector<std::vector<int>> polygons;
-    for (const BoundaryLoop& loop : loops) polygons.push_back(loop.nodes);
-    const LoopNesting nesting = nest_loops(points, polygons);
-    if (nesting.conflict) {
-      const auto line_of = [&](int i) {
-        return loops[static_cast<std::size_t>(nesting.conflict->loop[i])]
-            .lines[static_cast<std::size_t>(nesting.conflict->line[i])];
-      };
-      report_meeting(line_of(0), line_of(1));
-    }
-    for (std::size_t i = 0; i < loops.size(); ++i) loops[i].parent = nesting.parent[i];
+    if (ends.size() == 1) fail("{} ends at {}, outside of every region", curve_at(ends[0]), place(ends[0]));
+    if (ends.size() > 1)
+      fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {}", ends.size(),
+           place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
+    for (int l = 0; l < static_cast<int>(mesh_.lines.size()); ++l)
+      if (is_open(l))
+        fail("{} bounds nothing from {} to {}, and lies in no region", curve(l), place(line(l)[0]),
+             place(line(l)[1]));
   }
 
   [[noreturn]] void report_meeting(int l, int m) const {
@@ -236,22 +198,8 @@ BoundaryNames names_of_curves(const Mesh& lines, const std::string& source) {
   return {source, label, ""};
 }
 
-std::vector<BoundaryLoop> find_loops(const Mesh& lines, const BoundaryNames& names) {
-  return LoopFinder(lines, names).run();
-}
-
-std::vector<bool> filled_loops(const std::vector<BoundaryLoop>& loops, const std::vector<bool>& named) {
-  std::vector<bool> filled(loops.size());
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    filled[i] = named[i] || loops[i].parent < 0 || !filled[static_cast<std::size_t>(loops[i].parent)];
-  return filled;
-}
-
-std::vector<int> loop_of_nodes(const std::vector<BoundaryLoop>& loops, std::size_t node_count) {
-  std::vector<int> loop_of(node_count, -1);
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    for (int v : loops[i].nodes) loop_of[static_cast<std::size_t>(v)] = static_cast<int>(i);
-  return loop_of;
+Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names) {
+  return LineArranger(lines, names).run();
 }
 
 }  // namespace delquad

@@ -19,9 +19,8 @@ struct LoopNesting {
   std::optional<LineConflict> conflict;
 };
 
-/// Tells how closed counterclockwise polygons (indices into `points`, no node used twice, no points that
-/// coincide) lie in each other, and whether any two lines cross, touch or overlap. Sweep of Shamos and Hoey
-/// (1976) with exact predicates: O(n log n) whatever the shapes.
+/// Tells how closed polygons (indices into `points`, no node used twice, no points that coincide) lie in each
+/// other, and whether any two lines cross, touch or overlap: see arrange().
 LoopNesting nest_loops(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& loops);
 
 }  // namespace delquad

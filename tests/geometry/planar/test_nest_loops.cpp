@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/predicates.h"
-#include "geometry/planar/loop_sweep.h"
+#include "geometry/planar/nest_loops.h"
 
 namespace delquad {
 namespace {
@@ -114,7 +114,7 @@ Polygons random_triangles(std::mt19937& engine, int count, int grid) {
   return p;
 }
 
-TEST(LoopSweep, AgreesWithBruteForceOnRandomTriangles) {
+TEST(NestLoops, AgreesWithBruteForceOnRandomTriangles) {
   std::mt19937 engine(5);
   int sound = 0, conflicting = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -136,7 +136,7 @@ TEST(LoopSweep, AgreesWithBruteForceOnRandomTriangles) {
   EXPECT_GT(conflicting, 500);
 }
 
-TEST(LoopSweep, FindsFoldsOfOneLoop) {
+TEST(NestLoops, FindsFoldsOfOneLoop) {
   std::mt19937 engine(6);
   int sound = 0, conflicting = 0;
   for (int round = 0; round < 4000; ++round) {
@@ -169,7 +169,7 @@ std::vector<Vec2> comb(int teeth, double slant) {
   return corners;
 }
 
-TEST(LoopSweep, IsFastWhateverTheShape) {
+TEST(NestLoops, IsFastWhateverTheShape) {
   // Long slanted teeth overlap in any direction of the axes; the circle is the ordinary case.
   std::vector<Vec2> circle;
   for (int i = 0; i < 100000; ++i) {

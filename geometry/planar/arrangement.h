@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// What straight lines of a plane enclose. Line l has two sides: side 2 l runs along it as given, side 2 l +
+/// 1 against it. What lies on the left of a side is the side's face.
+struct Arrangement {
+  /// Sides one after the other, with the same face on their left, from the lexicographically smallest point
+  /// on.
+  using Cycle = std::vector<int>;
+  /// A bounded face: its outline, then the cycles around what lies inside of it.
+  struct Face {
+    std::vector<Cycle> cycles;
+    int around = -1;     ///< the face in which its outline lies; -1: the unbounded one
+    int component = -1;  ///< faces whose lines hang together have the same
+  };
+  std::vector<Face> faces;     ///< in the order of their outlines' first points
+  std::vector<Cycle> outside;  ///< cycles of the unbounded face
+  std::vector<int> face_of;    ///< of each side; -1: the unbounded one
+  std::optional<std::array<int, 2>>
+      conflict;  ///< lines that share more than common ends; then there is nothing else
+
+  bool has_one_face(int line) const { return face_of[2 * line] == face_of[2 * line + 1]; }
+};
+
+/// Lines are pairs of points with different coordinates, no pair twice; points do not coincide. Any number of
+/// lines may meet in a point; loose ends are allowed. Sweep of Shamos and Hoey (1976) with exact predicates:
+/// O(n log n) whatever the lines.
+Arrangement arrange(const std::vector<Vec2>& points, const std::vector<std::array<int, 2>>& lines);
+
+/// Point at which a side begins.
+inline int start_of(const std::vector<std::array<int, 2>>& lines, int side) {
+  return lines[side / 2][side % 2];
+}
+
+}  // namespace delquad

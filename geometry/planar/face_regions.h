@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+#include "geometry/planar/arrangement.h"
+#include "geometry/planar/check_lines.h"
+
+namespace delquad {
+
+/// Which region each face of an arrangement has.
+struct FaceRegions {
+  std::vector<int> region;      ///< of each face: index into `regions`, -1: none
+  std::vector<Entity> regions;  ///< in the order of their first faces
+};
+
+/// Names of each face, where something is known of it.
+using FaceNames = std::vector<std::optional<std::vector<std::string>>>;
+
+/// Regions of lines that say nothing else: each face is one if it has names, or if there is no region around
+/// what it belongs to and nothing is known of the faces beside it. Those without a name are called "domain",
+/// or "domain_1", "domain_2", ... when there are more.
+FaceRegions regions_by_nesting(const Arrangement& arrangement, const FaceNames& names);
+
+/// Regions of loops: each face belongs to the innermost loop around it, and has a region if that loop has a
+/// name, or if there is none around the loop; the faces of a loop have one region. `loops_of_curve`: of each
+/// curve of the lines. Throws InputError for loops that overlap, holes outside of every region, and named
+/// loops that others fill.
+FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
+                             const std::vector<ModelLoop>& loops,
+                             const std::vector<std::vector<int>>& loops_of_curve, const BoundaryNames& names);
+
+}  // namespace delquad

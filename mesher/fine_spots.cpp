@@ -1,0 +1,73 @@
+#include "mesher/fine_spots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/box_tree.h"
+
+namespace delquad {
+namespace {
+
+/// Edges below this part of the size are short. Halves are what rounding leaves of whole numbers of edges.
+constexpr double kShort = 0.6;
+/// Sizes do not follow edges that are shorter than this part of the size.
+constexpr double kShortest = 0.05;
+
+class SpotSize final : public SizeField {
+ public:
+  SpotSize(std::shared_ptr<const SizeField> base, std::vector<FineSpot> spots)
+      : base_(std::move(base)), spots_(std::move(spots)) {
+    std::vector<Box<Vec3>> boxes;
+    for (const FineSpot& s : spots_) {
+      const Vec3 margin{s.reach, s.reach, s.reach};
+      boxes.push_back({lower(s.a, s.b) - margin, upper(s.a, s.b) + margin});
+      least_ = std::min(least_, s.size);
+    }
+    tree_ = BoxTree<Vec3>(boxes);
+  }
+
+  double at(const Vec3& x, int& hint) const override {
+    double delta = base_->at(x, hint);
+    tree_.search(
+        delta, [&](const auto& node) { return least_ + kSpotGradation * std::sqrt(node.box.distance2(x)); },
+        [&](int i) { delta = std::min(delta, by(spots_[static_cast<std::size_t>(i)], x)); });
+    return delta;
+  }
+
+ private:
+  static double by(const FineSpot& s, const Vec3& x) {
+    const Vec3 d = s.b - s.a;
+    const double length2 = dot(d, d);
+    const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
+    return s.size + kSpotGradation * std::max(norm(x - s.a - along * d) - s.reach, 0.0);
+  }
+
+  std::shared_ptr<const SizeField> base_;
+  std::vector<FineSpot> spots_;
+  double least_ = std::numeric_limits<double>::infinity();
+  BoxTree<Vec3> tree_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
+                                            std::vector<FineSpot> spots) {
+  if (spots.empty()) return base;
+  return std::make_shared<SpotSize>(std::move(base), std::move(spots));
+}
+
+std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size) {
+  std::vector<FineSpot> spots;
+  if (!domain.has_junctions) return spots;
+  int hint = -1;
+  for (const auto& [v, w] : domain.boundary.lines) {
+    const Vec3 &a = domain.boundary.points[v], &b = domain.boundary.points[w];
+    const double length = norm(b - a), wanted = size.at(0.5 * (a + b), hint);
+    if (length < kShort * wanted) spots.push_back({a, b, std::max(length, kShortest * wanted), length});
+  }
+  return spots;
+}
+
+}  // namespace delquad

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// Around a segment, up to `reach`, sizes are at most `size`; from there on they grow.
+struct FineSpot {
+  Vec3 a, b;
+  double size, reach;
+};
+
+/// The field, and less around the spots. Sizes grow from these by kSpotGradation per unit length.
+std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
+                                            std::vector<FineSpot> spots);
+
+inline constexpr double kSpotGradation = 0.3;
+
+/// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
+/// its own length. Only of domains with junctions.
+std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size);
+
+}  // namespace delquad
