@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kDirections = 8;  // of a line
 /// See Surroundings::has_room().
-constexpr double kRoom = 0.6;
+constexpr double kRoom = 0.6, kAside = 0.4;
 constexpr double kShorter = 0.7, kShortest = 1e-3;
 
 /// Everything that a whisker must keep away from.
@@ -52,7 +52,7 @@ class Surroundings {
   }
 
   /// Whether two edges from a point to both sides keep away from all else by kRoom of their length, at their
-  /// ends; nearer to the point by less.
+  /// ends; nearer to the point by less. Other points lie well aside.
   bool has_room(std::size_t point, Vec2 along) const {
     const Vec2 x = points_[point];
     constexpr int kPlaces = 4;
@@ -62,17 +62,24 @@ class Surroundings {
     }
     const auto segment = make_segment(x - along, x + along);
     const CurveSpan span(*segment, 0, 1);
-    bool is_crossed = false;
+    const double aside = kAside * norm(along);
+    const Box<Vec2> box{span.box().low - Vec2{aside, aside}, span.box().high + Vec2{aside, aside}};
+    bool is_free = true;
     const double limit = 0;
     tree_.search(
-        limit, [&](const auto& node) { return node.box.overlaps(span.box()) ? 0.0 : 1.0; },
+        limit, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
         [&](int i) {
-          if (static_cast<std::size_t>(i) < curves_.size())
-            is_crossed = is_crossed || !span.crossings(curves_[static_cast<std::size_t>(i)]).empty();
+          const auto k = static_cast<std::size_t>(i);
+          if (k < curves_.size()) {
+            is_free = is_free && span.crossings(curves_[k]).empty();
+          } else if (const std::size_t other = k - curves_.size(); other != point) {
+            const Vec2 p = points_[other];
+            is_free = is_free && distance(p, x - along, x + along) >= std::min(kAside * norm(p - x), aside);
+          }
         });
-    return !is_crossed && std::ranges::none_of(taken_, [&](const auto& other) {
-      return distance(x - along, x + along, other[0], other[1]) < kRoom * norm(along) / 2;
-    });
+    return is_free && std::ranges::none_of(taken_, [&](const auto& other) {
+             return distance(x - along, x + along, other[0], other[1]) < kRoom * norm(along) / 2;
+           });
   }
   void take(std::array<Vec2, 2> ends) { taken_.push_back(ends); }
 
