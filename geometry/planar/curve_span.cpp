@@ -11,7 +11,7 @@ namespace delquad {
 namespace {
 
 /// A curve strays from a chord by less than this part of the chord's length.
-constexpr double kStray = 1e-3;
+constexpr double kStray = 0.02;
 constexpr int kMostHalvings = 12;
 /// Steps of the searches that make a place exact: both converge to rounding in less.
 constexpr int kSteps = 80, kNewtonSteps = 30;
