@@ -29,7 +29,7 @@ std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::
   return order;
 }
 
-double read_clock(clockid_t clock) {
+double seconds_on(clockid_t clock) {
   timespec t = {};
   clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
@@ -37,12 +37,12 @@ double read_clock(clockid_t clock) {
 
 /// What the clocks say, as if this thread had worked all the time and no other for it.
 TimeSpent clocks() {
-  const double cpu = read_clock(CLOCK_THREAD_CPUTIME_ID);
+  const double cpu = seconds_on(CLOCK_THREAD_CPUTIME_ID);
   if (Run* run = current_run()) {
     const Load::Shares shares = run->load().shares();
     return {shares.now, cpu, shares.clock, shares.alone};
   }
-  const double now = read_clock(CLOCK_MONOTONIC);
+  const double now = seconds_on(CLOCK_MONOTONIC);
   return {now, cpu, now, now};
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// Shifts count from this part of a side at the node on.
 constexpr double kSmall = 0.05;
 /// Each carries shifts one side further.
-constexpr int kSweeps = 10;
+constexpr int kInsideSweeps = 10;
 
 class Shifts {
  public:
@@ -39,7 +39,7 @@ class Shifts {
   void spread() {
     std::vector<std::vector<int>> around(points_.size());
     for (const auto& [a, b] : sides_) around[a].push_back(b), around[b].push_back(a);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kInsideSweeps; ++sweep) {
       check_cancelled();
       for (std::size_t i = n_boundary_; i < points_.size(); ++i) {
         Vec3 sum;

@@ -14,7 +14,7 @@ namespace delquad {
 namespace {
 
 /// Edges around a tube; growth of sizes away from the cut; the least size at a tip, as a part of the size.
-constexpr double kAround = 4, kGrowth = 0.2, kTipPart = 1.0 / 8;
+constexpr double kAroundTube = 4, kGrowth = 0.2, kTipPart = 1.0 / 8;
 /// Below this angle around a tip (radians) the surface is a cone there, as for sharp_tips().
 constexpr double kPointed = 2 * std::numbers::pi - 0.5;
 constexpr double kNone = std::numeric_limits<double>::max();
@@ -43,7 +43,7 @@ class TubePatch {
           is_pointed = is_pointed || angle_around(v) < kPointed;
         }
         if (!faces(*s.forward, v, w) || !faces(*s.backward, w, v)) continue;
-        const double width = norm(flat(w) - flat(v)) / stretch(s) / kAround;
+        const double width = norm(flat(w) - flat(v)) / stretch(s) / kAroundTube;
         widest = std::max(widest, width);
         found.emplace_back(v, width);
         found.emplace_back(w, width);

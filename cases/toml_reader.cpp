@@ -15,15 +15,15 @@
 #include "delquad/error.h"
 
 namespace delquad {
-namespace {
-
 /// What stands in for the values at dotted keys, seen from the table that they were chosen for.
-struct Choices {
+struct TomlChoices {
   TomlTable lists;   // keeps the nodes alive
   std::string path;  // of them, for messages
   std::map<std::string, const toml::node*> values;
   toml::table empty;  // for tables that hold nothing but choices
 };
+
+namespace {
 
 /// As short as it can be read back.
 std::string number_text(double value) {
@@ -49,8 +49,8 @@ struct TomlTable::Data {
   std::filesystem::path file;
   std::string path;  // of the table inside the file, for messages; empty at the top
   std::set<std::string> asked;
-  std::shared_ptr<const Choices> choices;  // null: none
-  std::string below;                       // dotted path from the table with choices, with its dot at the end
+  std::shared_ptr<const TomlChoices> choices;  // null: none
+  std::string below;  // dotted path from the table with choices, with its dot at the end
 
   std::string place(const toml::node& node) const {
     return file.string() + ":" + std::to_string(node.source().begin.line);
@@ -346,7 +346,7 @@ std::string TomlTable::element_text(const std::string& leaf, std::size_t i) cons
 
 TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                                  const std::vector<std::size_t>& choice) const {
-  auto choices = std::make_shared<Choices>(Choices{lists, lists.data_->path, {}, {}});
+  auto choices = std::make_shared<TomlChoices>(TomlChoices{lists, lists.data_->path, {}, {}});
   for (std::size_t k = 0; k < leaves.size(); ++k)
     choices->values[leaves[k]] = &element(*lists.data_->table, leaves[k], choice[k]);
   auto data = std::make_shared<Data>(*data_);

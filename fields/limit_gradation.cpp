@@ -16,13 +16,13 @@ namespace delquad {
 namespace {
 
 // The domain is seen at this fraction of its diagonal at least.
-constexpr double kCoarsest = 1.0 / 64;
+constexpr double kCoarsestGrid = 1.0 / 64;
 // Triangles are cut up where the base varies by more than this factor within one, down to half the size
 // itself.
 constexpr double kMostVariation = 1.1;
 constexpr double kFinest = 0.5;
 // Bounds the work; the widest triangles are cut first.
-constexpr std::size_t kMostSamples = 1'000'000, kPerTriangle = 6;
+constexpr std::size_t kMostGridSamples = 1'000'000, kPerTriangle = 6;
 
 class LimitedSize final : public SizeField {
  public:
@@ -39,7 +39,7 @@ class LimitedSize final : public SizeField {
 
 /// The base at corners and middles of triangles cut up as above. Points on shared sides come more than once.
 std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& tri) {
-  const double longest = kCoarsest * diagonal(tri.points);
+  const double longest = kCoarsestGrid * diagonal(tri.points);
   std::vector<SizeEnvelope::Sample> samples;
   std::deque<Corners> queue;
   for (const auto& v : tri.triangles) queue.push_back(corners_of(tri, v));
@@ -48,7 +48,7 @@ std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& 
     check_cancelled();
     const Corners corners = queue.front();
     queue.pop_front();
-    const bool may_split = samples.size() + kPerTriangle * queue.size() < kMostSamples;
+    const bool may_split = samples.size() + kPerTriangle * queue.size() < kMostGridSamples;
     double least = INFINITY, most = 0;
     for (const Corners& three : {corners, middles(corners)}) {
       for (const Vec2 x : three) {

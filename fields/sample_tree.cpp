@@ -20,7 +20,7 @@ namespace delquad {
 namespace {
 
 /// Rounding does not matter: cells are beside more than they meet.
-using Kernel = CGAL::Simple_cartesian<double>;
+using TreeKernel = CGAL::Simple_cartesian<double>;
 
 /// Cells are this often halved in any case, in the plane and in space: samples lie an edge of half of such a
 /// cell apart, 1 / 128 and 1 / 64 of the box. A feature that is narrower and far from others is not seen.
@@ -215,12 +215,12 @@ class SampleTree::Builder {
     const CGAL::Bbox_3 box(low.x, low.y, low.z, high.x, high.y, high.z);
     const auto corner = [&](int v) {
       const Vec3& p = surface_->points[v];
-      return Kernel::Point_3(p.x, p.y, p.z);
+      return TreeKernel::Point_3(p.x, p.y, p.z);
     };
     for (const int t : parent.triangles) {
       if (!boxes_[t].overlaps({low, high})) continue;
       const auto& [i, j, k] = surface_->triangles[t];
-      if (CGAL::do_intersect(Kernel::Triangle_3(corner(i), corner(j), corner(k)), box))
+      if (CGAL::do_intersect(TreeKernel::Triangle_3(corner(i), corner(j), corner(k)), box))
         cell.triangles.push_back(t);
     }
     return !cell.triangles.empty();

@@ -33,7 +33,7 @@ constexpr int kMostIterations = 500;
 
 using Complex = std::complex<double>;
 /// Of real and imaginary parts in turn: products of complex numbers would be checked for overflow one by one.
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
 Complex to_complex(Cross z) { return {z.c, z.s}; }
@@ -94,7 +94,7 @@ class CrossDiffusion {
   void step(double tau) {
     if (mass_.size() == 0) return;
     const Vector weight = mass_ / tau;
-    Matrix matrix = stiffness_;
+    RowMatrix matrix = stiffness_;
     matrix.diagonal() += weight;
     Vector now(mass_.size());
     for (std::size_t i = 0; i < row_.size(); ++i) {
@@ -111,8 +111,8 @@ class CrossDiffusion {
  private:
   /// By conjugate gradients from `start`, or directly where these do not converge: triangles with angles near
   /// 180 degrees, as badly made triangulations have them, can take them as many steps as there are unknowns.
-  static Vector solve(const Matrix& matrix, const Vector& right, const Vector& start) {
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
+  static Vector solve(const RowMatrix& matrix, const Vector& right, const Vector& start) {
+    Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
     iterative.setTolerance(kTolerance);
     iterative.setMaxIterations(kMostIterations);
     const Vector x = iterative.solveWithGuess(right, start);
@@ -159,7 +159,7 @@ class CrossDiffusion {
   std::vector<int> row_;  ///< of each side; -1: on the boundary
   Vector mass_;
   Vector fixed_;  ///< what the boundary's values contribute
-  Matrix stiffness_;
+  RowMatrix stiffness_;
 };
 
 /// 1/delta, the mean over a triangle.

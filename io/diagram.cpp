@@ -15,19 +15,20 @@ namespace delquad {
 namespace {
 
 // Of the axes and around them, in pixels.
-constexpr double kWidth = 560, kHeight = 360, kLeft = 80, kTop = 50, kLegend = 260, kBelow = 60, kLine = 18;
+constexpr double kPlotWidth = 560, kPlotHeight = 360, kPlotLeft = 80, kPlotTop = 50, kLegend = 260,
+                 kBelow = 60, kLegendLine = 18;
 /// Colours that people with any colour vision tell apart (Okabe and Ito), without the yellow.
-constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                 "#56b4e9", "#e69f00", "#000000"};
+constexpr std::array<const char*, 7> kLineColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                     "#56b4e9", "#e69f00", "#000000"};
 /// Shapes of dots, 8 pixels wide, from their middle; and dashes of lines. Seven colours times four.
 constexpr std::array<const char*, 4> kShapes = {"m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "m-3.5 -3.5h7v7h-7z",
                                                 "m0 -4.5l4.5 8h-9z", "m0 -5l5 5l-5 5l-5 -5z"};
 constexpr std::array<const char*, 4> kDashes = {"", "6 3", "2 3", "8 3 2 3"};
 
 /// An axis of the drawing: from values to 0 at its low end and 1 at its high end.
-class Scale {
+class AxisScale {
  public:
-  Scale(const DiagramAxis& axis, std::vector<double> values) : logarithmic_(axis.logarithmic) {
+  AxisScale(const DiagramAxis& axis, std::vector<double> values) : logarithmic_(axis.logarithmic) {
     std::erase_if(values, [&](double v) { return !shows(v); });
     if (values.empty()) values = {1};
     const auto [low, high] = std::ranges::minmax(values);
@@ -70,35 +71,35 @@ class Scale {
   double low_ = 0, high_ = 1;
 };
 
-double pixel_x(const Scale& x, double v) { return kLeft + kWidth * x.at(v); }
-double pixel_y(const Scale& y, double v) { return kTop + kHeight * (1 - y.at(v)); }
+double x_pixel(const AxisScale& x, double v) { return kPlotLeft + kPlotWidth * x.at(v); }
+double y_pixel(const AxisScale& y, double v) { return kPlotTop + kPlotHeight * (1 - y.at(v)); }
 
-std::string axes(const Diagram& diagram, const Scale& x, const Scale& y) {
+std::string axes(const Diagram& diagram, const AxisScale& x, const AxisScale& y) {
   std::string out;
   const auto to = std::back_inserter(out);
   for (const double v : x.ticks())
     fmt::format_to(to,
                    "<path d=\"M{0:.1f} {1}v{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
                    "text-anchor=\"middle\">{4:.4g}</text>\n",
-                   pixel_x(x, v), kTop, kHeight, kTop + kHeight + kLine, v);
+                   x_pixel(x, v), kPlotTop, kPlotHeight, kPlotTop + kPlotHeight + kLegendLine, v);
   for (const double v : y.ticks())
     fmt::format_to(to,
                    "<path d=\"M{0} {1:.1f}h{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
                    "text-anchor=\"end\">{5:.4g}</text>\n",
-                   kLeft, pixel_y(y, v), kWidth, kLeft - 8, pixel_y(y, v) + 4, v);
+                   kPlotLeft, y_pixel(y, v), kPlotWidth, kPlotLeft - 8, y_pixel(y, v) + 4, v);
   fmt::format_to(to, "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#000\"/>\n",
-                 kLeft, kTop, kWidth, kHeight);
-  fmt::format_to(to, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", kLeft + kWidth / 2,
-                 kTop + kHeight + 42, xml_escaped(diagram.x.label));
+                 kPlotLeft, kPlotTop, kPlotWidth, kPlotHeight);
+  fmt::format_to(to, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", kPlotLeft + kPlotWidth / 2,
+                 kPlotTop + kPlotHeight + 42, xml_escaped(diagram.x.label));
   fmt::format_to(to, "<text transform=\"translate(20 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                 kTop + kHeight / 2, xml_escaped(diagram.y.label));
+                 kPlotTop + kPlotHeight / 2, xml_escaped(diagram.y.label));
   return out;
 }
 
 /// The series `k`: its points, or a line at `kLegend` beside its name where `in_legend`.
 std::string paint(std::size_t k, DiagramKind kind, const std::string& path) {
-  const char* colour = kColours[k % kColours.size()];
-  const std::size_t style = k / kColours.size() % kDashes.size();
+  const char* colour = kLineColours[k % kLineColours.size()];
+  const std::size_t style = k / kLineColours.size() % kDashes.size();
   if (kind == DiagramKind::kDots)
     return fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\".75\"/>\n", path, colour);
   return fmt::format(
@@ -111,24 +112,25 @@ std::string dot(std::size_t k, double x, double y) {
   return fmt::format("M{:.1f} {:.1f}{}", x, y, kShapes[k % kShapes.size()]);
 }
 
-std::string drawn(const Diagram& diagram, std::size_t k, const Scale& x, const Scale& y) {
+std::string drawn(const Diagram& diagram, std::size_t k, const AxisScale& x, const AxisScale& y) {
   std::string path;
   for (const Vec2& p : diagram.series[k].points) {
     if (!x.shows(p.x) || !y.shows(p.y)) continue;
-    const double px = pixel_x(x, p.x), py = pixel_y(y, p.y);
+    const double px = x_pixel(x, p.x), py = y_pixel(y, p.y);
     if (diagram.kind == DiagramKind::kDots)
       path += dot(k, px, py);
     else
       path += path.empty() ? fmt::format("M{:.1f} {:.1f}", px, py) : fmt::format("H{:.1f}V{:.1f}", px, py);
   }
-  if (diagram.kind == DiagramKind::kSteps && !path.empty()) path += fmt::format("H{}", kLeft + kWidth);
+  if (diagram.kind == DiagramKind::kSteps && !path.empty())
+    path += fmt::format("H{}", kPlotLeft + kPlotWidth);
   return path.empty() ? "" : paint(k, diagram.kind, path);
 }
 
 std::string legend(const Diagram& diagram) {
   std::string out;
   for (std::size_t k = 0; k < diagram.series.size(); ++k) {
-    const double x = kLeft + kWidth + 20, y = kTop + 8 + kLine * static_cast<double>(k);
+    const double x = kPlotLeft + kPlotWidth + 20, y = kPlotTop + 8 + kLegendLine * static_cast<double>(k);
     out += paint(k, diagram.kind,
                  diagram.kind == DiagramKind::kDots ? dot(k, x + 10, y) : fmt::format("M{} {}h20", x, y));
     out += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x + 28, y + 4,
@@ -146,23 +148,23 @@ void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
       all_x.push_back(p.x);
       all_y.push_back(p.y);
     }
-  const Scale x(diagram.x, std::move(all_x)), y(diagram.y, std::move(all_y));
-  const double below =
-      std::max(kTop + kHeight + kBelow, kTop + kLine * (1 + static_cast<double>(diagram.series.size())));
+  const AxisScale x(diagram.x, std::move(all_x)), y(diagram.y, std::move(all_y));
+  const double below = std::max(kPlotTop + kPlotHeight + kBelow,
+                                kPlotTop + kLegendLine * (1 + static_cast<double>(diagram.series.size())));
   write_file_atomically(path, [&](std::ostream& out) {
     out << fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
         "<g font-family=\"sans-serif\" font-size=\"12\">\n"
         "<text x=\"{2}\" y=\"28\" font-size=\"15\">{3}</text>\n",
-        kLeft + kWidth + kLegend, below + kLine * static_cast<double>(diagram.notes.size()), kLeft,
-        xml_escaped(diagram.title));
+        kPlotLeft + kPlotWidth + kLegend, below + kLegendLine * static_cast<double>(diagram.notes.size()),
+        kPlotLeft, xml_escaped(diagram.title));
     out << axes(diagram, x, y);
     for (std::size_t k = 0; k < diagram.series.size(); ++k) out << drawn(diagram, k, x, y);
     out << legend(diagram);
     for (std::size_t k = 0; k < diagram.notes.size(); ++k)
-      out << fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", kLeft, below + kLine * static_cast<double>(k),
-                         xml_escaped(diagram.notes[k]));
+      out << fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", kPlotLeft,
+                         below + kLegendLine * static_cast<double>(k), xml_escaped(diagram.notes[k]));
     out << "</g>\n</svg>\n";
   });
 }

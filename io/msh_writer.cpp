@@ -98,7 +98,7 @@ std::vector<Block> make_blocks(const Mesh& mesh, const std::vector<Entity>& poin
 }
 
 /// Names as they can stand between quotes, without control characters; Gmsh reads lines of up to 255 bytes.
-std::string plain(const std::string& name) {
+std::string quotable(const std::string& name) {
   std::string label = name;
   for (char& c : label) {
     if (c == '"') c = '\'';
@@ -112,8 +112,8 @@ std::string plain(const std::string& name) {
 std::set<std::tuple<int, int, std::string>> number_groups(std::vector<Block>& blocks) {
   std::vector<UniqueLabels::Key> keys;
   for (const Block& block : blocks) keys.emplace_back(block.dim, block.group);
-  constexpr size_t kLongestName = 200;
-  const UniqueLabels labels(keys, {plain, false, kLongestName});
+  constexpr size_t kLongestLabel = 200;
+  const UniqueLabels labels(keys, {quotable, false, kLongestLabel});
   std::map<UniqueLabels::Key, int> tags;
   std::set<int> taken;
   for (const auto& key : keys) {
@@ -144,7 +144,7 @@ void write_more_names(std::ostream& stream, const std::vector<Block>& blocks) {
   std::vector<std::pair<const Block*, std::string>> all;
   for (const Block& block : blocks)
     for (const std::string& name : block.entity->names)
-      if (name != block.group) all.emplace_back(&block, plain(name));
+      if (name != block.group) all.emplace_back(&block, quotable(name));
   if (all.empty()) return;
   out << "$MoreNames\n" << all.size() << '\n';
   for (const auto& [block, name] : all)

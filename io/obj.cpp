@@ -87,7 +87,7 @@ class ObjReader : FaceReader {
 };
 
 /// Groups are separated by white space.
-std::string plain(const std::string& name) {
+std::string without_blanks(const std::string& name) {
   std::string label = name.empty() ? "_" : name;
   for (char& c : label)
     if (c == ' ' || (c >= '\t' && c <= '\r')) c = '_';
@@ -95,13 +95,13 @@ std::string plain(const std::string& name) {
 }
 
 /// A group of lines and one of faces may have the same name.
-UniqueLabels make_labels(const Mesh& mesh) {
+UniqueLabels label_groups(const Mesh& mesh) {
   std::vector<UniqueLabels::Key> keys;
   for (const auto* entities : {&mesh.curves, &mesh.regions})
     for (const Entity& entity : *entities)
       for (const std::string& name : entity.names) keys.emplace_back(0, name);
-  constexpr size_t kLongestName = 200;  // lines of more than 256 characters are too long for some programs
-  return UniqueLabels(keys, {plain, false, kLongestName});
+  constexpr size_t kLongestLabel = 200;  // lines of more than 256 characters are too long for some programs
+  return UniqueLabels(keys, {without_blanks, false, kLongestLabel});
 }
 
 void write_group(TextWriter& out, const Entity& entity, const UniqueLabels& labels) {
@@ -130,7 +130,7 @@ Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes) { return ObjR
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   write_file_atomically(path, [&](std::ostream& stream) {
     TextWriter out(stream);
-    const UniqueLabels labels = make_labels(mesh);
+    const UniqueLabels labels = label_groups(mesh);
     for (const auto& [key, label] : labels.renamed())
       out << "# group " << label << " is \"" << one_line(key.second) << "\"\n";
     if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';

@@ -63,7 +63,7 @@ void add_bands(Picture& picture, const Mesh& mesh, const std::vector<double>& t)
 
 /// Where a value stands on a colour bar from low to high: by its logarithm, or linearly when low is not
 /// positive.
-struct Scale {
+struct ColourScale {
   double low, high;
   bool is_log() const { return low > 0; }
   double place(double value) const {
@@ -76,7 +76,7 @@ struct Scale {
 };
 
 /// 1, 2 and 5 times powers of ten where the range holds three or more of them; otherwise five equal steps.
-std::vector<std::pair<double, std::string>> labels(const Scale& scale) {
+std::vector<std::pair<double, std::string>> labels(const ColourScale& scale) {
   if (!(scale.high > scale.low)) return {{0.5, fmt::format("{:.4g}", scale.low)}};
   std::vector<std::pair<double, std::string>> result;
   const double decades = scale.is_log() ? std::log10(scale.high / scale.low) : 0;
@@ -142,7 +142,7 @@ void draw_scalar(const std::filesystem::path& path, const Mesh& triangles, const
   Picture picture(triangles.points, title);
   if (!values.empty()) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    const Scale scale{*low, *high};
+    const ColourScale scale{*low, *high};
     std::vector<double> places;
     for (const double value : values) places.push_back(scale.place(value));
     add_bands(picture, triangles, places);

@@ -14,7 +14,7 @@ namespace {
 using svg::Path;
 using svg::Picture;
 
-constexpr int kColours = 64;
+constexpr int kMeshColours = 64;
 /// Beyond this many elements edges would only blacken the picture.
 constexpr size_t kMostElementsWithEdges = 50'000;
 
@@ -36,7 +36,7 @@ class ElementPaths {
  public:
   ElementPaths(const Mesh& mesh, const Picture& picture) : mesh_(mesh), picture_(picture) {}
 
-  /// `colour_class` from 0 to kColours - 1, -1: no colour.
+  /// `colour_class` from 0 to kMeshColours - 1, -1: no colour.
   template <size_t N>
   void add(const std::array<int, N>& v, int colour_class) {
     constexpr int kLeast = -8, kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
@@ -52,7 +52,7 @@ class ElementPaths {
     constexpr double kEdgeWidth = 0.06;  // of the element's size
     constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between neighbours drawn without edges
     for (const auto& [key, path] : paths_) {
-      const std::string fill = key.second < 0 ? "#dcdcdc" : svg::colour((key.second + 0.5) / kColours);
+      const std::string fill = key.second < 0 ? "#dcdcdc" : svg::colour((key.second + 0.5) / kMeshColours);
       if (with_edges) {
         picture.add(path, fill, "#222", kEdgeWidth * std::exp2(-0.5 * key.first));
       } else {
@@ -88,7 +88,7 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
   const std::vector<double> eta = quad_etas(mesh);
   for (const auto& v : mesh.triangles) elements.add(v, -1);
   for (size_t q = 0; q < mesh.quads.size(); ++q) {
-    elements.add(mesh.quads[q], std::min(static_cast<int>(eta[q] * kColours), kColours - 1));
+    elements.add(mesh.quads[q], std::min(static_cast<int>(eta[q] * kMeshColours), kMeshColours - 1));
   }
   elements.draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostElementsWithEdges);
   constexpr double kOutlineWidth = 1.1;

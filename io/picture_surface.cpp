@@ -20,7 +20,7 @@ using svg::Path;
 using svg::Picture;
 
 /// Beyond this many elements edges would only blacken the picture.
-constexpr size_t kMostElementsWithEdges = 30'000;
+constexpr size_t kMostOutlined = 30'000;
 
 Vec3 unit(const Vec3& v) { return (1 / norm(v)) * v; }
 
@@ -178,7 +178,7 @@ std::string face_colour(int region) {
 
 /// Fill of each element: eta of quads, a colour a region for triangles.
 std::vector<std::string> fills(const Mesh& projected) {
-  constexpr int kColours = 32;
+  constexpr int kShades = 32;
   const std::vector<double> eta = quad_etas(projected);
   const size_t n_triangles = projected.triangles.size();
   std::vector<std::string> fill;
@@ -188,8 +188,8 @@ std::vector<std::string> fills(const Mesh& projected) {
     if (e < n_triangles) {
       base = face_colour(projected.quads.empty() ? projected.triangle_region[e] : 0);
     } else {
-      const int step = std::min(static_cast<int>(eta[e - n_triangles] * kColours), kColours - 1);
-      base = svg::colour((step + 0.5) / kColours);
+      const int step = std::min(static_cast<int>(eta[e - n_triangles] * kShades), kShades - 1);
+      base = svg::colour((step + 0.5) / kShades);
     }
     fill.push_back(shaded(base, brightness(area_vector(projected.points, v))));
   });
@@ -292,7 +292,7 @@ void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std
   constexpr double kSamplesAPixel = 2;
   const Raster raster(projected, kSamplesAPixel * picture.scale());
   ElementLayers(projected, raster, picture)
-      .draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostElementsWithEdges);
+      .draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostOutlined);
   constexpr double kLineWidth = 1.1;
   picture.add(seen_lines(projected, raster, picture), "none", "#000", kLineWidth);
   if (!mesh.quads.empty()) {

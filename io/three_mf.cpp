@@ -296,12 +296,12 @@ struct ZipCloser {
 
 /// What the archive says of the size counts for nothing.
 std::string all_of(zip_file_t& file, const std::string& path) {
-  constexpr std::size_t kBlock = 1 << 16, kMostBytes = 1'000'000'000;
+  constexpr std::size_t kInflated = 1 << 16, kMostBytes = 1'000'000'000;
   std::string text;
   for (;;) {
     const std::size_t before = text.size();
-    text.resize(before + kBlock);
-    const zip_int64_t n = zip_fread(&file, text.data() + before, kBlock);
+    text.resize(before + kInflated);
+    const zip_int64_t n = zip_fread(&file, text.data() + before, kInflated);
     if (n < 0) throw InputError(path + ": its model cannot be unpacked: " + zip_file_strerror(&file));
     text.resize(before + static_cast<std::size_t>(n));
     if (n == 0) return text;

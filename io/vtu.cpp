@@ -77,7 +77,7 @@ struct Cells {
 };
 
 /// Arrays of numbers, which every reader takes: meshio refuses arrays of strings.
-void write_names(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
+void write_name_arrays(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
   std::map<std::string, std::vector<std::int32_t>> tags;
   for (const Entity& entity : entities)
     for (const std::string& name : entity.names) tags[name].push_back(entity.tag);
@@ -95,8 +95,8 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
       << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
   if (!mesh.unit.empty()) out << "    <!-- lengths in " << mesh.unit << " -->\n";
   out << "      <FieldData>\n";
-  write_names(out, "curve", mesh.curves);
-  write_names(out, "region", mesh.regions);
+  write_name_arrays(out, "curve", mesh.curves);
+  write_name_arrays(out, "region", mesh.regions);
   out << "      </FieldData>\n";
   out << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << cells.types.size()
       << "\">\n";
@@ -122,11 +122,11 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data) {
-  constexpr std::uint8_t kLine = 3, kTriangle = 5, kQuad = 9;  // VTK cell types
+  constexpr std::uint8_t kVtkLine = 3, kVtkTriangle = 5, kVtkQuad = 9;  // VTK cell types
   Cells cells;
-  cells.add(mesh.lines, mesh.line_curve, mesh.curves, kLine);
-  cells.add(mesh.triangles, mesh.triangle_region, mesh.regions, kTriangle);
-  cells.add(mesh.quads, mesh.quad_region, mesh.regions, kQuad);
+  cells.add(mesh.lines, mesh.line_curve, mesh.curves, kVtkLine);
+  cells.add(mesh.triangles, mesh.triangle_region, mesh.regions, kVtkTriangle);
+  cells.add(mesh.quads, mesh.quad_region, mesh.regions, kVtkQuad);
   for (const auto& [name, values] : cell_data) {
     if (values.size() != cells.types.size()) {
       throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +

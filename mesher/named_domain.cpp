@@ -16,16 +16,16 @@
 namespace delquad {
 namespace {
 
-constexpr int kNone = -1, kSeveral = -2;
+constexpr int kNoRegion = -1, kSeveralRegions = -2;
 
 Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 
-/// For each face of the lines the region of the elements along it: kNone without elements, kSeveral when they
-/// differ.
+/// For each face of the lines the region of the elements along it: kNoRegion without elements,
+/// kSeveralRegions when they differ.
 class RegionsInside {
  public:
   RegionsInside(const Mesh& mesh, const Mesh& lines, const Arrangement& arrangement)
-      : mesh_(mesh), lines_(lines), arrangement_(arrangement), region_(arrangement.faces.size(), kNone) {
+      : mesh_(mesh), lines_(lines), arrangement_(arrangement), region_(arrangement.faces.size(), kNoRegion) {
     for (std::size_t l = 0; l < lines.lines.size(); ++l)
       line_at_[std::minmax(lines.lines[l][0], lines.lines[l][1])] = static_cast<int>(l);
     add(mesh.triangles, mesh.triangle_region);
@@ -43,7 +43,7 @@ class RegionsInside {
         const int face = arrangement_.face_of[2 * at->second + !is_left(elements[e], at->second)];
         if (face < 0) continue;
         int& inside = region_[face];
-        inside = inside == kNone || inside == region[e] ? region[e] : kSeveral;
+        inside = inside == kNoRegion || inside == region[e] ? region[e] : kSeveralRegions;
       }
   }
 
@@ -82,8 +82,8 @@ FaceNames groups_of_faces(const Mesh& mesh, const Mesh& lines, const Arrangement
   const auto bounding = bounding_curves(lines, arrangement);
   for (std::size_t f = 0; f < groups.size(); ++f) {
     const int region = regions[f];
-    if (region != kNone) {
-      groups[f] = region == kSeveral ? std::vector<std::string>{} : mesh.regions[region].names;
+    if (region != kNoRegion) {
+      groups[f] = region == kSeveralRegions ? std::vector<std::string>{} : mesh.regions[region].names;
       continue;
     }
     const auto bounds = [&](const DeclaredSurfaces::Surface& s) { return s.curves == bounding[f]; };

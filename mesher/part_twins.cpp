@@ -15,12 +15,12 @@ namespace delquad {
 namespace {
 
 /// An edge of a patch between two points of its boundary.
-struct Edge {
+struct PartEdge {
   std::array<int, 2> nodes;  ///< ascending
   bool is_chord;             ///< it lies inside
   int patch;
   std::array<int, 2> ends;  ///< points of the patch
-  friend auto operator<=>(const Edge&, const Edge&) = default;
+  friend auto operator<=>(const PartEdge&, const PartEdge&) = default;
 };
 
 template <std::size_t N>
@@ -33,7 +33,7 @@ void add_sides(const std::vector<std::array<int, N>>& elements, int n_boundary,
     }
 }
 
-void add_edges(const AllPatches& in, int p, std::vector<Edge>& edges) {
+void add_edges(const AllPatches& in, int p, std::vector<PartEdge>& edges) {
   const PatchMesh& patch = in.patches[p];
   const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
   const int n_boundary = static_cast<int>(node.size());
@@ -56,7 +56,7 @@ void add_edges(const AllPatches& in, int p, std::vector<Edge>& edges) {
 
 /// By patch, the ends of the chords that have to go.
 std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in) {
-  std::vector<Edge> edges;
+  std::vector<PartEdge> edges;
   for (std::size_t p = 0; p < in.patches.size(); ++p)
     if (!in.left_out[p]) add_edges(in, static_cast<int>(p), edges);
   std::ranges::sort(edges);

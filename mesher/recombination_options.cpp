@@ -6,7 +6,7 @@
 namespace delquad {
 namespace {
 
-const OptionTable<RecombinationOptions>& table() {
+const OptionTable<RecombinationOptions>& recombination_table() {
   static const auto all =
       OptionTable<RecombinationOptions>("recombination", "options of B and G")
           .add({.name = "solver",
@@ -24,7 +24,9 @@ const OptionTable<RecombinationOptions>& table() {
 
 }  // namespace
 
-OptionGroup recombination_group() { return table().group(); }
-RecombinationOptions recombination_options(const Options& options) { return table().read(options); }
+OptionGroup recombination_group() { return recombination_table().group(); }
+RecombinationOptions recombination_options(const Options& options) {
+  return recombination_table().read(options);
+}
 
 }  // namespace delquad

@@ -5,7 +5,7 @@
 namespace delquad {
 namespace {
 
-const OptionTable<RepairOptions>& table() {
+const OptionTable<RepairOptions>& repair_table() {
   static const auto all =
       OptionTable<RepairOptions>("repair", "of surfaces: what happens beside the stages")
           .add({.name = "part_twins",
@@ -21,7 +21,7 @@ const OptionTable<RepairOptions>& table() {
 
 }  // namespace
 
-OptionGroup repair_group() { return table().group(); }
-RepairOptions repair_options(const Options& options) { return table().read(options); }
+OptionGroup repair_group() { return repair_table().group(); }
+RepairOptions repair_options(const Options& options) { return repair_table().read(options); }
 
 }  // namespace delquad

@@ -18,7 +18,7 @@
 namespace delquad {
 namespace {
 
-constexpr double kAnyAngle = 180;
+constexpr double kEveryAngle = 180;
 
 CompoundOptions compound_options(const SurfaceSpec& spec) {
   CompoundOptions options;
@@ -52,7 +52,7 @@ std::vector<std::vector<int>> faces_of_tags(const SurfaceSpec& spec, const Mesh&
 SurfaceModel make_compounds(const SurfaceSpec& spec, SurfaceModel model) {
   const CompoundOptions options = compound_options(spec);
   if (spec.compounds == Compounds::kAll) {
-    const auto groups = tangent_groups(model, kAnyAngle);
+    const auto groups = tangent_groups(model, kEveryAngle);
     model = make_compound(std::move(model), groups, options);
   } else if (spec.compounds == Compounds::kTangent) {
     const auto groups = tangent_groups(model);

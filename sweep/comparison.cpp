@@ -18,12 +18,12 @@
 namespace delquad {
 namespace {
 
-constexpr const char* kSeconds = "seconds";
+constexpr const char* kTimeColumn = "seconds";
 constexpr int kDigits = 4;
 
 /// +1 where more is better, -1 where less is.
 int direction(const std::string& key, const std::vector<Metric>& own) {
-  if (key == kSeconds) return -1;
+  if (key == kTimeColumn) return -1;
   std::vector<Metric> metrics(metric_registry().begin(), metric_registry().end());
   for (const Metric& metric : own)
     if (find_metric(metric.key) == nullptr) metrics.push_back(metric);
@@ -32,7 +32,7 @@ int direction(const std::string& key, const std::vector<Metric>& own) {
   std::vector<std::string> known;
   for (const Metric& m : metrics)
     if (m.better != Better::kNeither) known.push_back(m.key);
-  known.emplace_back(kSeconds);
+  known.emplace_back(kTimeColumn);
   throw InputError(fmt::format("metric '{}' cannot be compared: expected some of {}{}", key,
                                fmt::join(known, ", "), suggestion(key, known)));
 }
@@ -103,7 +103,7 @@ Verdict judge(double better_by, std::optional<std::size_t> test, int direction, 
 std::vector<double> times_of(const Runs& runs) {
   std::vector<double> all;
   for (const CellRecord* run : runs)
-    if (const auto at = run->times.find(kSeconds); at != run->times.end())
+    if (const auto at = run->times.find(kTimeColumn); at != run->times.end())
       all.insert(all.end(), at->second.begin(), at->second.end());
   return all;
 }
@@ -115,7 +115,7 @@ class RowChange {
       : change_{row.group, row.pipeline,       std::move(metric), std::nan(""), std::nan(""),
                 0,         Verdict::kUnchanged},
         direction_(direction) {
-    if (change_.metric == kSeconds)
+    if (change_.metric == kTimeColumn)
       add_times(row, family);
     else
       add_values(row, family);
@@ -126,7 +126,7 @@ class RowChange {
     if (lost_ || found_) {
       change.verdict = lost_ ? Verdict::kWorse : Verdict::kBetter;
     } else if (!std::isnan(change.before) && !is_small(change.before, change.after, tolerance)) {
-      const bool is_single_time = change.metric == kSeconds && !test_;
+      const bool is_single_time = change.metric == kTimeColumn && !test_;
       change.verdict = is_single_time
                            ? Verdict::kNotProven
                            : judge((change.after - change.before) * direction_, test_, direction_, family);
@@ -165,7 +165,7 @@ class RowChange {
   void add_single_times(const Row& row) {
     std::vector<double> before, after;
     for (std::size_t i = 0; i < row.before.size(); ++i) {
-      const double a = value_of(*row.before[i], kSeconds), b = value_of(*row.after[i], kSeconds);
+      const double a = value_of(*row.before[i], kTimeColumn), b = value_of(*row.after[i], kTimeColumn);
       if (std::isnan(a) || std::isnan(b)) continue;
       before.push_back(a);
       after.push_back(b);
@@ -230,7 +230,7 @@ std::vector<OverDomains> compare_over_domains(const std::vector<Row>& rows,
   for (const std::string& word : words)
     for (std::size_t m = 0; m < metrics.size(); ++m) {
       const auto& [before, after] = by_word[word];
-      const ValueKind kind = metrics[m] == kSeconds ? ValueKind::kRepeatedTime : ValueKind::kMeasure;
+      const ValueKind kind = metrics[m] == kTimeColumn ? ValueKind::kRepeatedTime : ValueKind::kMeasure;
       PairedDomains domains = pair_by_domain(after, before, metrics[m], kind);
       if (domains.names.size() < kFewestDomains) continue;
       const std::size_t test = family.add(wilcoxon(domains.means()));

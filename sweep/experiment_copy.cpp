@@ -18,10 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFolder = "experiment";
+constexpr const char* kCopies = "experiment";
 /// Larger files are models, which are looked for by name and digest.
 constexpr std::uintmax_t kMostCopied = std::uintmax_t{4} << 20;
-constexpr std::size_t kDigits = 12;  // of a digest, in names
+constexpr std::size_t kDigestDigits = 12;  // of a digest, in names
 
 /// The deepest folder that holds all of the files, which are absolute.
 fs::path common_folder(const std::vector<fs::path>& files) {
@@ -63,7 +63,7 @@ std::string text_of(const fs::path& file) {
 /// `list`: <digest>.json
 std::vector<std::string> check_list(const fs::path& list) {
   const std::string text = text_of(list);
-  if (digest(text).substr(0, kDigits) != list.stem().string())
+  if (digest(text).substr(0, kDigestDigits) != list.stem().string())
     return {list.string() + ": was changed: it is not the list of the files of this copy"};
   std::vector<std::string> wrong;
   const Json json = Json::parse(text, nullptr, false);
@@ -81,20 +81,20 @@ fs::path keep_experiment(const Experiment& experiment, const fs::path& folder) {
   const std::vector<fs::path> files = experiment.files();
   const fs::path file = fs::absolute(experiment.file).lexically_normal(), root = common_folder(files);
   const std::string list = list_of_files(files, root, file);
-  const std::string name = digest(list).substr(0, kDigits);
-  const fs::path copy = folder / kFolder / name, listed = folder / kFolder / (name + ".json");
+  const std::string name = digest(list).substr(0, kDigestDigits);
+  const fs::path copy = folder / kCopies / name, listed = folder / kCopies / (name + ".json");
   const Json json = Json::parse(list);
   for (const auto& [path, mark] : json.at("files").items())
     if (!difference(copy / path, {mark.at("bytes"), mark.at("digest")}).empty())
       keep_file(root / path, copy / path);
   if (text_of(listed) != list) write_file_atomically(listed, [&](std::ostream& out) { out << list; });
-  return fs::path(kFolder) / name / file.lexically_relative(root);
+  return fs::path(kCopies) / name / file.lexically_relative(root);
 }
 
 std::vector<std::string> check_copies(const fs::path& folder) {
   std::vector<fs::path> lists;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder / kFolder, none))
+  for (const auto& entry : fs::directory_iterator(folder / kCopies, none))
     if (entry.path().extension() == ".json" && !entry.path().filename().string().starts_with('.'))
       lists.push_back(entry.path());
   std::ranges::sort(lists);
@@ -105,8 +105,8 @@ std::vector<std::string> check_copies(const fs::path& folder) {
 
 std::vector<std::string> check_copy(const fs::path& folder, const fs::path& file) {
   auto part = file.begin();
-  const bool named = std::distance(file.begin(), file.end()) >= 3 && *part == kFolder;
-  const fs::path list = named ? folder / kFolder / (std::next(part)->string() + ".json") : fs::path();
+  const bool named = std::distance(file.begin(), file.end()) >= 3 && *part == kCopies;
+  const fs::path list = named ? folder / kCopies / (std::next(part)->string() + ".json") : fs::path();
   if (!named || !fs::is_regular_file(list))
     return {(folder / file).string() + ": is missing: expected the copy of the experiment that run made"};
   return check_list(list);

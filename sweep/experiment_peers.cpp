@@ -131,7 +131,8 @@ std::vector<std::string> Experiment::add_peer_file(const std::filesystem::path& 
 void Experiment::read_peers(const TomlTable& table, const std::vector<std::string>& pipelines) {
   calibrate = read_calibrate(table, false);
   // By the file's own list: which of it is run must not change what peers are compared at.
-  const auto first = std::ranges::find_if(pipelines, makes_quads);
+  const auto first =
+      std::ranges::find_if(pipelines, [](const std::string& name) { return makes_quads(name); });
   calibrate_to = table.text("calibrate_to", first == pipelines.end() ? "" : *first);
   if (table.has("calibrate_to"))
     located(table.where("calibrate_to"), [&] { check_reference_word(calibrate_to); });

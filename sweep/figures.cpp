@@ -35,7 +35,7 @@ bool is_sound(const CellRecord& record) {
 }
 
 /// The variants that every pipeline has a record of, and the pipelines.
-struct Comparison {
+struct SmoothedEnergies {
   std::vector<std::string> pipelines, variants;
   std::map<std::pair<std::string, std::string>, const CellRecord*> cells;  // by variant and pipeline
 
@@ -49,8 +49,8 @@ void add_once(std::vector<T>& list, const T& item) {
   if (std::ranges::find(list, item) == list.end()) list.push_back(item);
 }
 
-Comparison comparison_of(const std::vector<CellRecord>& records) {
-  Comparison c;
+SmoothedEnergies comparison_of(const std::vector<CellRecord>& records) {
+  SmoothedEnergies c;
   std::set<std::string> triangles_only, quads, absent;
   for (const CellRecord& record : records) {
     if (record.reason.empty())
@@ -73,7 +73,7 @@ Comparison comparison_of(const std::vector<CellRecord>& records) {
 }
 
 /// What pipelines have no value for, in words: "gmsh: 1 failed, 2 not applicable".
-std::vector<std::string> notes_on_missing(const Comparison& c) {
+std::vector<std::string> notes_on_missing(const SmoothedEnergies& c) {
   std::vector<std::string> notes;
   for (const std::string& pipeline : c.pipelines) {
     int failed = 0, inapplicable = 0, unsound = 0;
@@ -93,7 +93,7 @@ std::vector<std::string> notes_on_missing(const Comparison& c) {
 }
 
 template <class X, class Y>
-Figure scatter(const Comparison& c, const char* name, const Diagram& frame, X x, Y y) {
+Figure scatter(const SmoothedEnergies& c, const char* name, const Diagram& frame, X x, Y y) {
   Figure figure{name, frame, "case,pipeline,x,y\n"};
   for (const std::string& pipeline : c.pipelines) {
     DiagramSeries series{pipeline, {}};
@@ -111,7 +111,7 @@ Figure scatter(const Comparison& c, const char* name, const Diagram& frame, X x,
 
 /// The part of the variants (in percent) on which a pipeline's cost is at most so many times the least.
 template <class Cost>
-Figure profile(const Comparison& c, const char* name, const std::string& title, Cost cost) {
+Figure profile(const SmoothedEnergies& c, const char* name, const std::string& title, Cost cost) {
   Figure figure{name,
                 {title, {"times the least", true}, {"% of the cells", false}, DiagramKind::kSteps, {}},
                 "pipeline,factor,percent\n"};
@@ -145,7 +145,7 @@ Figure profile(const Comparison& c, const char* name, const std::string& title, 
 }  // namespace
 
 std::vector<Figure> make_figures(const std::vector<CellRecord>& records) {
-  const Comparison c = comparison_of(records);
+  const SmoothedEnergies c = comparison_of(records);
   std::set<std::string> cases;
   for (const std::string& variant : c.variants) cases.insert(c.cell(variant, c.pipelines[0]).name);
   if (c.pipelines.size() < 2 || cases.size() < kFewestCases) return {};

@@ -8,8 +8,6 @@
 namespace delquad {
 namespace {
 
-using Json = nlohmann::json;
-
 /// ":LINE:COLUMN", as the parser has it in its text; empty where it has not.
 std::string place_in(const std::string& text) {
   const auto at = text.find("at line ");
@@ -21,9 +19,9 @@ std::string place_in(const std::string& text) {
 
 std::string why(const std::exception& error) {
   const std::string text = error.what();
-  const auto* json = dynamic_cast<const Json::exception*>(&error);
+  const auto* json = dynamic_cast<const nlohmann::json::exception*>(&error);
   if (json == nullptr) return text;
-  if (dynamic_cast<const Json::parse_error*>(json) != nullptr) {
+  if (dynamic_cast<const nlohmann::json::parse_error*>(json) != nullptr) {
     const auto says = [&](const char* part) { return text.find(part) != std::string::npos; };
     return says("end of input") || says("missing closing quote") ? "it ends there, too early"
                                                                  : "no JSON there";

@@ -86,9 +86,9 @@ bool is_better(const Candidate& one, const Candidate& before) {
   return false;
 }
 
-using Cells = std::map<std::pair<std::string, std::string>, Candidate>;
+using CellsToUnite = std::map<std::pair<std::string, std::string>, Candidate>;
 
-void add_cells(const StudyResults& results, Cells& cells) {
+void add_cells(const StudyResults& results, CellsToUnite& cells) {
   for (const CellRecord& record : results.records) {
     const Candidate candidate{record, damage_of_cell(record.folder / "record.json")};
     const auto [at, is_new] = cells.try_emplace({record.group, record.pipeline}, candidate);
@@ -97,7 +97,7 @@ void add_cells(const StudyResults& results, Cells& cells) {
 }
 
 /// A cell that no folder has sound is not handed on.
-void check_sound(const Cells& cells) {
+void check_sound(const CellsToUnite& cells) {
   std::vector<std::string> damage;
   for (const auto& [name, cell] : cells) unite(damage, cell.damage);
   if (!damage.empty())
@@ -124,7 +124,7 @@ void check_output(const std::vector<fs::path>& folders, const fs::path& output) 
 }
 
 void fill(const fs::path& target, const std::vector<fs::path>& folders, const StudyFile& study,
-          const Cells& cells) {
+          const CellsToUnite& cells) {
   for (const fs::path& folder : folders)
     if (fs::exists(folder / "experiment"))
       fs::copy(folder / "experiment", target / "experiment",
@@ -141,7 +141,7 @@ void merge_results(const std::vector<fs::path>& folders, const fs::path& output)
   for (const fs::path& folder : folders) all.push_back(read_results(folder));
   check_output(folders, output);
   StudyFile study = all[0].study;
-  Cells cells;
+  CellsToUnite cells;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0) add_study(all[i].study, folders[i], study);
     add_cells(all[i], cells);

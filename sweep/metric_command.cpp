@@ -16,22 +16,17 @@
 #include "sweep/command_files.h"
 #include "sweep/digest.h"
 #include "sweep/peer.h"
+#include "sweep/rendered_table.h"
 #include "sweep/run_program.h"
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 /// Of what a program printed: as much as is read, and as much as is shown in a message.
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 constexpr const char* kBlank = " \t\r\n";
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
 
 std::vector<std::string> fill_in(const MetricCommand& metric, const Case& c, const std::string& pipeline,
                                  const fs::path& folder) {
@@ -44,13 +39,13 @@ std::vector<std::string> fill_in(const MetricCommand& metric, const Case& c, con
     if (words[i].find("{size}") != std::string::npos) {
       const auto size = uniform_size(c);
       if (!size) throw InputError("it is told one number for the size, which varies here");
-      replace_all(words[i], "{size}", fmt::format("{}", *size));
+      words[i] = replace_all(words[i], "{size}", fmt::format("{}", *size));
     }
-    replace_all(words[i], "{mesh}", (folder / "mesh.msh").string());
-    replace_all(words[i], "{folder}", folder.string());
-    replace_all(words[i], "{case}", c.name);
-    replace_all(words[i], "{pipeline}", pipeline);
-    replace_all(words[i], "{seed}", std::to_string(c.seed));
+    words[i] = replace_all(words[i], "{mesh}", (folder / "mesh.msh").string());
+    words[i] = replace_all(words[i], "{folder}", folder.string());
+    words[i] = replace_all(words[i], "{case}", c.name);
+    words[i] = replace_all(words[i], "{pipeline}", pipeline);
+    words[i] = replace_all(words[i], "{seed}", std::to_string(c.seed));
   }
   return words;
 }
@@ -101,7 +96,7 @@ bool is_plain(const std::string& name) {
 
 MetricOutcome failed(std::string reason) { return {{}, std::move(reason)}; }
 
-MetricOutcome values_of(const std::string& key, const Json& object) {
+MetricOutcome values_of(const std::string& key, const nlohmann::json& object) {
   MetricOutcome outcome;
   if (object.empty()) return failed("printed an empty object");
   for (const auto& [name, value] : object.items()) {
@@ -132,7 +127,7 @@ MetricOutcome parse_metric_output(const std::string& key, const std::string& pri
       if (std::isinf(*number)) return failed("printed an infinite number");
       return {{{key, *number}}, ""};
     }
-    const Json json = Json::parse(part, nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(part, nullptr, false);
     if (json.is_object()) return values_of(key, json);
   }
   return failed("printed what is neither a number nor a JSON object of numbers: " +

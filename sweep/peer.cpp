@@ -19,6 +19,7 @@
 #include "sweep/command_files.h"
 #include "sweep/peer_reference.h"
 #include "sweep/peer_sizes.h"
+#include "sweep/rendered_table.h"
 #include "sweep/run_program.h"
 #include "sweep/scratch_folder.h"
 
@@ -67,11 +68,6 @@ std::vector<std::string> located_command(const Peer& peer, std::vector<std::stri
   for (std::size_t i = 1; i < words.size(); ++i)
     if (const fs::path file = file_of_word(peer.folder, words, i); !file.empty()) words[i] = file.string();
   return words;
-}
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
 }
 
 Vec3 area_vector(const Mesh& mesh, std::span<const int> v) {
@@ -200,7 +196,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
     check_peer_mesh(peer, task.prepared, result.mesh);
   } catch (const InputError& error) {
     std::string reason = error.what();
-    replace_all(reason, folder.string() + "/", "");
+    reason = replace_all(reason, folder.string() + "/", "");
     throw PeerError("its mesh cannot be read: " + reason);
   }
   fs::remove(folder / output);
@@ -216,7 +212,7 @@ PeerRun run_scaled(const Peer& peer, const Case& c, const PreparedProblem& prepa
 }
 
 /// Everything in the folder but what is kept.
-void move_files(const fs::path& from, const fs::path& to) {
+void move_all_but_kept(const fs::path& from, const fs::path& to) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(from))
     if (entry.path().filename() != kKept) files.push_back(entry.path());
@@ -241,7 +237,7 @@ class Calibrated {
     done = calibrate_scale(wanted_, [&](double scale) { return quads_at(scale); });
     if (fs::exists(folder_ / kKept)) {
       remove_files(folder_);
-      move_files(folder_ / kKept, folder_);
+      move_all_but_kept(folder_ / kKept, folder_);
       fs::remove(folder_ / kKept);
     }
     return std::move(*best_);
@@ -258,7 +254,7 @@ class Calibrated {
       if (best_ && !(off < off_)) return remove_files(folder_), quads;
       fs::remove_all(folder_ / kKept);
       fs::create_directory(folder_ / kKept);
-      move_files(folder_, folder_ / kKept);
+      move_all_but_kept(folder_, folder_ / kKept);
       best_ = std::move(run);
       off_ = off;
       return quads;
@@ -310,15 +306,15 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
   std::vector<std::string> words = located_command(peer, peer.command);
   for (std::string& word : words) {
     if (word.find("{size}") != std::string::npos)
-      replace_all(word, "{size}", fmt::format("{}", told_size(task)));
+      word = replace_all(word, "{size}", fmt::format("{}", told_size(task)));
     if (word.find("{quads}") != std::string::npos)
-      replace_all(
+      word = replace_all(
           word, "{quads}",
           fmt::format("{:.0f}", task.prepared.expected_quads / (task.field_scale * task.field_scale)));
-    replace_all(word, "{size_field}", size_field.string());
-    replace_all(word, "{input}", input.string());
-    replace_all(word, "{output}", output);
-    replace_all(word, "{seed}", std::to_string(task.c.seed));
+    word = replace_all(word, "{size_field}", size_field.string());
+    word = replace_all(word, "{input}", input.string());
+    word = replace_all(word, "{output}", output);
+    word = replace_all(word, "{seed}", std::to_string(task.c.seed));
   }
   return words;
 }

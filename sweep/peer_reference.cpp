@@ -18,13 +18,11 @@
 namespace delquad {
 namespace {
 
-using Json = nlohmann::json;
-
 /// The record of the cell, if it is of the same case, options and program.
-std::optional<Json> valid_record(const ReferenceCell& cell) {
+std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
   if (cell.folder.empty()) return std::nullopt;
   std::ifstream in(cell.folder / "record.json");
-  const Json json = Json::parse(in, nullptr, false);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || json.value("key", "") != cell.key) return std::nullopt;
   return json;
 }
@@ -68,7 +66,7 @@ std::optional<double> reference_quads(const PreparedProblem& prepared, const std
                                       const ReferenceCell& cell) {
   if (const auto record = valid_record(cell)) {
     if (record->value("status", "") != "ok") return std::nullopt;
-    const Json& metrics = record->at("metrics");
+    const nlohmann::json& metrics = record->at("metrics");
     return metrics.at("n_quads").get<double>() + 0.5 * metrics.at("n_triangles").get<double>();
   }
   return quads_of_word(prepared, word);

@@ -12,11 +12,6 @@
 namespace delquad {
 namespace {
 
-double value_or_nan(const std::map<std::string, double>& values, const std::string& key) {
-  const auto at = values.find(key);
-  return at == values.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
-}
-
 /// Whether the 95 % interval goes on where no value can be.
 bool leaves_range(double value, double half_width, const Interval& range) {
   const bool is_inside = value >= range.low && value <= range.high;
@@ -97,6 +92,11 @@ RenderedTable render(const Table& table, const TableStyle& style) {
   for (const TableRow& row : table.rows) result.lines.push_back(line_of(row, columns, style));
   add_notes(table, result.notes);
   return result;
+}
+
+double value_or_nan(const std::map<std::string, double>& values, const std::string& key) {
+  const auto at = values.find(key);
+  return at == values.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
 }
 
 std::string replace_all(std::string text, const std::string& from, const std::string& to) {

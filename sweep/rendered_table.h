@@ -30,6 +30,7 @@ struct RenderedTable {
 /// published values stand.
 RenderedTable render(const Table& table, const TableStyle& style);
 
+double value_or_nan(const std::map<std::string, double>& values, const std::string& key);
 std::string replace_all(std::string text, const std::string& from, const std::string& to);
 
 }  // namespace delquad

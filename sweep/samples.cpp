@@ -11,7 +11,7 @@
 namespace delquad {
 namespace {
 
-constexpr const char* kSeed = "seed";  // the axis whose values are samples of the same thing
+constexpr const char* kSeedAxis = "seed";  // the axis whose values are samples of the same thing
 
 double tested_value(const CellRecord& record, const std::string& key, ValueKind kind) {
   if (kind == ValueKind::kMeasure) return value_of(record, key);
@@ -73,7 +73,7 @@ bool is_of_quads(const std::string& key) {
 std::string row_group(const CellRecord& record) {
   std::string group = record.name;
   for (const auto& [title, value] : record.variant)
-    if (title != kSeed) group += fmt::format(", {}={}", title, value);
+    if (title != kSeedAxis) group += fmt::format(", {}={}", title, value);
   return group;
 }
 

@@ -19,9 +19,9 @@ const std::string kPoints =
     R"({"type": "array", "items": {"type": "integer", "minimum": 3, "maximum": 10000000}, "minItems": 1})";
 const std::string kSeeds =
     R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 1000000000}, "minItems": 1})";
-const std::string kColumns =
+const std::string kColumnList =
     R"({"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": true})";
-const std::string kFolder = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
+const std::string kFolderName = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
 const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
 const std::string kSolvers =
@@ -125,8 +125,8 @@ const TomlKeys& ratio_keys() {
 }
 
 const TomlKeys& correlate_keys() {
-  static const TomlKeys keys = {{"of", "keys of measures", kColumns, nullptr, false, true},
-                                {"with", "keys of others", kColumns, nullptr, false, true}};
+  static const TomlKeys keys = {{"of", "keys of measures", kColumnList, nullptr, false, true},
+                                {"with", "keys of others", kColumnList, nullptr, false, true}};
   return keys;
 }
 
@@ -138,7 +138,7 @@ const TomlKeys& linf_study_keys() {
 
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
-  keys.insert(keys.begin(), {"name", "of its folder", kFolder, nullptr, false, true});
+  keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
   return keys;
 }
 
@@ -154,7 +154,7 @@ TomlKeys experiment_keys() {
                    {"correlate", "measures with others, within domains", "", correlate_keys},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
-                   {"columns", "of tables in Markdown and LaTeX, by key", kColumns},
+                   {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},
                    {"repeat_times", "how often all is run again for its time, in changing order",
                     between("integer", 2, kMostRepetitions)},
                    {"ratio", "of a measure between two pipelines", "", ratio_keys},

@@ -16,7 +16,7 @@ namespace delquad {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr const char* kFile = "study.json";
+constexpr const char* kStudyFile = "study.json";
 
 Json to_json(const StudyFile& study) {
   Json json = {{"title", study.title},       {"experiment", study.experiment},
@@ -85,17 +85,17 @@ StudyFile describe(const Experiment& experiment) {
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {
-  write_file_atomically(folder / kFile,
+  write_file_atomically(folder / kStudyFile,
                         [&](std::ostream& out) { out << sealed(to_json(study).dump(2) + "\n"); });
 }
 
 std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
-  std::ifstream in(folder / kFile);
+  std::ifstream in(folder / kStudyFile);
   if (!in) return std::nullopt;
   try {
     return from_json(Json::parse(in));
   } catch (const Json::exception& error) {
-    throw InputError(json_problem(folder / kFile, "does not describe an experiment's results", error));
+    throw InputError(json_problem(folder / kStudyFile, "does not describe an experiment's results", error));
   }
 }
 

@@ -18,11 +18,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-double value_or_nan(const std::map<std::string, double>& values, const std::string& key) {
-  const auto at = values.find(key);
-  return at == values.end() ? kUnknown : at->second;
-}
-
 /// Of UTF-8.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(

@@ -91,10 +91,10 @@ constexpr TableStyle kTex = {"\\textbf{", "}", kTilde, " $\\pm$ ", tex_escaped};
 
 /// In widths of a figure, rounded up.
 double width_of(char c) {
-  constexpr std::string_view kNarrow = " .,:;'!il|", kWide = "mwMW%";
+  constexpr std::string_view kThinLetters = " .,:;'!il|", kWideLetters = "mwMW%";
   if ((static_cast<unsigned char>(c) & 0xC0) == 0x80 || c == '{' || c == '}' || c == '$') return 0;
-  if (kNarrow.find(c) != kNarrow.npos) return 0.67;
-  if (kWide.find(c) != kWide.npos) return 2.1;
+  if (kThinLetters.find(c) != kThinLetters.npos) return 0.67;
+  if (kWideLetters.find(c) != kWideLetters.npos) return 2.1;
   return c >= 'A' && c <= 'Z' ? 1.65 : 1.07;
 }
 

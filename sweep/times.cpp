@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-constexpr const char* kFile = "times.json";
+constexpr const char* kTimesFile = "times.json";
 
 Json to_json(const CellTimes& cell) {
   Json json = {{"pipeline", cell.pipeline}, {"key", cell.key}};
@@ -27,7 +27,7 @@ Json to_json(const CellTimes& cell) {
   return json;
 }
 
-CellTimes from_json(const Json& json, std::size_t repetitions) {
+CellTimes times_of(const Json& json, std::size_t repetitions) {
   CellTimes cell{json.at("pipeline"), json.at("key"), {}, json.value("failure", "")};
   for (const char* key : {"seconds", "seconds_total"})
     if (json.contains(key)) json.at(key).get_to(cell.seconds[key]);
@@ -37,13 +37,13 @@ CellTimes from_json(const Json& json, std::size_t repetitions) {
   return cell;
 }
 
-VariantTimes from_json(const Json& json) {
+VariantTimes times_of(const Json& json) {
   VariantTimes times;
   json.at("repetitions").get_to(times.repetitions);
   times.load_before = json.at("load_average").at(0);
   times.load_after = json.at("load_average").at(1);
   for (const Json& cell : json.at("cells"))
-    times.cells.push_back(from_json(cell, static_cast<std::size_t>(times.repetitions)));
+    times.cells.push_back(times_of(cell, static_cast<std::size_t>(times.repetitions)));
   return times;
 }
 
@@ -67,19 +67,19 @@ void write_times(const fs::path& folder, const VariantTimes& times) {
                {"load_average", {times.load_before, times.load_after}},
                {"cells", Json::array()}};
   for (const CellTimes& cell : times.cells) json["cells"].push_back(to_json(cell));
-  write_file_atomically(folder / kFile, [&](std::ostream& out) {
+  write_file_atomically(folder / kTimesFile, [&](std::ostream& out) {
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   });
 }
 
 std::optional<VariantTimes> read_times(const fs::path& folder) {
-  std::ifstream in(folder / kFile);
+  std::ifstream in(folder / kTimesFile);
   if (!in) return std::nullopt;
   const auto damaged = [&](const std::exception& why) {
-    return InputError(json_problem(folder / kFile, "is no file of repeated times", why));
+    return InputError(json_problem(folder / kTimesFile, "is no file of repeated times", why));
   };
   try {
-    return from_json(Json::parse(in));
+    return times_of(Json::parse(in));
   } catch (const Json::exception& error) {
     throw damaged(error);
   } catch (const InputError& error) {
@@ -100,7 +100,7 @@ std::vector<std::string> attach_times(std::vector<CellRecord>& records) {
         problems.push_back(error.what());
       }
     if (!at->second) continue;
-    if (std::string problem = attach(*at->second, folder / kFile, record); !problem.empty())
+    if (std::string problem = attach(*at->second, folder / kTimesFile, record); !problem.empty())
       problems.push_back(std::move(problem));
   }
   return problems;

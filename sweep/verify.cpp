@@ -32,7 +32,7 @@ using Lines = std::vector<std::string>;
 /// Sums over the elements in the order of the file, not in that of the mesher; relative.
 constexpr double kRounding = 1e-9;
 
-std::string text_of(const fs::path& file) {
+std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -65,7 +65,7 @@ Json essence(const Json& record) {
 
 /// Fills in the record.
 Lines check_record(VerifiedCell& cell) {
-  const std::string text = text_of(cell.file);
+  const std::string text = bytes_of(cell.file);
   Lines wrong;
   if (!is_sealed(text))
     wrong.push_back(cell.file.string() + ": was changed: its digest is not that of its text");
@@ -152,7 +152,7 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome) {
     const bool expected = fs::exists(scratch.path() / name);
     if (expected && !fs::exists(file))
       wrong.push_back(file.string() + ": is missing");
-    else if (expected != fs::exists(file) || (expected && text_of(scratch.path() / name) != text_of(file)))
+    else if (expected != fs::exists(file) || (expected && bytes_of(scratch.path() / name) != bytes_of(file)))
       wrong.push_back(file.string() + ": is not the table of these records");
   }
   return wrong;
@@ -161,7 +161,7 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome) {
 /// What concerns no single cell.
 Lines check_study(const fs::path& folder) {
   Lines wrong;
-  if (!is_sealed(text_of(folder / "study.json")))
+  if (!is_sealed(bytes_of(folder / "study.json")))
     wrong.push_back((folder / "study.json").string() + ": was changed: its digest is not that of its text");
   std::ranges::move(check_copies(folder), std::back_inserter(wrong));
   try {

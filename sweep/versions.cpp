@@ -13,13 +13,13 @@ namespace {
 
 /// As the program that reads CAD says; where it does not, that which it was built with.
 std::string ask_kernel_version() {
-  constexpr unsigned kSeconds = 30;
+  constexpr unsigned kWait = 30;
   const std::filesystem::path reader = cad_program();
   if (reader.empty()) return kOcctVersion;
   try {
     const ScratchFolder scratch;
     const std::filesystem::path printed = scratch.path() / "version";
-    const ProgramRun run = run_program({reader.string(), "--version"}, scratch.path(), printed, kSeconds);
+    const ProgramRun run = run_program({reader.string(), "--version"}, scratch.path(), printed, kWait);
     std::ifstream in(printed);
     if (std::string line; how_it_ended(run).empty() && std::getline(in, line)) return line;
   } catch (const InputError&) {

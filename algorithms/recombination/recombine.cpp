@@ -31,12 +31,12 @@ class Lap {
 };
 
 /// Pairs that are looked at together, so that what each needs is fetched from memory while others are.
-constexpr std::size_t kPerBlock = 256;
+constexpr std::size_t kPairsPerBlock = 256;
 
 /// The triangles of the pairs that are matched through their lower nodes in [begin, end).
 std::size_t list_pairs(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate,
                        std::size_t begin, std::size_t end,
-                       std::array<std::pair<int, int>, kPerBlock>& pairs) {
+                       std::array<std::pair<int, int>, kPairsPerBlock>& pairs) {
   const int n = static_cast<int>(dual.triangle.size());
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
@@ -55,19 +55,20 @@ std::size_t list_pairs(const TriPatch& tri, const DualGraph& dual, const std::ve
 std::vector<std::array<int, 4>> merged_pairs(const TriPatch& tri, const DualGraph& dual,
                                              const std::vector<int>& mate) {
   using Quads = std::vector<std::array<int, 4>>;
-  return parallel_collect<std::array<int, 4>>(dual.triangle.size(), [&](std::size_t begin, std::size_t end,
-                                                                        Quads& quads) {
-    quads.reserve(end - begin);
-    std::array<std::pair<int, int>, kPerBlock> pairs;
-    for (; begin < end; begin += kPerBlock) {
-      const std::size_t count = list_pairs(tri, dual, mate, begin, std::min(begin + kPerBlock, end), pairs);
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto [t, u] = pairs[k];
-        const int side = facing_side(tri, t, u);
-        if (side >= 0) quads.push_back(merged_quad(tri, t, side, u));  // else by an extra edge
-      }
-    }
-  });
+  return parallel_collect<std::array<int, 4>>(
+      dual.triangle.size(), [&](std::size_t begin, std::size_t end, Quads& quads) {
+        quads.reserve(end - begin);
+        std::array<std::pair<int, int>, kPairsPerBlock> pairs;
+        for (; begin < end; begin += kPairsPerBlock) {
+          const std::size_t count =
+              list_pairs(tri, dual, mate, begin, std::min(begin + kPairsPerBlock, end), pairs);
+          for (std::size_t k = 0; k < count; ++k) {
+            const auto [t, u] = pairs[k];
+            const int side = facing_side(tri, t, u);
+            if (side >= 0) quads.push_back(merged_quad(tri, t, side, u));  // else by an extra edge
+          }
+        }
+      });
 }
 
 /// Those quads, and the triangles matched with a spare.

@@ -38,8 +38,8 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
   return std::nullopt;
 }
 
-Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-gp_Pnt to_pnt(const Vec3& p) { return {p.x, p.y, p.z}; }
+Vec3 vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+gp_Pnt pnt_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 /// The larger of the principal curvatures by size; NaN where the tangents du and dv are parallel or vanish.
 double largest_curvature(const Geom_Surface& surface, double u, double v) {
@@ -83,13 +83,13 @@ class FaceProjector {
       return std::visit(
           [&](const auto& surface) {
             double u, v;
-            ElSLib::Parameters(surface, to_pnt(x), u, v);
-            return to_vec(ElSLib::Value(u, v, surface));
+            ElSLib::Parameters(surface, pnt_of(x), u, v);
+            return vec_of(ElSLib::Value(u, v, surface));
           },
           *elementary_);
     }
     const Vec2 uv = parameters(x);
-    return to_vec(nearest_point(*surface_, to_pnt(x), uv.x, uv.y, tolerance));
+    return vec_of(nearest_point(*surface_, pnt_of(x), uv.x, uv.y, tolerance));
   }
 
  private:
@@ -97,7 +97,7 @@ class FaceProjector {
   Vec2 parameters(const Vec3& x) const {
     Vec2 uv{0, 0};
     if (elementary_) {
-      std::visit([&](const auto& surface) { ElSLib::Parameters(surface, to_pnt(x), uv.x, uv.y); },
+      std::visit([&](const auto& surface) { ElSLib::Parameters(surface, pnt_of(x), uv.x, uv.y); },
                  *elementary_);
       return uv;
     }
@@ -119,7 +119,7 @@ class CurveProjector {
     curve_ = BRep_Tool::Curve(mesh.edge, first_, last_);
     while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve_)) curve_ = trimmed->BasisCurve();
     is_closed_ = TopExp::FirstVertex(mesh.edge).IsSame(TopExp::LastVertex(mesh.edge));
-    for (const double t : parameters_) points_.push_back(to_vec(curve_->Value(t)));
+    for (const double t : parameters_) points_.push_back(vec_of(curve_->Value(t)));
   }
 
   Vec3 nearest(const Vec3& x, double tolerance) const {
@@ -133,13 +133,13 @@ class CurveProjector {
       best2 = dot(away, away);
       best = parameters_[k] + t * (parameters_[k + 1] - parameters_[k]);
     }
-    const gp_Pnt target = to_pnt(x);
+    const gp_Pnt target = pnt_of(x);
     const auto from = [&](double t) { return nearest_point(*curve_, first_, last_, target, t, tolerance); };
     const gp_Pnt p = from(best);
     // The nearest point may lie across the point where a closed curve begins and ends.
-    if (!is_closed_ || std::min(best - first_, last_ - best) > kNearEnd * (last_ - first_)) return to_vec(p);
+    if (!is_closed_ || std::min(best - first_, last_ - best) > kNearEnd * (last_ - first_)) return vec_of(p);
     const gp_Pnt q = from(best - first_ < last_ - best ? last_ : first_);
-    return to_vec(q.SquareDistance(target) < p.SquareDistance(target) ? q : p);
+    return vec_of(q.SquareDistance(target) < p.SquareDistance(target) ? q : p);
   }
 
  private:

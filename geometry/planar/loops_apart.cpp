@@ -19,7 +19,7 @@ namespace {
 /// A curve strays from its chord by at most so many times what it does at three places.
 constexpr double kSafety = 2;
 /// Halves of halves: by then the parts are shorter than rounding.
-constexpr int kMostHalvings = 60;
+constexpr int kMostHalvingsOfPairs = 60;
 
 double distance(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 d = b - a;
@@ -61,7 +61,7 @@ double distance(const Part& p, const Part& q) {
 std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
   check_cancelled();
   if (distance(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;
-  if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvings) {
+  if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvingsOfPairs) {
     const Part& shorter = norm(p.b - p.a) < norm(q.b - q.a) ? p : q;
     return 0.5 * (shorter.a + shorter.b);
   }

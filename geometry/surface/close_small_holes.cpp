@@ -45,11 +45,11 @@ class Sets {
 
 /// The loops of all faces, by face.
 std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
-  struct Side {
+  struct HoleSide {
     std::array<int, 2> ends;
     int other;
   };
-  std::vector<std::vector<Side>> of_face(mesh.regions.size());
+  std::vector<std::vector<HoleSide>> of_face(mesh.regions.size());
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for (const auto& line : mesh.lines) {
     const auto edge = sides_of_edge(std::span(sides), line[0], line[1]);
@@ -66,12 +66,12 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
   std::vector<std::vector<Loop>> loops(mesh.regions.size());
   for (std::size_t face = 0; face < of_face.size(); ++face) {
     std::map<int, int> number;  // of points
-    for (const Side& side : of_face[face])
+    for (const HoleSide& side : of_face[face])
       for (const int p : side.ends) number.try_emplace(p, static_cast<int>(number.size()));
     Sets sets(number.size());
-    for (const Side& side : of_face[face]) sets.join(number.at(side.ends[0]), number.at(side.ends[1]));
+    for (const HoleSide& side : of_face[face]) sets.join(number.at(side.ends[0]), number.at(side.ends[1]));
     std::map<int, Loop> by_set;
-    for (const Side& side : of_face[face]) {
+    for (const HoleSide& side : of_face[face]) {
       Loop& loop = by_set[sets.find(number.at(side.ends[0]))];
       if (loop.face >= 0 && loop.other != side.other) loop.other = -2;
       if (loop.face < 0) loop.other = side.other;

@@ -9,7 +9,7 @@ namespace {
 
 /// Crossings closer to a vertex than this part of an edge are moved into it, so that no slivers are made.
 constexpr double kSnapInner = 0.15;
-constexpr double kSnapEnd = 0.3;
+constexpr double kNearEnd = 0.3;
 /// Crossings this close to a boundary vertex touch the boundary.
 constexpr double kTouch = 0.01;
 
@@ -83,7 +83,7 @@ class LevelWalk {
     for (std::size_t i = 0; i < n; ++i) {
       EdgePoint p = path.points[i];
       const bool is_end = !path.closed && (i == 0 || i + 1 == n);
-      const double snap = is_end ? kSnapEnd : snap_inner;
+      const double snap = is_end ? kNearEnd : snap_inner;
       const int near = p.t < 0.5 ? p.a : p.b;
       if (std::min(p.t, 1 - p.t) < snap && (is_end || !on_boundary(near))) p = {near, -1, 0};
       if (!is_end && p.b >= 0 && std::min(p.t, 1 - p.t) < kTouch) return std::nullopt;

@@ -16,9 +16,9 @@ namespace {
 /// Rounds of averaging normals with those of the neighbours.
 constexpr int kSmoothing = 2;
 /// Sine of an angle below which a triangle is too thin to have a normal or a curvature.
-constexpr double kThin = 1e-3;
+constexpr double kThinRing = 1e-3;
 /// Part of a face's extent within which it counts as plane.
-constexpr double kPlane = 1e-9;
+constexpr double kFlatRing = 1e-9;
 
 Vec3 unit(const Vec3& v) {
   const double length = norm(v);
@@ -145,7 +145,7 @@ class FormEstimate {
       rows(2 * k + 1, 1) = dx, rows(2 * k + 1, 2) = dy;
       change(2 * k) = dot(dn, x), change(2 * k + 1) = dot(dn, y);
     }
-    if (!(norm(area) > kThin * longest * longest)) return std::nullopt;
+    if (!(norm(area) > kThinRing * longest * longest)) return std::nullopt;
     const Eigen::Vector3d form = rows.colPivHouseholderQr().solve(change);
     const Eigen::Vector3d ex(x.x, x.y, x.z), ey(y.x, y.y, y.z);
     return form(0) * ex * ex.transpose() + form(1) * (ex * ey.transpose() + ey * ex.transpose()) +
@@ -162,7 +162,7 @@ bool is_plane(const FacePiece& piece) {
   for (const auto& [a, b, c] : piece.triangles)
     sum = sum + cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]);
   const Vec3 normal = unit(sum);
-  const double tolerance = kPlane * diagonal(piece.points);
+  const double tolerance = kFlatRing * diagonal(piece.points);
   return dot(normal, normal) > 0 && std::ranges::all_of(piece.points, [&](const Vec3& p) {
            return std::abs(dot(p - piece.points[0], normal)) <= tolerance;
          });

@@ -42,11 +42,11 @@ int longest_side(const std::vector<Vec3>& points, const Triangle& v) {
 }
 
 bool has_area(const std::vector<Vec3>& points, const Triangle& v) {
-  constexpr double kFlat = 1e-12;  // height by longest side: what rounding leaves of collinear points
+  constexpr double kCollinear = 1e-12;  // height by longest side: what rounding leaves of collinear points
   const int k = longest_side(points, v);
   const Vec3 base = points[v[(k + 1) % 3]] - points[v[k]], side = points[v[(k + 2) % 3]] - points[v[k]];
   const double length = norm(base);
-  return norm(cross((1 / length) * base, side)) > kFlat * length;
+  return norm(cross((1 / length) * base, side)) > kCollinear * length;
 }
 
 /// Keeps the triangles for which keep(t), in order; returns how many went and where the first of them was.

@@ -8,7 +8,6 @@
 namespace delquad {
 namespace {
 
-constexpr std::array<int, 3> kNext = {1, 2, 0}, kLast = {2, 0, 1};
 /// How far two clips on a boundary edge may stand in the wrong order, by rounding; of the edge's length.
 constexpr double kOrderTolerance = 1e-9;
 

@@ -23,7 +23,6 @@ struct CellEnd {
 /// the pieces of the boundary in the cell, the triangles (seed, first, second) make up the cell.
 template <class Edge>
 void walk_cell(const MovingDelaunay& delaunay, const BoundedVoronoi& cells, int seed, Edge edge) {
-  constexpr int kNext[] = {1, 2, 0}, kLast[] = {2, 0, 1};
   const TriPatch& tri = delaunay.patch();
   const Vec2 x = tri.points[seed];
   const bool on_boundary = seed < tri.n_boundary;

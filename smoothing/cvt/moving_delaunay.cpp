@@ -16,7 +16,6 @@
 namespace delquad {
 namespace {
 
-constexpr std::array<int, 3> kNext = {1, 2, 0}, kLast = {2, 0, 1};
 /// How often a way that turns a triangle over is cut in half before the triangulation is made anew.
 constexpr int kHalvings = 2;
 /// How many corners more than at first a point has room for.

@@ -28,7 +28,7 @@ constexpr double kBarrier = 0.8;
 constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
 constexpr int kRings = 2;
 /// No pass follows one that gained no more than this part of the energy.
-constexpr double kLeastGain = 0.05;
+constexpr double kLeastTrackedGain = 0.05;
 /// For the worst: weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
 constexpr double kWorstWeight = 30;
 constexpr int kWorstPower = 3;
@@ -328,7 +328,8 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
       summary_.energy_before = descent.energy_before;
       summary_.energy_after = descent.energy_after;
     }
-    if (descent.energy_before - descent.energy_after <= kLeastGain * std::abs(descent.energy_before)) break;
+    if (descent.energy_before - descent.energy_after <= kLeastTrackedGain * std::abs(descent.energy_before))
+      break;
   }
   summary_.worst_after = worst();
   return summary_;

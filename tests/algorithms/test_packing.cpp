@@ -15,7 +15,7 @@ namespace {
 
 using testing_support::FunctionCross;
 using testing_support::FunctionSize;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPerDegree = std::numbers::pi / 180;
 
 TriPatch pack(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
               const FrontalOptions& options = {}, FrontalSummary* summary = nullptr) {
@@ -24,10 +24,10 @@ TriPatch pack(const PatchBoundary& boundary, const CrossField& cross, const Para
 
 TEST(Packing, FillsARotatedSquareWithItsLattice) {
   for (const double degrees : {0.0, 20.0, 37.0, 45.0, 89.0}) {
-    const double c = std::cos(degrees * kDegree), s = std::sin(degrees * kDegree);
+    const double c = std::cos(degrees * kPerDegree), s = std::sin(degrees * kPerDegree);
     FrontalSummary summary;
-    const TriPatch tri = pack(shapes::rectangle(1, 1, 20, 20, degrees * kDegree),
-                              FunctionCross(degrees * kDegree), FunctionSize(0.05), {}, &summary);
+    const TriPatch tri = pack(shapes::rectangle(1, 1, 20, 20, degrees * kPerDegree),
+                              FunctionCross(degrees * kPerDegree), FunctionSize(0.05), {}, &summary);
     EXPECT_EQ(tri.triangles.size(), 800u) << degrees;
     EXPECT_EQ(summary.packed, 19 * 19);
     EXPECT_EQ(summary.inserted, summary.packed);

@@ -17,10 +17,11 @@ namespace {
 using testing_support::FunctionCross;
 using testing_support::FunctionSize;
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 
 /// Angle between two crosses, in [0, pi/4].
-double apart(double theta, double other) { return std::abs(std::remainder(theta - other, kPi / 2)); }
+double angle_apart(double theta, double other) {
+  return std::abs(std::remainder(theta - other, std::numbers::pi / 2));
+}
 
 Complex as_complex(Vec2 u) { return {u.x, u.y}; }
 Vec2 as_vec(Complex w) { return {w.real(), w.imag()}; }
@@ -49,7 +50,7 @@ double rms_apart(const TriPatch& tri, const CrossField& a, const CrossField& b) 
   int hint_a = -1, hint_b = -1;
   for (int i = 0; i < kPoints; ++i) {
     const Vec2 u = random_point(tri, random);
-    const double angle = apart(a.at(u, hint_a).angle(), b.at(u, hint_b).angle());
+    const double angle = angle_apart(a.at(u, hint_a).angle(), b.at(u, hint_b).angle());
     sum += angle * angle / kPoints;
   }
   return std::sqrt(sum);
@@ -135,7 +136,7 @@ TEST(SizeAwareCross, LiesAlongTheBoundary) {
     for (int k = 0; k < 3; ++k) {
       if (tri.neighbours[t][k] >= 0) continue;
       const Vec2 a = tri.points[tri.triangles[t][(k + 1) % 3]], b = tri.points[tri.triangles[t][(k + 2) % 3]];
-      EXPECT_LE(apart(field.at(0.5 * (a + b), hint).angle(), std::atan2(b.y - a.y, b.x - a.x)), 1e-9);
+      EXPECT_LE(angle_apart(field.at(0.5 * (a + b), hint).angle(), std::atan2(b.y - a.y, b.x - a.x)), 1e-9);
     }
   }
 }
@@ -194,8 +195,8 @@ TEST(ExpectedDislocations, ClosedForms) {
   EXPECT_NEAR(expected_dislocations(*background, FunctionCross(0), linear), 50, 0.5);
   EXPECT_NEAR(expected_dislocations(*background, FunctionCross(0), FunctionSize(0.01)), 0, 1e-9);
   // At 45 degrees both directions share the loss.
-  EXPECT_NEAR(expected_dislocations(*background, FunctionCross(kPi / 4), linear), 50 * std::numbers::sqrt2,
-              0.7);
+  EXPECT_NEAR(expected_dislocations(*background, FunctionCross(std::numbers::pi / 4), linear),
+              50 * std::numbers::sqrt2, 0.7);
   // The grid of the exponential map has none.
   const FunctionSize radial([](Vec2 u) { return 0.01 * norm(u + Vec2{1, 0}); });
   const FunctionCross polar([](Vec2 u) { return std::atan2(u.y, u.x + 1); });

@@ -14,7 +14,7 @@ namespace {
 
 using testing_support::write_text;
 
-const std::string kSquare =
+const std::string kPlySquare =
     "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
     "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
@@ -62,7 +62,7 @@ std::string binary(bool big) {
 }
 
 TEST_F(Ply, ReadsText) {
-  const Mesh mesh = read(kSquare);
+  const Mesh mesh = read(kPlySquare);
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.regions.size(), 1u);
@@ -99,7 +99,7 @@ TEST_F(Ply, ColoursThatPaintAPictureAreNoRegions) {
 
 TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {
   const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = kSquare;
+    std::string text = kPlySquare;
     return text.replace(text.find(from), from.size(), to);
   };
   expect_error("", {"case.ply:1: ", "PLY"});
@@ -118,13 +118,13 @@ TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {
 }
 
 TEST_F(Ply, EveryTruncationIsRefused) {
-  for (const std::string& whole : {kSquare.substr(0, kSquare.size() - 1), binary(false), binary(true)})
+  for (const std::string& whole : {kPlySquare.substr(0, kPlySquare.size() - 1), binary(false), binary(true)})
     for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_FALSE(reads(whole.substr(0, n))) << n;
 }
 
 TEST_F(Ply, FlippedBitsAreReadOrRefused) {
   std::mt19937 random(7);
-  for (const std::string& whole : {kSquare, binary(false), binary(true)}) {
+  for (const std::string& whole : {kPlySquare, binary(false), binary(true)}) {
     int refused = 0;
     constexpr int kTrials = 500;
     for (int trial = 0; trial < kTrials; ++trial) {

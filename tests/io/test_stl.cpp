@@ -16,10 +16,10 @@ namespace {
 
 using Facet = std::array<std::array<float, 3>, 3>;
 
-const std::vector<Facet> kTetrahedron = {{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}},
-                                         {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}},
-                                         {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
-                                         {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+const std::vector<Facet> kStlTetrahedron = {{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}},
+                                            {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}},
+                                            {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
+                                            {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
 
 std::string text_file(const std::vector<Facet>& facets, const std::string& name = "part one") {
   std::string text = "solid " + name + "\n";
@@ -63,8 +63,8 @@ class Stl : public testing_support::ReaderTest<> {
 
 TEST_F(Stl, TextAndBinaryGiveOneClosedMesh) {
   const std::string solid_header = "solid as some programs write it";
-  for (const std::string& content :
-       {text_file(kTetrahedron), binary_file(kTetrahedron), binary_file(kTetrahedron, solid_header)}) {
+  for (const std::string& content : {text_file(kStlTetrahedron), binary_file(kStlTetrahedron),
+                                     binary_file(kStlTetrahedron, solid_header)}) {
     const Mesh mesh = read(content);
     EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}));
     EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}}));
@@ -83,7 +83,8 @@ TEST_F(Stl, KeywordsInAnyCaseWithoutANameAndWithNegativeZeros) {
 }
 
 TEST_F(Stl, EachSolidOfATextIsARegion) {
-  const Mesh mesh = read(text_file({kTetrahedron[0]}, "left wing") + text_file({kTetrahedron[3]}, "right"));
+  const Mesh mesh =
+      read(text_file({kStlTetrahedron[0]}, "left wing") + text_file({kStlTetrahedron[3]}, "right"));
   ASSERT_EQ(mesh.regions.size(), 2u);
   EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"left wing"}));
   EXPECT_EQ(mesh.regions[1].tag, 2);
@@ -99,16 +100,16 @@ TEST_F(Stl, NamesTheLineOrByteOfWhatIsWrong) {
   expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n",
                {"case.stl:4: ", "finite", "'nan'"});
   expect_error("solid a\nfoo\n", {"case.stl:2: ", "'endsolid'", "'foo'"});
-  std::string four = text_file({kTetrahedron[0]});
+  std::string four = text_file({kStlTetrahedron[0]});
   four.insert(four.find("  endloop"), "vertex 5 5 5\n");
   expect_error(four, {"case.stl:7: ", "'endloop'", "'vertex'"});
 
-  const std::string binary = binary_file(kTetrahedron);
+  const std::string binary = binary_file(kStlTetrahedron);
   expect_error(binary.substr(0, 100), {"100 bytes", "4 triangles", "284"});
   expect_error(binary + "x", {"285 bytes", "4 triangles", "284"});
   expect_error("solid " + binary.substr(6, 150), {"156 bytes", "4 triangles"});
   const float nan = std::nanf("");
-  expect_error(binary_file({kTetrahedron[0], {{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}}}),
+  expect_error(binary_file({kStlTetrahedron[0], {{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}}}),
                {"byte 174: ", "finite"});
   std::string huge = binary;
   huge.replace(80, 4, "\xff\xff\xff\xff");
@@ -116,7 +117,7 @@ TEST_F(Stl, NamesTheLineOrByteOfWhatIsWrong) {
 }
 
 TEST_F(Stl, EveryTruncationIsRefused) {
-  const std::string text = text_file(kTetrahedron, "t"), binary = binary_file(kTetrahedron);
+  const std::string text = text_file(kStlTetrahedron, "t"), binary = binary_file(kStlTetrahedron);
   const size_t name = std::string(" t\n").size();
   for (size_t n = 0; n < text.size() - name; ++n) EXPECT_FALSE(reads(text.substr(0, n))) << n;
   for (size_t n = 0; n < binary.size(); ++n) EXPECT_FALSE(reads(binary.substr(0, n))) << n;
@@ -125,7 +126,7 @@ TEST_F(Stl, EveryTruncationIsRefused) {
 
 TEST_F(Stl, FlippedBitsAreReadOrRefused) {
   std::mt19937 random(7);
-  for (const std::string& content : {text_file(kTetrahedron), binary_file(kTetrahedron)}) {
+  for (const std::string& content : {text_file(kStlTetrahedron), binary_file(kStlTetrahedron)}) {
     int refused = 0;
     constexpr int kTrials = 400;
     for (int trial = 0; trial < kTrials; ++trial) {

@@ -14,7 +14,7 @@ namespace {
 using testing_support::quad_grid;
 using testing_support::triangle_grid;
 
-constexpr double kRounding = 1e-12;
+constexpr double kMeshRounding = 1e-12;
 
 /// A pentagon of five quads round its centre: the centre has valence 5, nothing else is interior.
 Mesh pentagon() {
@@ -45,10 +45,10 @@ TEST(Metrics, OfASquareGrid) {
   EXPECT_EQ(values.at("n_inverted"), 0);
   for (const char* key :
        {"eta_mean", "eta_worst", "eta_p1", "eta_p50", "scaled_jacobian_min", "scaled_jacobian_mean"}) {
-    EXPECT_NEAR(values.at(key), 1, kRounding) << key;
+    EXPECT_NEAR(values.at(key), 1, kMeshRounding) << key;
   }
-  EXPECT_NEAR(values.at("angle_min"), 90, 90 * kRounding);
-  EXPECT_NEAR(values.at("angle_max"), 90, 90 * kRounding);
+  EXPECT_NEAR(values.at("angle_min"), 90, 90 * kMeshRounding);
+  EXPECT_NEAR(values.at("angle_max"), 90, 90 * kMeshRounding);
 }
 
 TEST(Metrics, OfTheFiveQuadsOfAPentagon) {
@@ -60,10 +60,10 @@ TEST(Metrics, OfTheFiveQuadsOfAPentagon) {
   EXPECT_EQ(metrics.valences, (std::map<int, long long>{{5, 1}}));
   EXPECT_EQ(metrics.quad_valences, metrics.valences);
   // Each quad has angles of 72, 90, 108 and 90 degrees.
-  EXPECT_NEAR(metrics.values.at("eta_mean"), 0.8, kRounding);
-  EXPECT_NEAR(metrics.values.at("scaled_jacobian_min"), std::sin(72 * std::numbers::pi / 180), kRounding);
-  EXPECT_NEAR(metrics.values.at("angle_min"), 72, 100 * kRounding);
-  EXPECT_NEAR(metrics.values.at("angle_max"), 108, 100 * kRounding);
+  EXPECT_NEAR(metrics.values.at("eta_mean"), 0.8, kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("scaled_jacobian_min"), std::sin(72 * std::numbers::pi / 180), kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("angle_min"), 72, 100 * kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("angle_max"), 108, 100 * kMeshRounding);
 }
 
 TEST(Metrics, InterfacesBetweenRegionsAreInterior) {
@@ -88,7 +88,7 @@ TEST(Metrics, OfATriangleMeshLeaveQuadMeasuresUndefined) {
   EXPECT_EQ(metrics.values.at("n_elements"), 32);
   EXPECT_EQ(metrics.values.at("n_inverted"), 0);
   EXPECT_EQ(metrics.valences, (std::map<int, long long>{{6, 9}}));
-  EXPECT_NEAR(metrics.values.at("angle_min"), 45, 100 * kRounding);
+  EXPECT_NEAR(metrics.values.at("angle_min"), 45, 100 * kMeshRounding);
 }
 
 TEST(Metrics, VertexWithATriangleIsNotRegular) {
@@ -105,7 +105,7 @@ TEST(Metrics, VertexWithATriangleIsNotRegular) {
   EXPECT_EQ(values.at("percent_quads"), 60);
   EXPECT_EQ(values.at("d_max"), 5);
   EXPECT_EQ(values.at("d4"), 0);
-  EXPECT_NEAR(values.at("eta_mean"), 1, kRounding) << "of the quads alone";
+  EXPECT_NEAR(values.at("eta_mean"), 1, kMeshRounding) << "of the quads alone";
 }
 
 TEST(Metrics, BadQuadsCount) {
@@ -133,11 +133,11 @@ TEST(Metrics, PercentilesAreNearestRanks) {
     mesh.quads.push_back({first, first + 1, first + 2, first + 3});
   }
   const MeshMetrics metrics = evaluate_metrics(mesh, nullptr);
-  EXPECT_NEAR(metrics.values.at("eta_worst"), 0.01, kRounding);
-  EXPECT_NEAR(metrics.values.at("eta_p1"), 0.01, kRounding);
-  EXPECT_NEAR(metrics.values.at("eta_p5"), 0.05, kRounding);
-  EXPECT_NEAR(metrics.values.at("eta_p50"), 0.5, kRounding);
-  EXPECT_NEAR(metrics.values.at("eta_mean"), 0.505, kRounding);
+  EXPECT_NEAR(metrics.values.at("eta_worst"), 0.01, kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("eta_p1"), 0.01, kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("eta_p5"), 0.05, kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("eta_p50"), 0.5, kMeshRounding);
+  EXPECT_NEAR(metrics.values.at("eta_mean"), 0.505, kMeshRounding);
   EXPECT_TRUE(std::isnan(metrics.values.at("d_max"))) << "no vertex is interior";
 }
 

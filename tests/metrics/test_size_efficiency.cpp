@@ -16,7 +16,7 @@ using testing_support::quad_grid;
 using testing_support::triangle_grid;
 
 constexpr double kQuadrature = 1e-3;  // relative, what the integral promises
-constexpr double kRounding = 1e-12;
+constexpr double kSizeRounding = 1e-12;
 
 struct SizeBy final : SizeField {
   explicit SizeBy(std::function<double(const Vec3&)> f) : delta(std::move(f)) {}
@@ -30,7 +30,7 @@ struct SizeBy final : SizeField {
 
 TEST(AdimensionalLength, IsLengthOverSizeWhereSizeIsConstant) {
   const SizeBy size([](const Vec3&) { return 0.25; });
-  EXPECT_NEAR(adimensional_length({1, 2, 3}, {3, 3, 5}, size), 12, kRounding);
+  EXPECT_NEAR(adimensional_length({1, 2, 3}, {3, 3, 5}, size), 12, kSizeRounding);
   EXPECT_EQ(adimensional_length({1, 2, 3}, {1, 2, 3}, size), 0);
 }
 
@@ -82,13 +82,13 @@ TEST(Tau, CountsEachEdgeOnceWithItsOwnLength) {
   // Two cells of 1 x 1/2: 4 edges of length 1 and 3 of length 1/2.
   const Mesh mesh = quad_grid(2, 1, 2, 0.5);
   const SizeBy one([](const Vec3&) { return 1.0; }), half([](const Vec3&) { return 0.5; });
-  EXPECT_NEAR(tau(mesh, one), 100 * std::exp(3 * (0.5 - 1) / 7), kRounding * 100);
-  EXPECT_NEAR(tau(mesh, half), 100 * std::exp(4 * (1 / 2.0 - 1) / 7), kRounding * 100);
+  EXPECT_NEAR(tau(mesh, one), 100 * std::exp(3 * (0.5 - 1) / 7), kSizeRounding * 100);
+  EXPECT_NEAR(tau(mesh, half), 100 * std::exp(4 * (1 / 2.0 - 1) / 7), kSizeRounding * 100);
 }
 
 TEST(Tau, IsHundredOnlyWhereEveryEdgeFits) {
   const SizeBy fitting([](const Vec3&) { return 0.1; }), other([](const Vec3&) { return 0.1001; });
-  EXPECT_NEAR(tau(quad_grid(10, 10), fitting), 100, kRounding * 100);
+  EXPECT_NEAR(tau(quad_grid(10, 10), fitting), 100, kSizeRounding * 100);
   EXPECT_LT(tau(quad_grid(10, 10), other), 99.95);
   EXPECT_LT(tau(triangle_grid(10, 10), fitting), 95) << "diagonals are too long";
 }

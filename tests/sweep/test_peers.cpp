@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using testing_support::read_text;
 using testing_support::write_text;
 
-const std::string kSquare =
+const std::string kPeerSquare =
     "[[case]]\nname = \"square\"\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 
 /// Experiments with meshers that are shell scripts, which get the files to read and to write.
@@ -45,7 +45,7 @@ class Peers : public testing::Test {
   std::string out() const { return (folder_ / "out").string(); }
   /// A mesh of the square by our own, for scripts to copy.
   std::string good_mesh() {
-    const fs::path file = write_text(folder_ / "own.toml", "pipelines = [\"DB\"]\n" + kSquare);
+    const fs::path file = write_text(folder_ / "own.toml", "pipelines = [\"DB\"]\n" + kPeerSquare);
     run_experiment(Experiment::read(file), folder_ / "own");
     return (folder_ / "own" / "square" / "DB" / "mesh.msh").string();
   }
@@ -59,7 +59,7 @@ class Peers : public testing::Test {
 };
 
 TEST_F(Peers, AreMeasuredAsOurs) {
-  const std::string text = peer("copy", "echo hello; cp '" + good_mesh() + "' $2") + kSquare;
+  const std::string text = peer("copy", "echo hello; cp '" + good_mesh() + "' $2") + kPeerSquare;
   const Experiment e = experiment("[\"DB\", \"copy\"]", text);
   const Outcome outcome = run_experiment(e, out());
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs, 0);
@@ -81,7 +81,7 @@ TEST_F(Peers, AreMeasuredAsOurs) {
 }
 
 TEST_F(Peers, AnotherVersionIsAnotherCell) {
-  const std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kSquare;
+  const std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"copy\"]", text), out());
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "done           square copy\n");
   std::string newer = text;
@@ -91,7 +91,7 @@ TEST_F(Peers, AnotherVersionIsAnotherCell) {
 
 /// Its mesh counts, but results of another version would be taken for its.
 TEST_F(Peers, SayWhenTheyDoNotTellTheirVersion) {
-  std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kSquare;
+  std::string text = peer("copy", "cp '" + good_mesh() + "' $2") + kPeerSquare;
   const std::string tells = "[\"echo\", \"1.0\"]";
   for (const auto& [version, why] : {std::pair("[\"true\"]", "true: prints no version"),
                                      std::pair("[\"sh\", \"-c\", \"exit 3\"]", "sh: ended with exit code 3"),
@@ -114,7 +114,7 @@ TEST_F(Peers, SayWhenTheyDoNotTellTheirVersion) {
 }
 
 TEST_F(Peers, AnotherScriptIsAnotherCell) {
-  const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kSquare;
+  const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"copy\"]", text), out());
   const auto record = nlohmann::json::parse(read_text(fs::path(out()) / "square" / "copy" / "record.json"));
   EXPECT_TRUE(record.at("peer").at("files").contains("./copy.sh"));
@@ -124,7 +124,7 @@ TEST_F(Peers, AnotherScriptIsAnotherCell) {
 
 TEST_F(Peers, FilesOfAnEarlierRunAreRemoved) {
   const std::string good = good_mesh();
-  const std::string text = peer("copy", "echo 1 > notes.txt; cp '" + good + "' $2") + kSquare;
+  const std::string text = peer("copy", "echo 1 > notes.txt; cp '" + good + "' $2") + kPeerSquare;
   const fs::path notes = fs::path(out()) / "square" / "copy" / "notes.txt",
                  others = out() + "/square/copy/mine";
   run_experiment(experiment("[\"copy\"]", text), out());
@@ -142,7 +142,7 @@ TEST_F(Peers, ScriptsAreFoundBesideTheExperiment) {
   const std::string text =
       "[[peer]]\nname = \"copy\"\ncommand = [\"sh\", \"copy.sh\", \"{input}\", \"{output}\"]\n"
       "version = [\"echo\", \"1.0\"]\ninput = \"msh\"\n" +
-      kSquare;
+      kPeerSquare;
   EXPECT_EQ(run_experiment(experiment("[\"copy\"]", text), out()).others_failed, 0);
   write_text(folder_ / "copy.sh", "exit 3\n");
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
@@ -150,7 +150,7 @@ TEST_F(Peers, ScriptsAreFoundBesideTheExperiment) {
 
 TEST_F(Peers, ThatFailLeaveWhatTheyReadAndPrinted) {
   const std::string text =
-      peer("fails", "echo no luck; exit 3") + peer("hangs", "echo wait; sleep 100") + kSquare;
+      peer("fails", "echo no luck; exit 3") + peer("hangs", "echo wait; sleep 100") + kPeerSquare;
   SweepOptions options;
   options.limits.seconds = 2;
   run_experiment(experiment("[\"fails\", \"hangs\"]", text), out(), options);
@@ -186,7 +186,7 @@ TEST_F(Peers, FailAlone) {
                            peer("moved", copy("moved.msh")) + peer("folded", copy("folded.msh")) +
                            "[[peer]]\nname = \"absent\"\ncommand = [\"no-such-mesher\", \"{input}\", "
                            "\"{output}\"]\nversion = [\"no-such-mesher\", \"-v\"]\n" +
-                           kSquare;
+                           kPeerSquare;
   const Outcome outcome = run_experiment(
       experiment("[\"crash\", \"code\", \"garbage\", \"DB\", \"mute\", \"empty\", \"hole\", \"moved\", "
                  "\"folded\", \"absent\"]",
@@ -222,7 +222,7 @@ TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
   *middle = {0.9, 0.9, 0};
   write_msh(folder_ / "inverted.msh", inverted);
   const std::string text = peer("bad", "cp '" + (folder_ / "inverted.msh").string() + "' $2") +
-                           peer("good", "cp '" + good + "' $2") + kSquare;
+                           peer("good", "cp '" + good + "' $2") + kPeerSquare;
   const Outcome outcome = run_experiment(experiment("[\"DB\", \"bad\", \"good\"]", text), out());
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs + outcome.unsound, 0);
   const auto cells = records();
@@ -267,7 +267,7 @@ TEST_F(Peers, MayRunClockwise) {
   Mesh turned = read_msh(good_mesh());
   for (auto& v : turned.quads) std::ranges::reverse(v);
   write_msh(folder_ / "turned.msh", turned);
-  const std::string text = peer("turned", "cp '" + (folder_ / "turned.msh").string() + "' $2") + kSquare;
+  const std::string text = peer("turned", "cp '" + (folder_ / "turned.msh").string() + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"turned\"]", text), out());
   EXPECT_NEAR(records().at("turned").values.at("eta_worst"), 1, 1e-9);
 }
@@ -275,7 +275,7 @@ TEST_F(Peers, MayRunClockwise) {
 /// Nothing that a peer started outlives the limit of its cell.
 TEST_F(Peers, HangUntilTheTimeout) {
   const std::string pid = (folder_ / "pid").string();
-  const std::string text = peer("hang", "sleep 600 & echo $! > '" + pid + "'; wait") + kSquare;
+  const std::string text = peer("hang", "sleep 600 & echo $! > '" + pid + "'; wait") + kPeerSquare;
   SweepOptions options;
   options.limits.seconds = 1;
   EXPECT_EQ(run_experiment(experiment("[\"hang\", \"DB\"]", text), out(), options).others_failed, 1);
@@ -301,7 +301,7 @@ TEST_F(Peers, ProgramsEndWithTheirLimit) {
 
 TEST_F(Peers, BadEntriesAreNamed) {
   const auto expect = [&](const std::string& entry, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { experiment("[\"DB\"]", "[[peer]]\n" + entry + kSquare); }, parts);
+    expect_input_error([&] { experiment("[\"DB\"]", "[[peer]]\n" + entry + kPeerSquare); }, parts);
   };
   const std::string version = "version = [\"true\"]\n", name = "name = \"x\"\n";
   expect(name + version + "command = [\"x\", \"{input}\"]\n", {"{output}", "command"});
@@ -314,15 +314,15 @@ TEST_F(Peers, BadEntriesAreNamed) {
   EXPECT_NO_THROW(experiment("[\"DB\"]", "[[peer]]\n" + name + version +
                                              "command = [\"sh\", \"-c\", \"awk '{print}' {input} > ${x} "
                                              "{output}\", \"${y}\", \"{ 1 }\"]\n" +
-                                             kSquare));
+                                             kPeerSquare));
   expect(name + version + "command = []\n", {"command", "empty"});
   expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
   const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";
   expect("name = \"Gmsh\"\n" + command, {"Gmsh", "small letter"});
   expect(name + command + "output = \"vtu\"\n", {"vtu", "msh, obj"});
   expect(name + command + "[[peer]]\n" + name + command, {"second peer"});
-  expect_input_error([&] { experiment("[\"y\"]", "[[peer]]\n" + name + command + kSquare); }, {"'y'"});
-  expect_input_error([&] { experiment("[\"x\", \"x\"]", "[[peer]]\n" + name + command + kSquare); },
+  expect_input_error([&] { experiment("[\"y\"]", "[[peer]]\n" + name + command + kPeerSquare); }, {"'y'"});
+  expect_input_error([&] { experiment("[\"x\", \"x\"]", "[[peer]]\n" + name + command + kPeerSquare); },
                      {"'x'", "twice"});
 }
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using testing_support::read_text;
 using testing_support::write_text;
 
-const std::string kSquare =
+const std::string kCalibratedSquare =
     "[[case]]\nname = \"square\"\nsize = 0.1\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 const std::string kGraded =
     "[[case]]\nname = \"graded\"\nsize = \"0.1 + 0.05*x\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
@@ -72,9 +72,10 @@ class CalibratedPeers : public testing::Test {
 TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
   const std::string peers =
       peer("grid", kCoarserGrid) + peer("plain", kCoarserGrid, "\"{size}\"", "calibrate = \"none\"\n");
-  const Outcome outcome = run_experiment(
-      experiment("pipelines = [\"DB\", \"grid\", \"plain\"]\ncalibrate = \"quads\"\n" + peers + kSquare),
-      out());
+  const Outcome outcome =
+      run_experiment(experiment("pipelines = [\"DB\", \"grid\", \"plain\"]\ncalibrate = \"quads\"\n" + peers +
+                                kCalibratedSquare),
+                     out());
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs, 0);
   const auto cells = records();
   EXPECT_EQ(cells.at("DB").values.at("n_quads"), 100);
@@ -101,8 +102,8 @@ TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
 
 /// Whether our mesh is there already, is made beside, or is not asked for: the number is the same.
 TEST_F(CalibratedPeers, NeedNoRecordOfOurs) {
-  const std::string text =
-      "pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\n" + peer("grid", kCoarserGrid) + kSquare;
+  const std::string text = "pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\n" +
+                           peer("grid", kCoarserGrid) + kCalibratedSquare;
   Experiment alone = experiment(text);
   alone.words = alone.find_pipelines({"grid"});
   run_experiment(alone, out());
@@ -117,7 +118,7 @@ TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
   add_stage({'X', "crash", PatchForm::kQuads, PatchForm::kQuads,
              [](const StageInput&, PatchMesh&, StageLog&) { raise(SIGKILL); }});
   const std::string text = "pipelines = [\"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"DBX\"\n" +
-                           peer("grid", kCoarserGrid) + kSquare;
+                           peer("grid", kCoarserGrid) + kCalibratedSquare;
   EXPECT_EQ(run_experiment(experiment(text), out()).others_failed, 1);
   const CellRecord cell = records().at("grid");
   EXPECT_EQ(cell.kind, "crash");
@@ -129,7 +130,7 @@ TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
 }
 
 TEST_F(CalibratedPeers, AreOtherCellsForAnotherWord) {
-  const std::string peers = peer("grid", kCoarserGrid) + kSquare;
+  const std::string peers = peer("grid", kCoarserGrid) + kCalibratedSquare;
   const std::string head = "pipelines = [\"grid\"]\ncalibrate = \"quads\"\n";
   run_experiment(experiment(head + "calibrate_to = \"DB\"\n" + peers), out());
   EXPECT_EQ(list_cells(experiment(head + "calibrate_to = \"DB\"\n" + peers), out()),
@@ -144,7 +145,8 @@ TEST_F(CalibratedPeers, GetTheBoundaryOfTheScaledSize) {
   std::string entry = peer("halves", edges + kGrid, "");
   entry.replace(entry.find("input = \"msh\""), 13, "input = \"obj\"");
   const Outcome outcome = run_experiment(
-      experiment("pipelines = [\"DB\", \"halves\"]\ncalibrate = \"quads\"\n" + entry + kSquare), out());
+      experiment("pipelines = [\"DB\", \"halves\"]\ncalibrate = \"quads\"\n" + entry + kCalibratedSquare),
+      out());
   EXPECT_EQ(outcome.others_failed, 0) << to_markdown(outcome.table);
   const auto cells = records();
   EXPECT_EQ(cells.at("halves").values.at("n_quads"), 100);
@@ -157,7 +159,7 @@ TEST_F(CalibratedPeers, GetTheBoundaryOfTheScaledSize) {
 TEST_F(CalibratedPeers, SayHowFarTheyAreOff) {
   const Outcome outcome =
       run_experiment(experiment("pipelines = [\"DB\", \"deaf\"]\ncalibrate = \"quads\"\n" +
-                                peer("deaf", "n=8\n" + kGrid) + kSquare),
+                                peer("deaf", "n=8\n" + kGrid) + kCalibratedSquare),
                      out());
   EXPECT_EQ(records().at("deaf").calibration->runs, 2);
   EXPECT_NE(to_markdown(outcome.table)
@@ -169,9 +171,10 @@ TEST_F(CalibratedPeers, SayHowFarTheyAreOff) {
 /// The first mesh stands when a further run fails, and its log and input are what is kept.
 TEST_F(CalibratedPeers, KeepWhatTheyHaveWhenARunFails) {
   const std::string script = "echo \"size $3\"\n[ \"$3\" = 0.1 ] || exit 4\nn=8\n" + kGrid;
-  const Outcome outcome = run_experiment(
-      experiment("pipelines = [\"DB\", \"once\"]\ncalibrate = \"quads\"\n" + peer("once", script) + kSquare),
-      out());
+  const Outcome outcome =
+      run_experiment(experiment("pipelines = [\"DB\", \"once\"]\ncalibrate = \"quads\"\n" +
+                                peer("once", script) + kCalibratedSquare),
+                     out());
   EXPECT_EQ(outcome.others_failed, 0);
   EXPECT_EQ(read_text(out() / "square" / "once" / "peer.log"), "size 0.1\n");
   EXPECT_NE(records().at("once").calibration->ended_by.find("exit code 4"), std::string::npos);
@@ -180,27 +183,30 @@ TEST_F(CalibratedPeers, KeepWhatTheyHaveWhenARunFails) {
 
 TEST_F(CalibratedPeers, KeysAreChecked) {
   const std::string entry = peer("grid", kCoarserGrid);
-  expect_input_error([&] { experiment("pipelines = [\"grid\"]\ncalibrate = \"quads\"\n" + entry + kSquare); },
-                     {"calibrate_to", "no word that makes quads"});
   expect_input_error(
-      [&] { experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"vertices\"\n" + entry + kSquare); },
+      [&] { experiment("pipelines = [\"grid\"]\ncalibrate = \"quads\"\n" + entry + kCalibratedSquare); },
+      {"calibrate_to", "no word that makes quads"});
+  expect_input_error(
+      [&] {
+        experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"vertices\"\n" + entry + kCalibratedSquare);
+      },
       {"vertices", "\"quads\""});
   expect_input_error(
       [&] {
         experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"D\"\n" + entry +
-                   kSquare);
+                   kCalibratedSquare);
       },
       {"'D'", "no quads"});
   expect_input_error(
-      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "planar = \"tetrahedra\"\n" + kSquare); },
+      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "planar = \"tetrahedra\"\n" + kCalibratedSquare); },
       {"tetrahedra", "boundary"});
   expect_input_error(
-      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "size_field = \"points\"\n" + kSquare); },
+      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "size_field = \"points\"\n" + kCalibratedSquare); },
       {"{size_field}"});
   expect_input_error(
       [&] {
         experiment("pipelines = [\"DB\"]\n" + peer("x", "", "\"{size_field}\"", "size_field = \"grid\"\n") +
-                   kSquare);
+                   kCalibratedSquare);
       },
       {"grid", "pos, sol, points"});
 }
@@ -209,7 +215,7 @@ TEST_F(CalibratedPeers, KeysAreChecked) {
 TEST_F(CalibratedPeers, AreThereWhereACalibrationIsAskedFor) {
   const std::string peers_file = write_text(folder_ / "grid.toml", peer("grid", kCoarserGrid)).string();
   const auto run = [&](const std::string& text, std::vector<std::string> more = {}) {
-    const std::string file = write_text(folder_ / "e.toml", text + kSquare).string();
+    const std::string file = write_text(folder_ / "e.toml", text + kCalibratedSquare).string();
     std::vector<std::string> arguments = {"run", file, "-o", out().string(), "--dry-run"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return testing_support::run_program(DELQUAD_PROGRAM, {arguments, 0, {}});
@@ -294,11 +300,12 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
   const std::string entry = peer("grid", kCoarserGrid);
   fs::rename(folder_ / "grid.sh", folder_ / "meshers" / "grid.sh");
   write_text(folder_ / "meshers" / "grid.toml", entry);
-  run_experiment(
-      experiment("pipelines = [\"DB\", \"grid\"]\npeer_files = [\"meshers/grid.toml\"]\n" + kSquare), out());
+  run_experiment(experiment("pipelines = [\"DB\", \"grid\"]\npeer_files = [\"meshers/grid.toml\"]\n" +
+                            kCalibratedSquare),
+                 out());
   EXPECT_EQ(records().at("grid").values.at("n_quads"), 64);
 
-  Experiment added = experiment("pipelines = [\"DB\"]\ncalibrate = \"quads\"\n" + kSquare);
+  Experiment added = experiment("pipelines = [\"DB\"]\ncalibrate = \"quads\"\n" + kCalibratedSquare);
   EXPECT_EQ(added.add_peer_file(folder_ / "meshers" / "grid.toml"), std::vector<std::string>{"grid"});
   added.words = added.find_pipelines({"DB", "grid"});
   run_experiment(added, folder_ / "added");
@@ -315,7 +322,7 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
 /// --peer runs all of a file, or those of them that --pipelines names.
 TEST_F(CalibratedPeers, FilesMayBeNamedOnTheCommandLine) {
   write_text(folder_ / "two.toml", peer("one", kCoarserGrid) + peer("two", kCoarserGrid));
-  const fs::path file = write_text(folder_ / "e.toml", "pipelines = [\"DB\"]\n" + kSquare);
+  const fs::path file = write_text(folder_ / "e.toml", "pipelines = [\"DB\"]\n" + kCalibratedSquare);
   const auto cells = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"run", file.string(), "-o", out().string(), "--dry-run"};
     arguments.insert(arguments.end(), more.begin(), more.end());

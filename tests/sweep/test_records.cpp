@@ -22,11 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing_support::read_text;
 using testing_support::write_text;
-using Json = nlohmann::ordered_json;
 
-const std::string kSquare = "[[case]]\nname = \"square\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+const std::string kRecordSquare = "[[case]]\nname = \"square\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 const std::string kSizes =
-    "pipelines = [\"D\", \"DB\"]\n[matrix]\nsize = [0.3, 0.25]\nseed = [1, 2]\n" + kSquare;
+    "pipelines = [\"D\", \"DB\"]\n[matrix]\nsize = [0.3, 0.25]\nseed = [1, 2]\n" + kRecordSquare;
 constexpr std::size_t kCells = 8;
 
 void replace(std::string& text, const std::string& from, const std::string& to) {
@@ -78,13 +77,14 @@ TEST_F(Records, AFolderIsEnoughToMakeItAgain) {
   EXPECT_TRUE(again.same_mesh);
   EXPECT_TRUE(again.differences.empty()) << again.differences[0];
   EXPECT_TRUE(again.values.empty()) << again.values[0];
-  const Json record = Json::parse(read_text(out("elsewhere") / "plate/DB/record.json"));
+  const nlohmann::ordered_json record =
+      nlohmann::ordered_json::parse(read_text(out("elsewhere") / "plate/DB/record.json"));
   EXPECT_TRUE(record.at("experiment").get<std::string>().starts_with("experiment/"));
 }
 
 TEST_F(Records, ACopyThatWasChangedIsRefused) {
   run(kSizes);
-  const Json record = Json::parse(read_text(cell() / "record.json"));
+  const nlohmann::ordered_json record = nlohmann::ordered_json::parse(read_text(cell() / "record.json"));
   const fs::path copy = out() / record.at("experiment").get<std::string>();
   EXPECT_EQ(read_text(copy), kSizes);
   write_text(copy, kSizes + "# a word\n");
@@ -106,7 +106,7 @@ TEST_F(Records, DataIsFoundByNameAndDigest) {
   fs::rename(folder_ / "data/parts/lens.msh", folder_ / "other/deep/down/lens.msh");
   const Rerun again = rerun_record(record, folder_ / "other");
   EXPECT_TRUE(again.same_mesh && again.differences.empty() && again.values.empty());
-  const std::string digest = Json::parse(read_text(record)).at("digests").at("model");
+  const std::string digest = nlohmann::ordered_json::parse(read_text(record)).at("digests").at("model");
   expect_input_error([&] { rerun_record(record, folder_ / "data"); }, {"lens.msh", digest.c_str(), "--data"});
   write_msh(folder_ / "data/parts/lens.msh", testing_support::lens(64, 12, 0.4));
   expect_input_error([&] { rerun_record(record, folder_ / "data"); },
@@ -119,7 +119,8 @@ TEST_F(Records, CellsAreAddressedByWhatTheyAre) {
   replace(more, "[0.3, 0.25]", "[0.5, 0.3, 0.4, 0.25]");
   replace(more, "[1, 2]", "[7, 1, 2]");
   replace(more, "[\"D\", \"DB\"]", "[\"F\", \"D\", \"DB\"]");
-  replace(more, kSquare, "[[case]]\nname = \"first\"\nloop = { rectangle = [[0, 0], [2, 1]] }\n" + kSquare);
+  replace(more, kRecordSquare,
+          "[[case]]\nname = \"first\"\nloop = { rectangle = [[0, 0], [2, 1]] }\n" + kRecordSquare);
   const auto before = fs::last_write_time(cell() / "record.json");
   const Outcome outcome = run(more);
   EXPECT_EQ(fs::last_write_time(cell() / "record.json"), before) << "is left alone";
@@ -133,7 +134,7 @@ TEST_F(Records, CellsAreAddressedByWhatTheyAre) {
 TEST_F(Records, RerunComparesValues) {
   run(kSizes);
   const fs::path file = cell() / "record.json";
-  Json record = Json::parse(read_text(file));
+  nlohmann::ordered_json record = nlohmann::ordered_json::parse(read_text(file));
   record["metrics"]["eta_mean"] = record["metrics"]["eta_mean"].get<double>() + 1e-15;
   record["seconds"]["matching"] = 1000;
   record["valences"]["4"] = 1;
@@ -147,8 +148,8 @@ TEST_F(Records, RerunComparesValues) {
 
 TEST_F(Records, RerunTakesMeasuresByCommandAgain) {
   write_text(folder_ / "one.sh", "echo 1\n");
-  const std::string metric =
-      "[[metric]]\nname = \"m\"\ncommand = [\"sh\", \"one.sh\", \"{mesh}\"]\n" + kSquare + "size = 0.3\n";
+  const std::string metric = "[[metric]]\nname = \"m\"\ncommand = [\"sh\", \"one.sh\", \"{mesh}\"]\n" +
+                             kRecordSquare + "size = 0.3\n";
   run("pipelines = [\"DB\"]\n" + metric);
   const fs::path file = cell("square") / "record.json";
   EXPECT_TRUE(rerun_record(file).values.empty());
@@ -162,7 +163,7 @@ TEST_F(Records, RerunTakesMeasuresByCommandAgain) {
 
 TEST_F(Records, SayWhatTheyWereMadeOn) {
   run(kSizes);
-  const Json record = Json::parse(read_text(cell() / "record.json"));
+  const nlohmann::ordered_json record = nlohmann::ordered_json::parse(read_text(cell() / "record.json"));
   const std::string started = record.at("started");
   ASSERT_EQ(started.size(), 20u);
   EXPECT_EQ(started[10], 'T');
@@ -178,7 +179,7 @@ TEST_F(Records, WhatIsWellIsSaidToBe) {
   run("pipelines = [\"D\", \"DBCO\"]\n[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = { base = 0.5, "
       "curvature "
       "= 24 }\n" +
-      kSquare + "size = \"0.1 + 0.1*x\"\n[[case]]\nname = \"bad\"\nsize = \"x - 5\"\n" +
+      kRecordSquare + "size = \"0.1 + 0.1*x\"\n[[case]]\nname = \"bad\"\nsize = \"x - 5\"\n" +
       "loop = { circle = { centre = [0, 0], radius = 1 } }\n");
   const Verification result = verify_results(out(), folder_ / "data");
   EXPECT_EQ(result.cells, 6u);
@@ -240,10 +241,10 @@ TEST_F(Records, VerifyMeasuresAgain) {
   write_text(file, text);
   EXPECT_EQ(findings().size(), 5u) << "the record, and tables in four formats, in which it has failed now";
   EXPECT_NE(findings()[0].find("record.json: was changed"), std::string::npos) << findings()[0];
-  Json record = Json::parse(text);
+  nlohmann::ordered_json record = nlohmann::ordered_json::parse(text);
   record.erase("digest");
   for (const char* key : {"eta_mean", "tau"}) {
-    Json other = record;
+    nlohmann::ordered_json other = record;
     other["metrics"][key] = record["metrics"][key].get<double>() * (1 + 1e-7);
     write_text(file, sealed(other.dump(2) + "\n"));
     const std::vector<std::string> found = findings();
@@ -287,7 +288,7 @@ TEST_F(Records, ADamagedRecordIsOneFailedCell) {
   std::mt19937 random(7);
   std::vector<std::string> texts = {"", "{}", "[1]", "null", "\x01\xff", "{\"case\": 3}"};
   for (const char* key : {"metrics", "variant", "status", "digests", "pipeline"}) {
-    Json record = Json::parse(whole);
+    nlohmann::ordered_json record = nlohmann::ordered_json::parse(whole);
     record[key] = 3;
     texts.push_back(record.dump());
   }
@@ -367,9 +368,9 @@ TEST_F(Records, ShardsOfSeveralFoldersAreMerged) {
 }
 
 TEST_F(Records, OtherValuesAndCasesAreMerged) {
-  run("pipelines = [\"DB\"]\n[matrix]\nsize = [0.3]\n" + kSquare);
+  run("pipelines = [\"DB\"]\n[matrix]\nsize = [0.3]\n" + kRecordSquare);
   const std::string other =
-      "pipelines = [\"DB\", \"F\"]\n[matrix]\nsize = [0.25, 0.3]\n" + kSquare +
+      "pipelines = [\"DB\", \"F\"]\n[matrix]\nsize = [0.25, 0.3]\n" + kRecordSquare +
       "[[case]]\nname = \"disc\"\nloop = { circle = { centre = [0, 0], radius = 1 } }\n";
   run_experiment(Experiment::read(write(other)), out("more"));
   merge_results({out(), out("more")}, out("all"));
@@ -386,17 +387,19 @@ TEST_F(Records, OtherValuesAndCasesAreMerged) {
 }
 
 TEST_F(Records, MergingRefusesWhatDoesNotFit) {
-  run("pipelines = [\"DB\"]\n" + kSquare + "size = 0.3\n");
-  run_experiment(Experiment::read(write("pipelines = [\"DB\"]\n" + kSquare + "size = 0.25\n")), out("finer"));
+  run("pipelines = [\"DB\"]\n" + kRecordSquare + "size = 0.3\n");
+  run_experiment(Experiment::read(write("pipelines = [\"DB\"]\n" + kRecordSquare + "size = 0.25\n")),
+                 out("finer"));
   expect_input_error(
       [&] {
         merge_results({out(), out("finer")}, out("all"));
       },
       {"square DB is not the same in", "out/square", "finer/square"});
-  run_experiment(Experiment::read(write("pipelines = [\"DB\"]\n[matrix]\nsize = [0.3]\n" + kSquare)),
+  run_experiment(Experiment::read(write("pipelines = [\"DB\"]\n[matrix]\nsize = [0.3]\n" + kRecordSquare)),
                  out("varied"));
   expect_input_error([&] { merge_results({out(), out("varied")}, out("all")); }, {"varied", "[\"size\"]"});
-  const fs::path named = write_text(folder_ / "f.toml", "pipelines = [\"DB\"]\n" + kSquare + "size = 0.3\n");
+  const fs::path named =
+      write_text(folder_ / "f.toml", "pipelines = [\"DB\"]\n" + kRecordSquare + "size = 0.3\n");
   run_experiment(Experiment::read(named), out("named"));
   expect_input_error([&] { merge_results({out(), out("named")}, out("all")); }, {"'f', not of 'e'"});
   expect_input_error([&] { merge_results({out(), folder_.path() / "nowhere"}, out("all")); }, {"nowhere"});

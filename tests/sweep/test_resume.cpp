@@ -29,7 +29,7 @@ const std::string kSweep =
     "title = \"A sweep\"\npipelines = [\"F\", \"FB\", \"DB\", \"DBC\"]\n[matrix]\nseed = [1, 2, 3]\n"
     "[[case]]\nname = \"square\"\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
     "[[case]]\nname = \"disc\"\nsize = 0.3\nloop = { circle = { centre = [0, 0], radius = 1 } }\n";
-constexpr int kCells = 24;
+constexpr int kResumedCells = 24;
 
 class Resume : public testing::Test {
  protected:
@@ -65,7 +65,7 @@ TEST_F(Resume, DoneCellsAreLeftAloneUntilTheyAreOutdated) {
   const Experiment experiment = Experiment::read(write(kSweep));
   run_experiment(experiment, out());
   const auto first = record_times(out());
-  ASSERT_EQ(first.size(), std::size_t{kCells});
+  ASSERT_EQ(first.size(), std::size_t{kResumedCells});
   run_experiment(experiment, out());
   EXPECT_EQ(record_times(out()), first);
 
@@ -107,7 +107,7 @@ TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
     EXPECT_EQ(record_times(out("shards")).size(), kSoFar[i]);
   }
   const auto whole = values_of(out("whole"));
-  ASSERT_EQ(whole.size(), std::size_t{kCells});
+  ASSERT_EQ(whole.size(), std::size_t{kResumedCells});
   EXPECT_EQ(values_of(out("parallel")), whole);
   EXPECT_EQ(values_of(out("shards")), whole);
   for (const char* mesh : {"square@seed=1/F/mesh.msh", "disc@seed=3/DBC/mesh.msh"})
@@ -152,10 +152,10 @@ TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
   EXPECT_NE(first.err.find("interrupted from outside"), std::string::npos) << first.err;
   EXPECT_NE(first.out.find("1 of 24 cells have no result yet"), std::string::npos) << first.out;
   const auto before = record_times(out());
-  EXPECT_EQ(before.size(), std::size_t{kCells - 1});
+  EXPECT_EQ(before.size(), std::size_t{kResumedCells - 1});
   EXPECT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
   const auto after = record_times(out());
-  EXPECT_EQ(after.size(), std::size_t{kCells});
+  EXPECT_EQ(after.size(), std::size_t{kResumedCells});
   for (const auto& [path, time] : before) EXPECT_EQ(after.at(path), time) << path;
 }
 
@@ -174,7 +174,7 @@ TEST_F(Resume, SurvivesBeingKilled) {
   std::mt19937 random(3);
   std::map<fs::path, fs::file_time_type> before;
   std::size_t kills = 0;
-  for (; kills < 200 && before.size() < kCells; ++kills) {
+  for (; kills < 200 && before.size() < kResumedCells; ++kills) {
     const pid_t child = fork();
     if (child == 0) {
       const int null = open("/dev/null", O_WRONLY);

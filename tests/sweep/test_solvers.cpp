@@ -18,16 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* kSquare =
+constexpr const char* kSolverSquare =
     "[[case]]\nname = \"square\"\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.1\n";
 constexpr const char* kBall = "[[case]]\nname = \"ball\"\nexample = \"sphere\"\nsize = 12\n";
 
 class Solvers : public testing::Test {
  protected:
-  Experiment read(const std::string& head, const std::string& cases = kSquare) {
+  Experiment read(const std::string& head, const std::string& cases = kSolverSquare) {
     return Experiment::read(testing_support::write_text(folder_ / "e.toml", head + cases));
   }
-  Outcome run(const std::string& head, const std::string& cases = kSquare) {
+  Outcome run(const std::string& head, const std::string& cases = kSolverSquare) {
     return run_experiment(read(head, cases), folder_ / "out");
   }
   Json record(const std::string& cell) {

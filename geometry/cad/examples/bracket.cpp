@@ -74,7 +74,7 @@ TopoDS_Shape with_fillets(const TopoDS_Shape& sharp) {
   return fillet.Shape();
 }
 
-std::string name_of(const TopoDS_Face& face) {
+std::string role_of(const TopoDS_Face& face) {
   const BRepAdaptor_Surface surface(face);
   if (surface.GetType() == GeomAbs_Cylinder) {
     const double radius = surface.Cylinder().Radius();
@@ -104,7 +104,7 @@ CadShape make_bracket() {
   CadShape cad;
   cad.shape = solid;
   for (TopExp_Explorer face(solid, TopAbs_FACE); face.More(); face.Next())
-    cad.names.add(face.Current(), name_of(TopoDS::Face(face.Current())));
+    cad.names.add(face.Current(), role_of(TopoDS::Face(face.Current())));
   return cad;
 }
 

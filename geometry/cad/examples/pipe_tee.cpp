@@ -12,15 +12,15 @@ namespace delquad::cad {
 
 namespace {
 
-constexpr double kLength = 120, kRadius = 20;             // of the pipe along x
+constexpr double kPipeLength = 120, kRadius = 20;         // of the pipe along x
 constexpr double kBranchHeight = 60, kBranchRadius = 15;  // of the branch along z
 
 }  // namespace
 
 CadShape make_pipe_tee() {
   // The third direction puts each pipe's seam away from the curve where they meet.
-  const gp_Ax2 along({-kLength / 2, 0, 0}, {1, 0, 0}, {0, 0, -1}), up({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
-  const TopoDS_Shape solid = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(along, kRadius, kLength),
+  const gp_Ax2 along({-kPipeLength / 2, 0, 0}, {1, 0, 0}, {0, 0, -1}), up({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  const TopoDS_Shape solid = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(along, kRadius, kPipeLength),
                                               BRepPrimAPI_MakeCylinder(up, kBranchRadius, kBranchHeight));
   TopoDS_Shell shell;
   BRep_Builder builder;

@@ -29,10 +29,15 @@ TopoDS_Edge bezier(const std::array<gp_Pnt, N>& poles) {
 
 /// The left half (y > 0) of a body of revolution about x with a round nose and a round tail.
 TopoDS_Shape half_fuselage() {
-  constexpr double kLength = 100;
-  const TopoDS_Edge profile = bezier<7>(
-      {{{0, 0, 0}, {0, 0, -5}, {14, 0, -8}, {50, 0, -8}, {85, 0, -6}, {kLength, 0, -3}, {kLength, 0, 0}}});
-  const TopoDS_Edge axis = BRepBuilderAPI_MakeEdge(gp_Pnt(kLength, 0, 0), gp_Pnt(0, 0, 0));
+  constexpr double kBodyLength = 100;
+  const TopoDS_Edge profile = bezier<7>({{{0, 0, 0},
+                                          {0, 0, -5},
+                                          {14, 0, -8},
+                                          {50, 0, -8},
+                                          {85, 0, -6},
+                                          {kBodyLength, 0, -3},
+                                          {kBodyLength, 0, 0}}});
+  const TopoDS_Edge axis = BRepBuilderAPI_MakeEdge(gp_Pnt(kBodyLength, 0, 0), gp_Pnt(0, 0, 0));
   const TopoDS_Shape below = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(profile, axis).Wire());
   return BRepPrimAPI_MakeRevol(below, gp_Ax1({0, 0, 0}, {1, 0, 0}), std::numbers::pi);
 }
@@ -56,7 +61,7 @@ TopoDS_Shape wing() {
   return loft.Shape();
 }
 
-std::string name_of(const TopoDS_Face& face) {
+std::string part_of(const TopoDS_Face& face) {
   switch (BRepAdaptor_Surface(face).GetType()) {
     case GeomAbs_SurfaceOfRevolution:
       return "fuselage";
@@ -76,7 +81,7 @@ CadShape make_wing_body() {
   CadShape cad;
   cad.shape = BRepAlgoAPI_Fuse(left, BRepBuilderAPI_Transform(left, mirror, /*Copy=*/true).Shape());
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
-    cad.names.add(face.Current(), name_of(TopoDS::Face(face.Current())));
+    cad.names.add(face.Current(), part_of(TopoDS::Face(face.Current())));
   return cad;
 }
 

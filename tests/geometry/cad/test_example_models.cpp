@@ -20,7 +20,7 @@ using namespace testing_support;
 using std::numbers::pi;
 
 /// Of areas and volumes against closed forms: the triangulation is as fine as 0.15 radians.
-constexpr double kFine = 4e-3;
+constexpr double kFineExample = 4e-3;
 
 std::filesystem::path write_file(const TemporaryFolder& folder, const std::string& name, CadFormat format) {
   const auto path = folder / (name + (format == CadFormat::kStep ? ".step" : ".brep"));
@@ -140,10 +140,10 @@ TEST(ExampleModels, AreAllListedAndTested) {
 
 TEST(ExampleModels, RoundOnesHaveTheirAreaAndVolume) {
   const SurfaceCounts sphere = count(read_example("sphere").fine), torus = count(read_example("torus").fine);
-  EXPECT_NEAR(sphere.area / (4 * pi * 100), 1, kFine);
-  EXPECT_NEAR(sphere.volume / (4 * pi * 1000 / 3), 1, 2 * kFine);
-  EXPECT_NEAR(torus.area / (4 * pi * pi * 20 * 8), 1, kFine);
-  EXPECT_NEAR(torus.volume / (2 * pi * pi * 20 * 64), 1, 2 * kFine);
+  EXPECT_NEAR(sphere.area / (4 * pi * 100), 1, kFineExample);
+  EXPECT_NEAR(sphere.volume / (4 * pi * 1000 / 3), 1, 2 * kFineExample);
+  EXPECT_NEAR(torus.area / (4 * pi * pi * 20 * 8), 1, kFineExample);
+  EXPECT_NEAR(torus.volume / (2 * pi * pi * 20 * 64), 1, 2 * kFineExample);
 }
 
 TEST(ExampleModels, BracketHasItsVolume) {
@@ -154,7 +154,7 @@ TEST(ExampleModels, BracketHasItsVolume) {
   const double fillet = 2 * pi * (15 + 3 * centroid) * spandrel * 3 * 3;
   const double holes = pi * (9 * 9 * 16 + 4 * 4 * 4 * 8);
   const double volume = plate - corners + pi * 15 * 15 * 8 + fillet - holes;
-  EXPECT_NEAR(count(read_example("bracket").fine).volume / volume, 1, kFine);
+  EXPECT_NEAR(count(read_example("bracket").fine).volume / volume, 1, kFineExample);
 }
 
 TEST(ExampleModels, PipeTeeHasItsArea) {
@@ -167,7 +167,7 @@ TEST(ExampleModels, PipeTeeHasItsArea) {
     area -= 2 * pi / kSamples * kBranch * z;                              // of the branch, inside the pipe
     area -= 2 * pi / kSamples * (kBranch * kBranch - y * y) * kPipe / z;  // of the pipe, inside the branch
   }
-  EXPECT_NEAR(count(read_example("pipe_tee").fine).area / area, 1, kFine);
+  EXPECT_NEAR(count(read_example("pipe_tee").fine).area / area, 1, kFineExample);
 }
 
 TEST(ExampleModels, WingBodyIsSymmetricWithSharpTrailingEdges) {
@@ -178,7 +178,7 @@ TEST(ExampleModels, WingBodyIsSymmetricWithSharpTrailingEdges) {
     (p.y + q.y + r.y > 0 ? area_left : area_right) += norm(cross(q - p, r - p)) / 2;
     span = std::max(span, p.y);
   }
-  EXPECT_NEAR(area_left / area_right, 1, kFine);
+  EXPECT_NEAR(area_left / area_right, 1, kFineExample);
   EXPECT_NEAR(span, 50, 1e-6);
   double sharpest = pi;  // between the sides of the surface
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {

@@ -12,13 +12,11 @@
 namespace delquad {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(ModelDomain, AnnulusIsOnePatchWithAHole) {
   for (bool reversed : {false, true}) {
     ModelBuilder builder;
     const auto circle = [&](double r) {
-      return reversed ? make_arc({0, 0}, r, 2 * kPi, 0) : make_circle({0, 0}, r);
+      return reversed ? make_arc({0, 0}, r, 2 * std::numbers::pi, 0) : make_circle({0, 0}, r);
     };
     const PlanarDomain domain =
         make_domain(builder.loop({circle(1)}).loop({circle(2)}, "ring").build(), constant(0.1));
@@ -29,7 +27,7 @@ TEST(ModelDomain, AnnulusIsOnePatchWithAHole) {
     for (const auto& [v, w] : patch.edges)
       area +=
           0.5 * cross(patch.points[static_cast<std::size_t>(v)], patch.points[static_cast<std::size_t>(w)]);
-    EXPECT_NEAR(area, 3 * kPi, 0.02);
+    EXPECT_NEAR(area, 3 * std::numbers::pi, 0.02);
     EXPECT_EQ(patch.edges.size() % 2, 0u);
   }
 }
@@ -98,7 +96,7 @@ TEST(ModelDomain, CrossingAndTouchingCurvesAreNamed) {
 TEST(ModelDomain, TooCoarseForAGapIsSaid) {
   const PlanarModel model = ModelBuilder()
                                 .loop({make_circle({0, 0}, 1)})
-                                .loop({make_arc({0, 0}, 0.98, 0.3, 0.3 + 2 * kPi)})
+                                .loop({make_arc({0, 0}, 0.98, 0.3, 0.3 + 2 * std::numbers::pi)})
                                 .build();
   expect_input_error([&] { make_domain(model, constant(0.7)); }, {"curve 1", "curve 2", "too large"});
   EXPECT_EQ(make_domain(model, constant(0.1)).patches.size(), 1u);

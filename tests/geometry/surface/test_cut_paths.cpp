@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-Chart chart_of(const SurfaceModel& model) {
+Chart one_chart(const SurfaceModel& model) {
   return extract_charts(model.fine, std::vector<char>(model.fine.triangles.size(), 1))[0];
 }
 
@@ -47,7 +47,7 @@ TEST(Parting, BothPartsHangTogether) {
   for (const SurfaceModel& model : {cylinder(24, 10, 1, 2), grid_surface({9, 9}, [](double u, double v) {
                                       return Vec3{u, v, u * v};
                                     })}) {
-    const Chart chart = chart_of(model);
+    const Chart chart = one_chart(model);
     const std::vector<char> parts = plan_parting(chart);
     ASSERT_EQ(parts.size(), chart.triangles.size());
     const auto first = static_cast<std::size_t>(std::ranges::count(parts, 0)), second = parts.size() - first;
@@ -58,7 +58,7 @@ TEST(Parting, BothPartsHangTogether) {
 }
 
 TEST(LevelCurves, CirclesOfACylinder) {
-  const Chart chart = chart_of(cylinder(24, 10, 1, 2));
+  const Chart chart = one_chart(cylinder(24, 10, 1, 2));
   const auto curves = level_curves(chart, heights(chart), 0.9);
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_TRUE(curves[0].path.closed);
@@ -67,7 +67,7 @@ TEST(LevelCurves, CirclesOfACylinder) {
 }
 
 TEST(LevelCurves, OpenPiecesEndOnTheBoundary) {
-  const Chart chart = chart_of(grid_surface({9, 9}, [](double u, double v) {
+  const Chart chart = one_chart(grid_surface({9, 9}, [](double u, double v) {
     return Vec3{u, v, (2 * u - 1) * (2 * u - 1)};
   }));
   const auto curves = level_curves(chart, heights(chart), 0.3);
@@ -80,7 +80,7 @@ TEST(LevelCurves, OpenPiecesEndOnTheBoundary) {
 }
 
 TEST(Descent, FollowsARuling) {
-  const Chart chart = chart_of(cylinder(24, 10, 1, 2));
+  const Chart chart = one_chart(cylinder(24, 10, 1, 2));
   std::vector<char> target(chart.points.size(), 0);
   int start = -1;
   for (int v = 0; v < chart.n_boundary; ++v) {
@@ -94,7 +94,7 @@ TEST(Descent, FollowsARuling) {
 }
 
 TEST(Descent, StopsInAMinimumElsewhere) {
-  const Chart chart = chart_of(grid_surface({9, 9}, [](double u, double v) {
+  const Chart chart = one_chart(grid_surface({9, 9}, [](double u, double v) {
     return Vec3{u, v, std::hypot(u - 0.5, v - 0.5)};
   }));
   EXPECT_FALSE(
@@ -103,7 +103,7 @@ TEST(Descent, StopsInAMinimumElsewhere) {
 
 TEST(CutPlanner, SeamBeginsAtACorner) {
   const SurfaceModel model = cylinder(24, 10, 1, 2);
-  const Chart chart = chart_of(model);
+  const Chart chart = one_chart(model);
   std::vector<CutEnd> ends(model.fine.points.size(), CutEnd::kAnywhere);
   const int corner = model.fine.lines[7][0];
   ends[corner] = CutEnd::kCorner;
@@ -115,7 +115,7 @@ TEST(CutPlanner, SeamBeginsAtACorner) {
 
 TEST(CutPlanner, TipsAreFoundAndReached) {
   const SurfaceModel model = cone(24, 12, 0.6);
-  const Chart chart = chart_of(model);
+  const Chart chart = one_chart(model);
   const std::vector<int> tips = sharp_tips(chart);
   ASSERT_EQ(tips.size(), 1u);
   EXPECT_EQ(chart.points[tips[0]], (Vec3{0, 0, 0}));
@@ -123,7 +123,7 @@ TEST(CutPlanner, TipsAreFoundAndReached) {
       plan_tip_cut(chart, tips[0], std::vector<CutEnd>(model.fine.points.size(), CutEnd::kAnywhere));
   ASSERT_TRUE(cut);
   EXPECT_NEAR(cut->length, 1, 5e-3);  // between two rulings the facets are nearer
-  EXPECT_TRUE(sharp_tips(chart_of(round_sphere(6))).empty());
+  EXPECT_TRUE(sharp_tips(one_chart(round_sphere(6))).empty());
 }
 
 TEST(CutPlanner, DivisionsAreShort) {
@@ -133,12 +133,12 @@ TEST(CutPlanner, DivisionsAreShort) {
                  r = 0.3 + 1.5 * std::pow(std::sin(z * std::numbers::pi / 3), 2);
     return Vec3{r * std::cos(phi), r * std::sin(phi), z};
   });
-  const auto neck = plan_division(chart_of(bell));
+  const auto neck = plan_division(one_chart(bell));
   ASSERT_TRUE(neck);
   EXPECT_TRUE(neck->closed);
   EXPECT_LT(neck->length, 1.2 * 2 * std::numbers::pi * 0.3);
   // A handle is opened by a loop around the tube, which separates nothing.
-  const auto loop = plan_division(chart_of(torus(60, 24, 3, 1)));
+  const auto loop = plan_division(one_chart(torus(60, 24, 3, 1)));
   ASSERT_TRUE(loop);
   EXPECT_NEAR(loop->length, 2 * std::numbers::pi, 0.3);
 }

@@ -17,7 +17,7 @@ using testing_support::triangle_grid;
 using testing_support::violations;
 using testing_support::volume;
 
-const std::vector<std::string> kSound;
+const std::vector<std::string> kSoundMirror;
 constexpr MirrorPlane kLeftSide = {{0, 0, 0}, {2, 0, 0}, 1e-9};
 
 /// The faces of a box of unit volume but for the one at x = 0.
@@ -38,7 +38,7 @@ Mesh open_box() {
 TEST(Mirror, AnOpenBoxBecomesAClosedOneOfTwiceTheVolume) {
   const Mesh half = open_box();
   const SurfaceModel model = make_surface_model(add_mirror_image(half, kLeftSide, "box"));
-  EXPECT_EQ(violations(model), kSound);
+  EXPECT_EQ(violations(model), kSoundMirror);
   EXPECT_TRUE(model.warnings.empty());
   EXPECT_NEAR(volume(model.fine), 2, 1e-12);
   // Sides run on through the plane, the two ends are faces of their own.
@@ -50,7 +50,7 @@ TEST(Mirror, FacesMayEndAtThePlane) {
   MirrorPlane plane = kLeftSide;
   plane.join = false;
   const SurfaceModel model = make_surface_model(add_mirror_image(open_box(), plane, "box"));
-  EXPECT_EQ(violations(model), kSound);
+  EXPECT_EQ(violations(model), kSoundMirror);
   EXPECT_NEAR(volume(model.fine), 2, 1e-12);
   EXPECT_EQ(model.fine.regions.size(), 10u);
   EXPECT_EQ(model.fine.curves.size(), 20u);
@@ -69,7 +69,7 @@ TEST(Mirror, RaggedCutsAreStraightened) {
   const Mesh whole = add_mirror_image(half, plane, "grid.msh");
   EXPECT_EQ(whole.points.size(), 2 * half.points.size() - 9);
   const SurfaceModel model = make_surface_model(whole);
-  EXPECT_EQ(violations(model), kSound);
+  EXPECT_EQ(violations(model), kSoundMirror);
   EXPECT_EQ(model.fine.regions.size(), 1u);
   EXPECT_EQ(model.fine.curves.size(), 4u);
 }

@@ -25,9 +25,9 @@ using testing_support::violations;
 using testing_support::volume;
 using testing_support::without_regions;
 
-const std::vector<std::string> kSound;
+const std::vector<std::string> kSoundModel;
 
-SurfaceModel model_of(const Mesh& mesh, double feature_angle = 40) {
+SurfaceModel triangulated(const Mesh& mesh, double feature_angle = 40) {
   return make_surface_model(mesh, {.feature_angle = feature_angle, .source = "case.off"});
 }
 
@@ -37,7 +37,7 @@ bool has_warning(const SurfaceModel& model, const std::string& part) {
 }
 
 TEST(TriangulatedModel, BoxIsCutAtItsFeatures) {
-  const SurfaceModel model = model_of(without_regions(box(3)));
+  const SurfaceModel model = triangulated(without_regions(box(3)));
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.lines.size(), 12u * 3);
   EXPECT_TRUE(model.warnings.empty());
@@ -47,18 +47,18 @@ TEST(TriangulatedModel, BoxIsCutAtItsFeatures) {
 }
 
 TEST(TriangulatedModel, AboveTheDihedralAngleABoxIsOneFaceWithoutCurves) {
-  expect_counts(model_of(without_regions(box(3)), 91), 1, 0, 0);
+  expect_counts(triangulated(without_regions(box(3)), 91), 1, 0, 0);
 }
 
 TEST(TriangulatedModel, RegionsCutWhereNothingIsSharp) {
-  const SurfaceModel model = model_of(box(3), 91);
+  const SurfaceModel model = triangulated(box(3), 91);
   expect_counts(model, 6, 12, 8);
 }
 
 TEST(TriangulatedModel, CanHasTwoClosedCurvesWithoutCorners) {
-  expect_counts(model_of(without_regions(can(24, 3))), 3, 2, 0);
+  expect_counts(triangulated(without_regions(can(24, 3))), 3, 2, 0);
   // Where the wall turns by 60 degrees at a step, it is six faces and the circles have corners.
-  expect_counts(model_of(without_regions(can(6, 3))), 8, 18, 12);
+  expect_counts(triangulated(without_regions(can(6, 3))), 8, 18, 12);
 }
 
 TEST(TriangulatedModel, OutlineHasCornersWhereItTurns) {
@@ -66,15 +66,15 @@ TEST(TriangulatedModel, OutlineHasCornersWhereItTurns) {
   square.lines.clear();
   square.line_curve.clear();
   square.curves.clear();
-  expect_counts(model_of(square), 1, 4, 4);
-  expect_counts(model_of(square, 91), 1, 1, 0);
+  expect_counts(triangulated(square), 1, 4, 4);
+  expect_counts(triangulated(square, 91), 1, 1, 0);
 }
 
 TEST(TriangulatedModel, GivenCurvesAndRegionsKeepTagsAndNames) {
   Mesh square = triangle_grid(4, 4);
   square.regions = {{7, {"plate"}}};
   square.curves[0].tag = 30;
-  const SurfaceModel model = model_of(square, 91);
+  const SurfaceModel model = triangulated(square, 91);
   expect_counts(model, 1, 4, 4);
   EXPECT_EQ(model.fine.regions[0].tag, 7);
   EXPECT_EQ(model.fine.regions[0].names, (std::vector<std::string>{"plate"}));
@@ -96,7 +96,7 @@ TEST(TriangulatedModel, PiecesOfARegionShareItsNames) {
   mesh.line_curve = {0, 0};
   mesh.curves = {{5, {"across"}}};
   mesh.regions = {{2, {"both"}}};
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   // Outlines: four sides of the first; the second has its left and right sides cut in two, and the line.
   expect_counts(model, 3, 4 + 6 + 1, 4 + 6);
   std::vector<int> tags;
@@ -126,13 +126,13 @@ TEST(TriangulatedModel, CutsThatEndInsideAFaceAreDropped) {
   mesh.lines = {{10, 11}, {11, 12}};  // from the left part of the middle row to its middle
   mesh.line_curve = {0, 0};
   mesh.curves = {{1, {"scratch"}}};
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 1, 4, 4);
   EXPECT_TRUE(has_warning(model, "left out 2 lines that only led into a face"));
   // One that crosses all of the face stays.
   mesh.lines = {{10, 11}, {11, 12}, {12, 13}, {13, 14}};
   mesh.line_curve.assign(4, 0);
-  expect_counts(model_of(mesh), 2, 7, 6);
+  expect_counts(triangulated(mesh), 2, 7, 6);
 }
 
 TEST(TriangulatedModel, FeaturesThatFadeAreDropped) {
@@ -142,9 +142,9 @@ TEST(TriangulatedModel, FeaturesThatFadeAreDropped) {
   roof.line_curve.clear();
   roof.curves.clear();
   for (Vec3& p : roof.points) p.z = -std::abs(p.x - 1) * p.y / 2;
-  expect_counts(model_of(roof), 1, 5, 5);  // the gable has a corner
+  expect_counts(triangulated(roof), 1, 5, 5);  // the gable has a corner
   for (Vec3& p : roof.points) p.z = -std::abs(p.x - 1);
-  expect_counts(model_of(roof), 2, 7, 6);
+  expect_counts(triangulated(roof), 2, 7, 6);
 }
 
 TEST(TriangulatedModel, SeamOfATubeStays) {
@@ -156,7 +156,7 @@ TEST(TriangulatedModel, SeamOfATubeStays) {
   tube.lines = {{tube.triangles[0][0], tube.triangles[1][2]}, {tube.triangles[2][0], tube.triangles[3][2]}};
   tube.line_curve = {0, 0};
   tube.curves = {{9, {"seam"}}};
-  expect_counts(model_of(tube), 1, 3, 2);
+  expect_counts(triangulated(tube), 1, 3, 2);
 }
 
 TEST(TriangulatedModel, SliversMakeNoFeatures) {
@@ -176,7 +176,7 @@ TEST(TriangulatedModel, SliversMakeNoFeatures) {
   }
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
   ASSERT_EQ(mesh.triangles.size(), 14u);
-  expect_counts(model_of(mesh), 6, 12, 8);
+  expect_counts(triangulated(mesh), 6, 12, 8);
 }
 
 TEST(TriangulatedModel, SplitBoundaryOfAMoebiusBandIsRefused) {
@@ -196,11 +196,12 @@ TEST(TriangulatedModel, SplitBoundaryOfAMoebiusBandIsRefused) {
   }
   band.regions = {{1, {}}};
   band.triangle_region.assign(band.triangles.size(), 0);
-  expect_input_error([&] { model_of(band); }, {"case.off: ", "one side only", "edge from ("});
+  expect_input_error([&] { triangulated(band); }, {"case.off: ", "one side only", "edge from ("});
 }
 
 TEST(TriangulatedModel, TheSameInputGivesTheSameModel) {
-  const SurfaceModel a = model_of(without_regions(can(24, 3))), b = model_of(without_regions(can(24, 3)));
+  const SurfaceModel a = triangulated(without_regions(can(24, 3))),
+                     b = triangulated(without_regions(can(24, 3)));
   EXPECT_EQ(a.fine.points, b.fine.points);
   EXPECT_EQ(a.fine.triangles, b.fine.triangles);
   EXPECT_EQ(a.fine.lines, b.fine.lines);
@@ -208,12 +209,12 @@ TEST(TriangulatedModel, TheSameInputGivesTheSameModel) {
 
 TEST(TriangulatedModel, FeatureAngleOutOfRangeIsRefused) {
   for (const double angle : {0.0, -1.0, 181.0, std::nan("")}) {
-    EXPECT_THROW(model_of(box(1), angle), std::invalid_argument) << angle;
+    EXPECT_THROW(triangulated(box(1), angle), std::invalid_argument) << angle;
   }
 }
 
 TEST(TriangleRepair, SoupIsWeldedAtItsOpenEdges) {
-  const SurfaceModel model = model_of(without_regions(soup(box(2))));
+  const SurfaceModel model = triangulated(without_regions(soup(box(2))));
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.points.size(), box(2).points.size());
   EXPECT_TRUE(has_warning(model, "welded"));
@@ -222,7 +223,7 @@ TEST(TriangleRepair, SoupIsWeldedAtItsOpenEdges) {
 TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
   Mesh mesh = soup(without_regions(box(2)));
   for (size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i].x += 1e-7 * double(i % 3);
-  const SurfaceModel open = model_of(mesh);
+  const SurfaceModel open = triangulated(mesh);
   EXPECT_GT(open.fine.regions.size(), 6u);
   EXPECT_TRUE(has_warning(open, "gaps that a larger weld tolerance would close"));
   const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 1e-6});
@@ -238,7 +239,7 @@ TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
   mesh.triangles.push_back({first[1], first[0], first[2]});
   mesh.points.push_back({9, 9, 9});
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.triangles.size(), box(2).triangles.size());
   EXPECT_TRUE(has_warning(model, "left out 1 triangle without area (the first at (0, "));
@@ -263,7 +264,7 @@ TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
                                                {a, m + 2, m + 1},
                                                {a, m + 1, m}});  // flat
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_NEAR(volume(model.fine), 1, 1e-12);
   EXPECT_TRUE(has_warning(model, "left out 3 triangles without area"));
@@ -284,7 +285,7 @@ TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
   mesh.lines = {{0, 1}};
   mesh.line_curve = {0};
   mesh.curves = {{4, {"middle"}}};
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 2, 7, 6);
   const auto is_middle = [](const Entity& e) { return e.names == std::vector<std::string>{"middle"}; };
   const auto middle = std::find_if(model.fine.curves.begin(), model.fine.curves.end(), is_middle);
@@ -297,13 +298,13 @@ TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
 TEST(TriangleRepair, OrientationFollowsTheMajorityAndFacesOutwards) {
   Mesh mesh = without_regions(box(2));
   for (size_t t = 0; t < mesh.triangles.size(); t += 5) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-  const SurfaceModel some = model_of(mesh);
+  const SurfaceModel some = triangulated(mesh);
   EXPECT_NEAR(volume(some.fine), 1, 1e-12);
   EXPECT_TRUE(has_warning(some, "turned over 10 triangles"));
 
   Mesh inwards = without_regions(box(2));
   for (auto& v : inwards.triangles) std::swap(v[0], v[1]);
-  const SurfaceModel all = model_of(inwards);
+  const SurfaceModel all = triangulated(inwards);
   EXPECT_NEAR(volume(all.fine), 1, 1e-12);
   EXPECT_TRUE(has_warning(all, "turned outwards 1 closed surface"));
 }
@@ -315,7 +316,7 @@ TEST(TriangleRepair, ACavityKeepsFacingInwards) {
   for (const Vec3& p : inner.points) mesh.points.push_back(0.5 * p + Vec3{0.25, 0.25, 0.25});
   for (const auto& v : inner.triangles) mesh.triangles.push_back({v[0] + n, v[2] + n, v[1] + n});
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 12, 24, 16);
   EXPECT_NEAR(volume(model.fine), 1 - 0.125, 1e-12);
 }
@@ -336,7 +337,7 @@ TEST(TriangleRepair, SurfacesThatTouchAtAVertexAreParted) {
     mesh.triangles.push_back(w);
   }
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 12, 24, 16);
   EXPECT_EQ(model.fine.points.size(), 16u);
   EXPECT_TRUE(has_warning(model, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
@@ -347,10 +348,10 @@ TEST(TriangleRepair, BranchingEdgesAreCurves) {
   mesh.points.push_back({0.5, 0.5, 1});
   mesh.triangles.push_back({0, 3, 4});
   mesh.triangle_region.push_back(0);
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   EXPECT_EQ(model.fine.regions.size(), 3u);
   EXPECT_EQ(model.fine.points.size(), 5u) << "the sheets share the edge's ends";
-  EXPECT_EQ(violations(model), kSound);
+  EXPECT_EQ(violations(model), kSoundModel);
   EXPECT_TRUE(has_warning(model, "branches at 1 edge with three triangles or more (the first at (0, 0, 0))"));
   EXPECT_TRUE(has_warning(model, "more than two faces meet on curves: 1 ("));
 }
@@ -365,7 +366,7 @@ TEST(TriangleRepair, SidesOfCellsAreRefused) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangle_region.push_back(0);
       }
-  expect_input_error([&] { model_of(mesh); }, {"case.off: 15 of 15 edges", "cells in a volume"});
+  expect_input_error([&] { triangulated(mesh); }, {"case.off: 15 of 15 edges", "cells in a volume"});
 }
 
 /// A rough plate; with `peg`, a square one of machined edges stands on it.
@@ -384,14 +385,14 @@ Mesh rough_plate(int n, double roughness, bool peg) {
 }
 
 TEST(TriangulatedModel, NoiseMakesNoFeatures) {
-  const SurfaceModel model = model_of(rough_plate(60, 0.65, false), 40);
+  const SurfaceModel model = triangulated(rough_plate(60, 0.65, false), 40);
   EXPECT_TRUE(has_warning(model, "of sharp edges for noise")) << "the test has none";
   EXPECT_EQ(model.fine.regions.size(), 1u);
-  EXPECT_EQ(violations(model), kSound);
+  EXPECT_EQ(violations(model), kSoundModel);
 }
 
 TEST(TriangulatedModel, SmallFeaturesOfSmoothPartsStay) {
-  const SurfaceModel model = model_of(rough_plate(60, 0, true), 40);
+  const SurfaceModel model = triangulated(rough_plate(60, 0, true), 40);
   EXPECT_FALSE(has_warning(model, "noise"));
   EXPECT_GT(model.fine.regions.size(), 1u);
 }
@@ -399,11 +400,12 @@ TEST(TriangulatedModel, SmallFeaturesOfSmoothPartsStay) {
 TEST(TriangleRepair, WhatIsNoSurfaceOfTrianglesIsRefused) {
   Mesh nan = triangle_grid(1, 1);
   nan.points[2].y = std::numeric_limits<double>::quiet_NaN();
-  expect_input_error([&] { model_of(nan); }, {"case.off: point 3", "finite"});
-  expect_input_error([&] { model_of(testing_support::quad_grid(2, 2)); }, {"case.off: 4 quads", "triangles"});
-  expect_input_error([&] { model_of(Mesh{}); }, {"case.off: no triangles"});
+  expect_input_error([&] { triangulated(nan); }, {"case.off: point 3", "finite"});
+  expect_input_error([&] { triangulated(testing_support::quad_grid(2, 2)); },
+                     {"case.off: 4 quads", "triangles"});
+  expect_input_error([&] { triangulated(Mesh{}); }, {"case.off: no triangles"});
   Mesh flat = triangle_grid(2, 2, 1, 0);
-  expect_input_error([&] { model_of(flat); }, {"case.off: no triangle has an area"});
+  expect_input_error([&] { triangulated(flat); }, {"case.off: no triangle has an area"});
 }
 
 TEST(TriangleRepair, DamagedSurfacesBecomeSoundModels) {
@@ -425,7 +427,7 @@ TEST(TriangleRepair, DamagedSurfacesBecomeSoundModels) {
         mesh.triangle_region.erase(mesh.triangle_region.begin() + static_cast<long>(t));
       }
     }
-    EXPECT_EQ(violations(model_of(mesh)), kSound) << "trial " << trial;
+    EXPECT_EQ(violations(triangulated(mesh)), kSoundModel) << "trial " << trial;
   }
 }
 
@@ -434,7 +436,7 @@ TEST(TriangleRepair, LinesOffTheTrianglesGo) {
   mesh.lines.push_back({0, 8});
   mesh.lines.push_back(mesh.lines[0]);
   mesh.line_curve.insert(mesh.line_curve.end(), {0, 0});
-  const SurfaceModel model = model_of(mesh);
+  const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 1, 4, 4);
   EXPECT_TRUE(has_warning(model, "left out 1 line along no side"));
 }
