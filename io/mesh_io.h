@@ -77,6 +77,20 @@ Mesh read_inp(const std::filesystem::path& path);
 /// comments.
 Mesh read_medit(const std::filesystem::path& path);
 
+/// A number at each point of a mesh.
+struct NodalValues {
+  Mesh mesh;
+  std::vector<double> values;
+};
+
+/// Reads the field `name` of an MSH file (a view: $NodeData or $ElementData) or a VTU file (an array of
+/// PointData or CellData); without a name the only one that there is. Values of elements become means, by
+/// area, of the elements at a point. Of several steps in time it is the last one. Throws InputError where
+/// there is none, naming those that there are, where it is no field of numbers, and where points have none.
+NodalValues read_values(const std::filesystem::path& path, const std::string& name);
+/// Whether it reads files of that name.
+bool holds_values(const std::filesystem::path& path);
+
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
 /// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
 /// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number

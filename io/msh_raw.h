@@ -19,6 +19,7 @@ struct Node {
 };
 
 struct Element {
+  long long tag;
   int n_nodes;                     ///< 2 line, 3 triangle, 4 quad
   int entity;                      ///< elementary tag
   int physical;                    ///< physical tag (2.2 only), 0: none
@@ -35,6 +36,14 @@ struct Point {
   int line;        ///< of the file
 };
 
+/// One step of a view.
+struct View {
+  std::string name;
+  bool is_of_nodes;
+  int n_components;
+  std::vector<std::pair<long long, double>> values;  ///< by tag; of several components the first
+};
+
 using DimTag = std::pair<int, int>;
 
 struct Contents {
@@ -46,10 +55,17 @@ struct Contents {
   std::map<DimTag, std::string> physical_names;
   std::map<DimTag, std::vector<std::string>> more_names;  ///< of entities, besides their groups
   std::string unit;                                       ///< of lengths
+  std::vector<View> views;
+};
+
+/// The tags of what a mesh was made of.
+struct MeshTags {
+  std::vector<long long> points, triangles, quads;
 };
 
 /// Reads the sections. [Gmsh reference manual, "MSH file format" and "Legacy formats"]
-Contents read_contents(TextScanner& scanner);
+/// Views are skipped unless they are asked for.
+Contents read_contents(TextScanner& scanner, bool with_views = false);
 
 /// Fills entity_physicals from the elements' own physical tags, as 2.2 keeps them: an element in several
 /// groups is listed once for each and becomes one; elements of one entity in different groups become entities
@@ -60,6 +76,6 @@ void settle_physicals(Contents& contents);
 std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
 /// Tags become indices: nodes in the order of their tags, without those that no element uses.
-Mesh to_mesh(Contents contents, const TextScanner& scanner);
+Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags = nullptr);
 
 }  // namespace delquad::msh

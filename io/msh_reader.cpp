@@ -151,7 +151,7 @@ void settle_physicals(Contents& contents) {
   contents.elements.resize(kept);
 }
 
-Mesh to_mesh(Contents contents, const TextScanner& scanner) {
+Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
   if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles or quads");
   if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
   std::stable_sort(contents.nodes.begin(), contents.nodes.end(),
@@ -181,6 +181,7 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner) {
     if (new_index[i] < 0) continue;
     new_index[i] = static_cast<int>(mesh.points.size());
     mesh.points.push_back(contents.nodes[i].at);
+    if (tags) tags->points.push_back(contents.nodes[i].tag);
   }
   std::map<int, size_t> named;  // by node
   for (const Point& point : contents.points) {
@@ -200,9 +201,11 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner) {
     } else if (e.n_nodes == 3) {
       mesh.triangles.push_back({node(0), node(1), node(2)});
       mesh.triangle_region.push_back(entity);
+      if (tags) tags->triangles.push_back(e.tag);
     } else {
       mesh.quads.push_back({node(0), node(1), node(2), node(3)});
       mesh.quad_region.push_back(entity);
+      if (tags) tags->quads.push_back(e.tag);
     }
   }
   return mesh;

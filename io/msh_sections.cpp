@@ -57,7 +57,8 @@ int nodes_of_type(int type, const TextScanner& scanner) {
 
 class SectionReader {
  public:
-  explicit SectionReader(TextScanner& scanner) : in_(scanner), numbers_(scanner) {}
+  SectionReader(TextScanner& scanner, bool with_views)
+      : in_(scanner), numbers_(scanner), with_views_(with_views) {}
 
   Contents read() {
     if (in_.at_end()) in_.fail("the file is empty; expected an MSH file, which starts with $MeshFormat");
@@ -88,6 +89,8 @@ class SectionReader {
         {"MoreNames", &SectionReader::more_names},
         {"Unit", &SectionReader::unit},
         {"PartitionedEntities", &SectionReader::partitioned}};
+    const bool is_view = name == "NodeData" || name == "ElementData";
+    if (is_view && with_views_) return view(name);
     const auto reader = readers.find(name);
     if (reader == readers.end()) return skip(name);
     if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
@@ -95,8 +98,44 @@ class SectionReader {
       in_.fail(fmt::format("expected $MeshFormat before ${}", name));
     }
     (this->*reader->second)();
+    expect_end(name);
+  }
+
+  void expect_end(const std::string& name) {
     const std::string end = "$End" + name;
     if (in_.token(end) != end) in_.fail(fmt::format("expected {}", end));
+  }
+
+  /// Titles, times and counts are text in binary files, too.
+  void view(const std::string& section) {
+    View view{"", section == "NodeData", 1, {}};
+    const long long n_texts = in_.integer("the number of a view's texts", 0, INT_MAX);
+    for (long long k = 0; k < n_texts; ++k) {
+      std::string line(in_.token("a view's text"));
+      line += in_.rest_of_line();
+      const size_t open = line.find('"'), close = line.rfind('"');
+      if (open == close) in_.fail("expected a view's text in double quotes");
+      if (k == 0) view.name = line.substr(open + 1, close - open - 1);
+    }
+    const long long n_reals = in_.integer("the number of a view's real numbers", 0, INT_MAX);
+    for (long long k = 0; k < n_reals; ++k) in_.real("a view's real number");
+    const long long n_integers = in_.integer("the number of a view's integers, at least 3", 3, INT_MAX);
+    long long count = 0;
+    for (long long k = 0; k < n_integers; ++k) {
+      const long long number = in_.integer("a view's integer", 0, INT_MAX);
+      if (k == 1) view.n_components = static_cast<int>(number);
+      if (k == 2) count = number;
+    }
+    if (view.n_components < 1) in_.fail("a view without components");
+    if (numbers_.are_bytes()) next_line();
+    reserve(view.values, count, in_);
+    for (long long i = 0; i < count; ++i) {
+      const long long tag = numbers_.integer("the tag of a value", 1, kLargestTag);
+      view.values.emplace_back(tag, numbers_.real("a value"));
+      for (int k = 1; k < view.n_components; ++k) numbers_.real("a value");
+    }
+    contents_.views.push_back(std::move(view));
+    expect_end(section);
   }
 
   void skip(const std::string& name) {
@@ -294,8 +333,8 @@ class SectionReader {
     const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
     if (count > most) in_.fail("more elements than announced");
     for (long long i = 0; i < count; ++i) {
-      numbers_.size("an element's tag", 1, kLargestTag);
-      element(n_nodes, entity, 0);
+      const long long tag = numbers_.size("an element's tag", 1, kLargestTag);
+      element(tag, n_nodes, entity, 0);
     }
     return count;
   }
@@ -307,9 +346,9 @@ class SectionReader {
     const auto n_tags = [&] { return numbers_.integer("the number of an element's tags", 0, INT_MAX); };
     if (!numbers_.are_bytes()) {
       for (long long i = 0; i < count; ++i) {
-        numbers_.integer("an element's tag", 1, kLargestTag);
+        const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
         const int n_nodes = nodes_of_type(type(), in_);
-        tagged_element(n_nodes, n_tags());
+        tagged_element(tag, n_nodes, n_tags());
       }
       return;
     }
@@ -318,23 +357,23 @@ class SectionReader {
       const long long n = numbers_.integer("the number of elements that follow", 1, count - i);
       const long long tags = n_tags();
       for (const long long last = i + n; i < last; ++i) {
-        numbers_.integer("an element's tag", 1, kLargestTag);
-        tagged_element(n_nodes, tags);
+        const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
+        tagged_element(tag, n_nodes, tags);
       }
     }
   }
 
-  void tagged_element(int n_nodes, long long n_tags) {
+  void tagged_element(long long own_tag, int n_nodes, long long n_tags) {
     int tags[2] = {0, 0};  // physical, elementary
     for (long long k = 0; k < n_tags; ++k) {
       const int tag = static_cast<int>(numbers_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
       if (k < 2) tags[k] = std::abs(tag);
     }
-    element(n_nodes, tags[1], tags[0]);
+    element(own_tag, n_nodes, tags[1], tags[0]);
   }
 
-  void element(int n_nodes, int entity, int physical) {
-    Element e{n_nodes, entity, physical, {}, in_.line()};
+  void element(long long tag, int n_nodes, int entity, int physical) {
+    Element e{tag, n_nodes, entity, physical, {}, in_.line()};
     for (int k = 0; k < n_nodes; ++k) e.nodes[k] = node_tag();
     if (n_nodes > 1)
       contents_.elements.push_back(e);
@@ -346,6 +385,7 @@ class SectionReader {
 
   TextScanner& in_;
   NumberReader numbers_;
+  bool with_views_;
   Version version_ = Version::kUnknown;
   std::set<std::string> seen_;
   Contents contents_;
@@ -353,6 +393,8 @@ class SectionReader {
 
 }  // namespace
 
-Contents read_contents(TextScanner& scanner) { return SectionReader(scanner).read(); }
+Contents read_contents(TextScanner& scanner, bool with_views) {
+  return SectionReader(scanner, with_views).read();
+}
 
 }  // namespace delquad::msh

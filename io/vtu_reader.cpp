@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "io/nodal_values.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
 
@@ -92,8 +94,17 @@ class VtuReader {
       fail("the file holds no lines, triangles or quads");
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
-    drop_unused_points(mesh_);
+    if (!field_) drop_unused_points(mesh_);
     return std::move(mesh_);
+  }
+
+  /// Points that no element uses stay.
+  NodalValues read_field(const std::string& name) {
+    field_ = name;
+    NodalValues result{read(), {}};
+    result.values =
+        is_of_points_ ? std::move(values_) : means_at_points(result.mesh, triangle_values_, quad_values_);
+    return result;
   }
 
  private:
@@ -274,6 +285,8 @@ class VtuReader {
       fail(fmt::format("{} types of cells and {} offsets", types.size(), offsets.size()));
     const std::vector<double> curve = tags(piece, "curve", types.size()),
                               region = tags(piece, "region", types.size());
+    std::vector<double> field;
+    if (field_) field = read_field_of(piece, mesh_.points.size() - first, types.size());
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
@@ -285,8 +298,37 @@ class VtuReader {
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
       add_cell(as_int(types[c]), v, curve[c], region[c]);
+      if (field_ && !is_of_points_) {
+        if (v.size() == 3) triangle_values_.push_back(field[c]);
+        if (v.size() == 4) quad_values_.push_back(field[c]);
+      }
       begin = offsets[c];
     }
+    if (field_ && is_of_points_) values_.insert(values_.end(), field.begin(), field.end());
+  }
+
+  std::vector<double> read_field_of(const Tree& piece, size_t n_points, size_t n_cells) {
+    std::vector<FieldInFile> fields;
+    std::vector<const Tree*> arrays;
+    for (const char* kind : {"PointData", "CellData"}) {
+      const auto data = piece.find(kind);
+      if (data == piece.not_found()) continue;
+      for (const auto& [tag, array] : data->second) {
+        const std::string name = attribute(array, "Name");
+        if (tag != "DataArray" || name == "curve" || name == "region") continue;
+        fields.push_back(
+            {name, std::string_view(kind) == "PointData", array.get<int>("<xmlattr>.NumberOfComponents", 1)});
+        arrays.push_back(&array);
+      }
+    }
+    const size_t chosen = choose_field(fields, *field_, path_);
+    is_of_points_ = fields[chosen].is_of_points;
+    std::vector<double> all = read_array(*arrays[chosen]);
+    const size_t n = is_of_points_ ? n_points : n_cells;
+    if (all.size() != n)
+      fail(fmt::format("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
+                       is_of_points_ ? "points" : "cells"));
+    return all;
   }
 
   std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
@@ -356,10 +398,17 @@ class VtuReader {
   bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
   Mesh mesh_;
   std::map<std::pair<int, int>, int> index_;
+  std::optional<std::string> field_;  // the name of the field that is asked for
+  bool is_of_points_ = false;
+  std::vector<double> values_, triangle_values_, quad_values_;
 };
 
 }  // namespace
 
 Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
+
+NodalValues read_vtu_field(const std::filesystem::path& path, const std::string& name) {
+  return VtuReader(path).read_field(name);
+}
 
 }  // namespace delquad

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::TemporaryFolder;
+using testing_support::write_text;
+
+/// Two triangles, of areas .5 and 1, and a line with a point of its own; tags with gaps.
+const std::string kTwoTriangles22 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+    "$Nodes\n5\n3 0 0 0\n5 1 0 0\n6 0 1 0\n9 2 2 0\n20 5 5 0\n$EndNodes\n"
+    "$Elements\n3\n7 1 2 0 1 9 20\n8 2 2 0 1 3 5 6\n4 2 2 0 1 5 9 6\n$EndElements\n";
+
+std::string msh_view(const std::string& section, const std::string& name, int step, int components,
+                     const std::vector<std::string>& rows) {
+  std::string text = "$" + section + "\n1\n\"" + name + "\"\n1\n0.5\n3\n" + std::to_string(step) + "\n" +
+                     std::to_string(components) + "\n" + std::to_string(rows.size()) + "\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text + "$End" + section + "\n";
+}
+
+std::vector<double> values_of_triangles(const NodalValues& field) {
+  std::vector<double> values;
+  for (const auto& triangle : field.mesh.triangles)
+    for (const int v : triangle) values.push_back(field.values[v]);
+  return values;
+}
+
+TEST(NodalValues, OfNodesInAnyOrder) {
+  const TemporaryFolder folder;
+  const auto file = write_text(folder / "a.msh", kTwoTriangles22 + msh_view("NodeData", "wanted size", 0, 1,
+                                                                            {"9 4", "5 2", "3 1", "6 3"}));
+  for (const char* name : {"", "wanted size"})
+    EXPECT_EQ(values_of_triangles(read_values(file, name)), (std::vector<double>{1, 2, 3, 2, 4, 3})) << name;
+}
+
+TEST(NodalValues, OfElementsAreMeansByArea) {
+  const TemporaryFolder folder;
+  const auto file =
+      write_text(folder / "a.msh", kTwoTriangles22 + msh_view("ElementData", "h", 0, 1, {"4 7", "8 1"}));
+  const double mean = (0.5 * 1 + 1.5 * 7) / 2;
+  EXPECT_EQ(values_of_triangles(read_values(file, "h")), (std::vector<double>{1, mean, mean, mean, 7, mean}));
+}
+
+TEST(NodalValues, TheLastStepCounts) {
+  const TemporaryFolder folder;
+  const auto file =
+      write_text(folder / "a.msh",
+                 kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 9", "5 9", "6 9", "9 9"}) +
+                     msh_view("NodeData", "h", 1, 1, {"3 1", "5 1", "6 1", "9 1"}) +
+                     msh_view("NodeData", "velocity", 0, 3, {"3 1 2 3", "5 1 2 3", "6 1 2 3", "9 1 2 3"}));
+  EXPECT_EQ(values_of_triangles(read_values(file, "h")), (std::vector<double>(6, 1.0)));
+  expect_input_error([&] { read_values(file, ""); },
+                     {"a.msh: has the fields 'h', 'velocity': say which, as a.msh:NAME"});
+  expect_input_error([&] { read_values(file, "velocity"); },
+                     {"the field 'velocity' has 3 components: expected one"});
+  expect_input_error([&] { read_values(file, "H"); }, {"has no field 'H': expected 'h', 'velocity'"});
+}
+
+TEST(NodalValues, EveryPointOfAFaceNeedsOne) {
+  const TemporaryFolder folder;
+  const auto file =
+      write_text(folder / "a.msh", kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 1", "5 1", "6 1"}));
+  expect_input_error([&] { read_values(file, ""); }, {"a.msh: the field has no value at (2, 2, 0)"});
+  const auto without = write_text(folder / "b.msh", kTwoTriangles22);
+  expect_input_error([&] { read_values(without, ""); }, {"b.msh: has no field"});
+}
+
+TEST(NodalValues, DamagedViewsAreRefusedWithTheirLine) {
+  const TemporaryFolder folder;
+  const std::string whole = kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 1", "5 1", "6 1", "9 1"});
+  const size_t first = kTwoTriangles22.size();
+  // Anywhere but within the last word, whose end is the file's.
+  for (size_t cut = first + 1; cut + 4 < whole.size(); ++cut) {
+    const auto file = write_text(folder / "cut.msh", whole.substr(0, cut));
+    EXPECT_THROW(read_values(file, "h"), InputError) << whole.substr(0, cut);
+  }
+}
+
+std::string two_triangles_vtu(const std::string& data) {
+  return R"(<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="2">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 2 2 0</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 1 3 2</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">3 6</DataArray>
+<DataArray type="Int32" Name="types" format="ascii">5 5</DataArray></Cells>)" +
+         data + "</Piece></UnstructuredGrid></VTKFile>";
+}
+
+TEST(NodalValues, OfVtuFiles) {
+  const TemporaryFolder folder;
+  const auto file = write_text(
+      folder / "a.vtu",
+      two_triangles_vtu(
+          R"(<PointData><DataArray type="Float64" Name="h" format="ascii">1 2 3 4</DataArray></PointData>
+<CellData><DataArray type="Float64" Name="of cells" format="ascii">1 7</DataArray></CellData>)"));
+  EXPECT_EQ(values_of_triangles(read_values(file, "h")), (std::vector<double>{1, 2, 3, 2, 4, 3}));
+  const double mean = (0.5 * 1 + 1.5 * 7) / 2;
+  EXPECT_EQ(values_of_triangles(read_values(file, "of cells")),
+            (std::vector<double>{1, mean, mean, mean, 7, mean}));
+  expect_input_error([&] { read_values(file, "g"); }, {"a.vtu: has no field 'g': expected 'h', 'of cells'"});
+  const auto wrong = write_text(
+      folder / "b.vtu",
+      two_triangles_vtu(
+          R"(<PointData><DataArray type="Float64" Name="h" format="ascii">1 2 3</DataArray></PointData>)"));
+  expect_input_error([&] { read_values(wrong, ""); }, {"b.vtu: data array 'h': 3 values for 4 points"});
+}
+
+}  // namespace
+}  // namespace delquad
