@@ -25,7 +25,9 @@
 namespace delquad {
 namespace {
 
-constexpr const char* kSizeHelp = "wanted edge length: a number, an expression in x, y, z, or 'boundary'";
+constexpr const char* kSizeHelp =
+    "wanted edge length: a number, an expression in x, y, z, 'boundary', or FILE[:FIELD], a field of an .msh "
+    "or .vtu file";
 constexpr const char* kMaxElementsHelp = "refuse sizes that ask for more quads than this";
 constexpr const char* kThreadsHelp =
     "threads, whatever their number the result is the same; default: all cores";

@@ -15,6 +15,7 @@
 #include "base/stopwatch.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
+#include "cases/size_file.h"
 #include "cases/surface_spec.h"
 #include "console/interrupt.h"
 #include "console/progress.h"
@@ -55,7 +56,7 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
 SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
   if (arguments.size) {
     if (arguments.size->empty())
-      throw InputError("--size: the size is empty: expected a number, an expression or 'boundary'");
+      throw InputError("--size: the size is empty: expected a number, an expression, a file or 'boundary'");
     size = {};
     size.base = *arguments.size;
     size.where = "--size";
@@ -98,12 +99,15 @@ int mesh_command(const MeshArguments& arguments) {
   c.max_elements = arguments.max_elements;
   c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
+  const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
-  check_distinct({{"the model", arguments.model},
-                  {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},
-                  {"-o", arguments.output},
-                  {"--json", arguments.json}});
+  check_distinct(
+      {{"the model", arguments.model},
+       {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},
+       {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
+       {"-o", arguments.output},
+       {"--json", arguments.json}});
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
 

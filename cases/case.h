@@ -12,13 +12,16 @@ namespace delquad {
 
 /// The wanted size, as it was written.
 struct SizeText {
-  std::string base;  ///< a number, an expression in x, y, z, or "boundary"; empty: boundary for line meshes
-  std::vector<SizeSource> sources;
-  double gradation = 0;  ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
-  double curvature = 0;  ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
-  double min = 0;        ///< least size that curvature asks for; 0: a twentieth of what it would be without
-  double max = 0;        ///< largest size; 0: none
-  std::string where;     ///< for messages
+  /// A number, an expression in x, y, z, "boundary" or a file, see size_file_of(); empty: boundary for line
+  /// meshes.
+  std::string base = {};
+  std::filesystem::path folder = {};  ///< that files count from
+  std::vector<SizeSource> sources = {};
+  double gradation = 0;    ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
+  double curvature = 0;    ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
+  double min = 0;          ///< least size that curvature asks for; 0: a twentieth of what it would be without
+  double max = 0;          ///< largest size; 0: none
+  std::string where = {};  ///< for messages
 };
 
 /// The wanted directions: "boundary", "size-aware", "gradient" or an angle expression in x, y, z (radians).

@@ -67,6 +67,7 @@ SizeSource read_source(const TomlTable& table) {
 SizeText read_size(const TomlTable& table) {
   SizeText size;
   size.where = table.where("size");
+  size.folder = table.file().parent_path();
   if (table.kind("size") != TomlKind::kTable) {
     size.base = table.expression("size");
     return size;

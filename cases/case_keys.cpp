@@ -184,7 +184,7 @@ const TomlKeys& source_keys() {
 }
 
 const TomlKeys& size_keys() {
-  static const TomlKeys keys = {{"base", "a number, an expression or \"boundary\"", kSize},
+  static const TomlKeys keys = {{"base", "a number, an expression, a file or \"boundary\"", kSize},
                                 {"source", "points and segments with sizes", "", source_keys, true},
                                 {"gradation", "the most that sizes grow by per length", kPositive},
                                 {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},

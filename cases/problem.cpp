@@ -14,6 +14,7 @@
 #include "base/stopwatch.h"
 #include "cases/formulas.h"
 #include "cases/located_fields.h"
+#include "cases/size_file.h"
 #include "delquad/error.h"
 #include "fields/fields.h"
 #include "geometry/planar/planar_model.h"
@@ -42,14 +43,17 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
   }
 }
 
-/// A number or an expression as a field; `where` goes in front of messages.
-std::shared_ptr<const SizeField> make_field(const std::string& text, const std::string& where) {
+/// A number, an expression or a file as a field.
+std::shared_ptr<const SizeField> make_field(const SizeText& size) {
+  const std::string &text = size.base, &where = size.where;
   if (text.empty()) throw InputError(where + ": the size is empty: expected a number or an expression");
   if (const auto number = as_number(text)) {
     if (!(*number > 0) || *number > std::numeric_limits<double>::max())
       throw InputError(where + ": size " + text + ": expected a finite number > 0");
     return make_constant_size(*number);
   }
+  if (const auto file = size_file_of(text, size.folder))
+    return located(where, [&] { return std::shared_ptr<const SizeField>(make_file_size(*file)); });
   return located(where, [&] {
     return std::make_shared<LocatedSize>(
         formula_or_word(text, {kFromBoundary}, [&] { return make_expression_size(text); }), where);
@@ -61,7 +65,7 @@ SizeSpec make_size(const Case& c) {
   SizeSpec size;
   size.where = text.where.empty() ? c.where : text.where;
   size.from_boundary = text.base == kFromBoundary;
-  if (!size.from_boundary && !text.base.empty()) size.field = make_field(text.base, size.where);
+  if (!size.from_boundary && !text.base.empty()) size.field = make_field(text);
   size.sources = text.sources;
   size.gradation = text.gradation;
   size.curvature = text.curvature;
@@ -176,7 +180,7 @@ RunResult run_case(const Case& c, const Word& word, PreparedProblem& prepared,
 }
 
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {
-  if (text != kFromBoundary) return make_field(text, "--size");
+  if (text != kFromBoundary) return make_field({.base = text, .where = "--size"});
   const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
   return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
 }

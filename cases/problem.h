@@ -34,8 +34,8 @@ PreparedProblem prepare_case(const Case& c, const Refinement& refinement = {});
 RunResult run_case(const Case& c, const Word& word, PreparedProblem& prepared,
                    const std::function<void(const std::string& stage)>& begins = {});
 
-/// The size field of a mesh that is there already: `text` is a number, an expression or "boundary", as --size
-/// gives it.
+/// The size field of a mesh that is there already: `text` is a number, an expression, a file or "boundary",
+/// as --size gives it.
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
 
 }  // namespace delquad

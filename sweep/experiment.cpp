@@ -12,6 +12,7 @@
 #include "base/located.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
+#include "cases/size_file.h"
 #include "cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
@@ -162,6 +163,7 @@ std::vector<std::filesystem::path> Experiment::files() const {
   for (std::size_t i = 0; i < n_cases(); ++i) {
     const Case c = read_variant(i);
     add(c.model_file);
+    if (const auto size = size_file_of(c.size.base, c.size.folder)) add(size->path);
     if (!c.may_be_absent) add(model_path(c));
   }
   // Programs of the system stay where they are.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "cases/size_file.h"
 #include "delquad/error.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
@@ -37,6 +38,7 @@ void add_times(Json& json, const StepTimes& times) {
 
 Json size_json(const SizeText& size) {
   Json json = {{"base", size.base.empty() ? Json() : Json(size.base)}, {"sources", Json::array()}};
+  if (const auto file = size_file_of(size.base, size.folder)) json["digest"] = file_digest(file->path);
   for (const SizeSource& s : size.sources)
     json["sources"].push_back({{"at", point_json(s.a)},
                                {"to", point_json(s.b)},

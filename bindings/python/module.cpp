@@ -4,6 +4,7 @@
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
 #include "cases/formulas.h"
+#include "cases/size_file.h"
 #include "mesh/check_mesh.h"
 
 namespace delquad::python {
@@ -161,8 +162,10 @@ void define_size(py::class_<Problem>& c) {
            [](Problem& p, const std::string& text) {
              SizeSpec& size = p.new_size();
              size.from_boundary = text == "boundary";
-             if (!size.from_boundary)
-               size.field = located("size", [&] { return make_expression_size(text); });
+             if (size.from_boundary) return;
+             const auto file = size_file_of(text, "");
+             size.field =
+                 located("size", [&] { return file ? make_file_size(*file) : make_expression_size(text); });
            })
       .def("size_function",
            [](Problem& p, py::object function) {

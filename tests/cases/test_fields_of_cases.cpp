@@ -27,6 +27,26 @@ class Cases : public testing::Test {
   testing_support::TemporaryFolder folder_;
 };
 
+TEST_F(Cases, AFileGivesTheSize) {
+  testing_support::write_text(
+      folder_ / "h.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+      "$Elements\n1\n1 3 2 0 1 1 2 3 4\n$EndElements\n"
+      "$NodeData\n1\n\"h\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 0.2\n4 0.1\n$EndNodeData\n"
+      "$NodeData\n1\n\"bad\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 -1\n4 0.1\n$EndNodeData\n");
+  for (const char* size : {"size = \"h.msh:h\"\n", "size = { base = \"h.msh:h\", max = 0.5 }\n"}) {
+    const PreparedProblem p = prepare_case(read(square_ + size));
+    EXPECT_DOUBLE_EQ(size_at(p, 0.25, 0.7), 0.125) << size;
+    EXPECT_DOUBLE_EQ(size_at(p, 3, 0.5), 0.2) << size;
+  }
+  const auto prepare = [&](const std::string& size) {
+    prepare_case(read(square_ + "size = \"" + size + "\"\n"));
+  };
+  expect_input_error([&] { prepare("h.msh:bad"); }, {"the nodal size 2"});
+  expect_input_error([&] { prepare("h.msh"); }, {"c.toml:2: "});
+  expect_input_error([&] { prepare("none.msh"); }, {"none.msh"});
+}
+
 TEST_F(Cases, SourcesAndGradationShapeTheSize) {
   const PreparedProblem p = prepare_case(
       read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "

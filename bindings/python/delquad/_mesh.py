@@ -145,8 +145,8 @@ def mesh(
 
     model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, whose triangles and quads
         or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .msh or .toml.
-    size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z
-        or "boundary" as text, or (mesh, values at its points).
+    size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z,
+        "boundary" or a file of sizes ("error.vtu:h") as text, or (mesh, values at its points).
     word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
     cross: "boundary", "size-aware", "gradient", or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).
