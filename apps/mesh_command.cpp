@@ -52,6 +52,15 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
     surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
 }
 
+/// What "NAME=SIZE" says.
+NamedSize named_size(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  const auto size = at == std::string::npos ? std::nullopt : as_number(text.substr(at + 1));
+  if (!size || !(*size > 0) || !std::isfinite(*size) || at == 0)
+    throw InputError("--size-on '" + text + "': expected NAME=SIZE with a size above 0, such as inlet=0.5");
+  return {.name = text.substr(0, at), .size = *size, .where = "--size-on " + text};
+}
+
 /// The model's sizes, with what the command line says in their place.
 SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
   if (arguments.size) {
@@ -70,6 +79,8 @@ SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
     *target = value;
     if (size.where.empty()) size.where = "command line";
   }
+  for (const std::string& text : arguments.size_on) size.named.push_back(named_size(text));
+  if (size.where.empty() && !size.named.empty()) size.where = "--size-on";
   check_size_limits(size.curvature, size.min, size.max, size.where);
   return size;
 }

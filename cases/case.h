@@ -17,6 +17,7 @@ struct SizeText {
   std::string base = {};
   std::filesystem::path folder = {};  ///< that files count from
   std::vector<SizeSource> sources = {};
+  std::vector<NamedSize> named = {};
   double gradation = 0;    ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
   double curvature = 0;    ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
   double min = 0;          ///< least size that curvature asks for; 0: a twentieth of what it would be without

@@ -64,6 +64,18 @@ SizeSource read_source(const TomlTable& table) {
   return source;
 }
 
+NamedSize read_named_size(const TomlTable& table) {
+  NamedSize named{.name = table.text("name"), .where = table.where()};
+  if (table.has("size")) named.size = table.positive_number("size");
+  named.reach = number_at_least(table, "reach", 0, 0);
+  if (table.has("growth")) named.growth = table.positive_number("growth");
+  named.curvature = number_at_least(table, "curvature", kLeastPerTurn, 0);
+  table.finish(named_size_keys());
+  if (!table.has("size") && !table.has("curvature"))
+    throw InputError(table.where() + ": '" + named.name + "' gets no size: expected 'size' or 'curvature'");
+  return named;
+}
+
 SizeText read_size(const TomlTable& table) {
   SizeText size;
   size.where = table.where("size");
@@ -75,6 +87,7 @@ SizeText read_size(const TomlTable& table) {
   const TomlTable fields = table.table("size");
   if (fields.has("base")) size.base = fields.expression("base");
   for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
+  for (const TomlTable& named : fields.tables("on")) size.named.push_back(read_named_size(named));
   if (fields.has("gradation")) size.gradation = fields.positive_number("gradation");
   size.curvature = number_at_least(fields, "curvature", kLeastPerTurn, 0);
   if (fields.has("min")) size.min = fields.positive_number("min");

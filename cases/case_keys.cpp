@@ -183,9 +183,19 @@ const TomlKeys& source_keys() {
   return keys;
 }
 
+const TomlKeys& named_size_keys() {
+  static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
+                                {"size", "at most, on them and in them", kPositive},
+                                {"reach", "how far from them, too; 0 if absent", at_least("number", 0)},
+                                {"growth", "of sizes from there on, per length; 0.3 if absent", kPositive},
+                                {"curvature", "elements per full turn, of surfaces", at_least("number", 3)}};
+  return keys;
+}
+
 const TomlKeys& size_keys() {
   static const TomlKeys keys = {{"base", "a number, an expression, a file or \"boundary\"", kSize},
                                 {"source", "points and segments with sizes", "", source_keys, true},
+                                {"on", "sizes of what has a name", "", named_size_keys, true},
                                 {"gradation", "the most that sizes grow by per length", kPositive},
                                 {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
                                 {"min", "least size that curvature asks for", kPositive},

@@ -67,6 +67,7 @@ SizeSpec make_size(const Case& c) {
   size.from_boundary = text.base == kFromBoundary;
   if (!size.from_boundary && !text.base.empty()) size.field = make_field(text);
   size.sources = text.sources;
+  size.named = text.named;
   size.gradation = text.gradation;
   size.curvature = text.curvature;
   size.min = text.min;

@@ -50,9 +50,25 @@ void check(const ExampleModel& model, const std::string& where) {
   if (model.name.empty()) throw InputError(where + ": the example has no name");
 }
 
+void check(const NamedSize& n) {
+  check_length(n.size, "the size of '" + n.name + "'", n.where);
+  check_length(n.reach, "the reach of '" + n.name + "'", n.where);
+  if (!(n.growth > 0) || !std::isfinite(n.growth))
+    throw InputError(fmt::format("{}: sizes grow away from '{}' by {}: expected a finite number above 0",
+                                 n.where, n.name, n.growth));
+  check_length(n.curvature, "the curvature of '" + n.name + "'", n.where);
+  if (n.curvature > 0 && n.curvature < kLeastPerTurn)
+    throw InputError(
+        fmt::format("{}: the curvature of '{}' is {}: expected at least {} elements per full turn", n.where,
+                    n.name, n.curvature, kLeastPerTurn));
+  if (!(n.size > 0) && !(n.curvature > 0))
+    throw InputError(fmt::format("{}: '{}' has neither a size nor a curvature", n.where, n.name));
+}
+
 void check(const SizeSpec& size) {
   if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
     throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
+  for (const NamedSize& named : size.named) check(named);
   check_length(size.gradation, "gradation", size.where);
   check_length(size.curvature, "curvature", size.where);
   if (size.curvature > 0 && size.curvature < kLeastPerTurn)

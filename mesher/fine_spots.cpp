@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 namespace {
@@ -22,8 +23,10 @@ class SpotSize final : public SizeField {
     std::vector<Box<Vec3>> boxes;
     for (const FineSpot& s : spots_) {
       const Vec3 margin{s.reach, s.reach, s.reach};
-      boxes.push_back({lower(s.a, s.b) - margin, upper(s.a, s.b) + margin});
+      const Vec3 c = s.c.value_or(s.b);
+      boxes.push_back({lower(lower(s.a, s.b), c) - margin, upper(upper(s.a, s.b), c) + margin});
       least_ = std::min(least_, s.size);
+      least_growth_ = std::min(least_growth_, s.growth);
     }
     tree_ = BoxTree<Vec3>(boxes);
   }
@@ -31,22 +34,31 @@ class SpotSize final : public SizeField {
   double at(const Vec3& x, int& hint) const override {
     double delta = base_->at(x, hint);
     tree_.search(
-        delta, [&](const auto& node) { return least_ + kSpotGradation * std::sqrt(node.box.distance2(x)); },
+        delta, [&](const auto& node) { return least_ + least_growth_ * std::sqrt(node.box.distance2(x)); },
         [&](int i) { delta = std::min(delta, by(spots_[static_cast<std::size_t>(i)], x)); });
     return delta;
   }
 
  private:
-  static double by(const FineSpot& s, const Vec3& x) {
+  static double distance(const FineSpot& s, const Vec3& x) {
+    if (s.c) {
+      const auto w = nearest_weights(s.a, s.b, *s.c, x);
+      return norm(w[0] * s.a + w[1] * s.b + w[2] * *s.c - x);
+    }
     const Vec3 d = s.b - s.a;
     const double length2 = dot(d, d);
     const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
-    return s.size + kSpotGradation * std::max(norm(x - s.a - along * d) - s.reach, 0.0);
+    return norm(x - s.a - along * d);
+  }
+
+  static double by(const FineSpot& s, const Vec3& x) {
+    return s.size + s.growth * std::max(distance(s, x) - s.reach, 0.0);
   }
 
   std::shared_ptr<const SizeField> base_;
   std::vector<FineSpot> spots_;
   double least_ = std::numeric_limits<double>::infinity();
+  double least_growth_ = std::numeric_limits<double>::infinity();
   BoxTree<Vec3> tree_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "delquad/fields.h"
@@ -8,17 +9,20 @@
 
 namespace delquad {
 
-/// Around a segment, up to `reach`, sizes are at most `size`; from there on they grow.
+/// Where nothing else is said, sizes grow by so much per unit length.
+inline constexpr double kSpotGradation = 0.3;
+
+/// Around a segment or a triangle, up to `reach`, sizes are at most `size`; from there on they grow.
 struct FineSpot {
   Vec3 a, b;
   double size, reach;
+  double growth = kSpotGradation;
+  std::optional<Vec3> c = {};  ///< of a triangle
 };
 
-/// The field, and less around the spots. Sizes grow from these by kSpotGradation per unit length.
+/// The field, and less around the spots.
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
                                             std::vector<FineSpot> spots);
-
-inline constexpr double kSpotGradation = 0.3;
 
 /// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
 /// its own length. Only of domains with junctions.

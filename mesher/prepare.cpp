@@ -14,6 +14,7 @@
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
 #include "mesher/named_domain.h"
+#include "mesher/named_parts.h"
 #include "mesher/perturb.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/size_aware.h"
@@ -125,6 +126,13 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   });
   check_count_early(problem, model, p.size);
   PlanarDomain domain = mesh_model(problem, model, p.size);
+  // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
+  const std::shared_ptr<const SizeField> base = p.size;
+  for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
+    p.size = finer_near(base, NamedParts(model, domain).spots(spec.named));
+    check_count_early(problem, model, p.size);
+    domain = mesh_model(problem, model, p.size);
+  }
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   if (spec.gradation > 0) {
     p.size = limit_gradation(p.size, p.background, spec.gradation);
@@ -162,6 +170,7 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
                      [&] { return make_boundary_size(p.background, domain.boundary); });
+  if (!spec.named.empty()) p.size = finer_near(p.size, NamedParts(domain).spots(spec.named));
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
   if (has_single_points(mesh)) {
     const PointSize size_at = as_function(p.size);
@@ -225,13 +234,14 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   const TimeSpent read = reading.time();
   const SampleDomain domain = {Box<Vec3>::around(model.fine.points), &model.fine};
   std::vector<Warning> warnings;
-  const auto size = make_size(problem.size, domain, warnings, [&] {
+  auto size = make_size(problem.size, domain, warnings, [&] {
     return largest_size(problem.size, problem.size.from_boundary
                                           ? "'boundary' extends the lengths of a planar boundary that is "
                                             "kept; a surface's curves are meshed anew: expected a size (a "
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
+  if (!problem.size.named.empty()) size = finer_near(size, NamedParts(model.fine).spots(problem.size.named));
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
   p.times.insert(p.times.begin(), {"read", read});
@@ -247,7 +257,8 @@ void check_planar(const MeshProblem& problem) {
     throw InputError((s.where.empty() ? problem.where : s.where) +
                      ": the model is planar: compounds, feature angles, welding, gluing, mirrors, units and "
                      "lengths below which entities are ignored are for surfaces");
-  if (problem.size.curvature > 0)
+  if (problem.size.curvature > 0 ||
+      std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
     throw InputError(problem.size.where +
                      ": sizes by curvature are for surfaces, and this is a planar domain");
 }

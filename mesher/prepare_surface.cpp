@@ -11,6 +11,7 @@
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "mesher/named_parts.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
 #include "mesher/size_aware.h"
@@ -80,6 +81,16 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
 /// The growth of sizes away from curves that are shorter than the size, and from spots.
 constexpr double kShortCurveGradation = 0.7;
 
+/// Elements per full turn that are asked for by name; of several the most.
+std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
+                                      const std::vector<Entity>& entities, const std::string& kind) {
+  std::vector<double> per_turn(entities.size(), 0);
+  for (const NamedSize& n : named)
+    for (const int i : entities_named(entities, kind, n.name))
+      per_turn[i] = std::max(per_turn[i], n.curvature);
+  return per_turn;
+}
+
 WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::shared_ptr<const SizeField> base,
                        const std::vector<SizeSpot>& spots) {
   WantedSize wanted;
@@ -89,9 +100,14 @@ WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::sha
   wanted.spots = spots;
   if (!(wanted.curve_limit.empty() && spots.empty()) && !(wanted.gradation > 0))
     wanted.gradation = kShortCurveGradation;
-  if (!(spec.curvature > 0)) return wanted;
+  const bool named = std::ranges::any_of(spec.named, [](const NamedSize& n) { return n.curvature > 0; });
+  if (!(spec.curvature > 0) && !named) return wanted;
   wanted.curvature = std::make_shared<ModelCurvature>(model);
   wanted.per_turn = spec.curvature;
+  if (named) {
+    wanted.face_per_turn = curvature_by_name(spec.named, model.fine.regions, "region");
+    wanted.curve_per_turn = curvature_by_name(spec.named, model.fine.curves, "curve");
+  }
   wanted.min = spec.min;
   if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
   return wanted;

@@ -79,6 +79,8 @@ std::string size_text(const Json& size) {
   std::string text = size.at("base").is_null() ? "" : size.at("base").get<std::string>();
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
   if (const auto n = size.at("sources").size(); n > 0) add(fmt::format("{} sources", n));
+  for (const Json& named : size.value("on", Json::array()))
+    add(fmt::format("'{}' {}", named.at("name").get<std::string>(), named.at("size").get<double>()));
   for (const char* key : {"gradation", "curvature", "min", "max"})
     if (const Json value = size.value(key, Json()); !value.is_null())
       add(fmt::format("{} {}", key, value.get<double>()));

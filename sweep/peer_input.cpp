@@ -149,7 +149,7 @@ std::optional<double> uniform_size(const Case& c) {
   const SizeText& s = c.size;
   auto size = as_number(s.base);
   if (s.base.empty() && s.max > 0) size = s.max;
-  if (!size || !s.sources.empty() || s.curvature > 0) return std::nullopt;
+  if (!size || !s.sources.empty() || !s.named.empty() || s.curvature > 0) return std::nullopt;
   return s.max > 0 ? std::min(*size, s.max) : *size;
 }
 

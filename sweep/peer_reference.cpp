@@ -80,6 +80,10 @@ PreparedProblem prepare_scaled(const Case& c, double scale) {
     source.size_near *= scale;
     source.size_far *= scale;
   }
+  for (NamedSize& named : size.named) {
+    named.size *= scale;
+    named.growth *= scale;
+  }
   size.gradation *= scale;  // of the scaled field, |grad| is
   size.min *= scale;
   size.max *= scale;

@@ -46,6 +46,12 @@ Json size_json(const SizeText& size) {
                                {"far", s.size_far},
                                {"radius_near", s.radius_near},
                                {"radius_far", s.radius_far}});
+  for (const NamedSize& n : size.named)
+    json["on"].push_back({{"name", n.name},
+                          {"size", n.size},
+                          {"reach", n.reach},
+                          {"growth", n.growth},
+                          {"curvature", n.curvature}});
   const double given[] = {size.gradation, size.curvature, size.min, size.max};
   const char* keys[] = {"gradation", "curvature", "min", "max"};
   for (int k = 0; k < 4; ++k) json[keys[k]] = given[k] > 0 ? Json(given[k]) : Json();

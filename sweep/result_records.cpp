@@ -91,7 +91,8 @@ CellRecord parse(const Json& json) {
   record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
   const Json size = json.value("/options/size"_json_pointer, Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
-  if (as_number(base) && size.value("sources", Json::array()).empty()) record.uniform_size = base;
+  if (as_number(base) && size.value("sources", Json::array()).empty() && !size.contains("on"))
+    record.uniform_size = base;
   return record;
 }
 

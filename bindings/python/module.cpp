@@ -184,6 +184,14 @@ void define_size(py::class_<Problem>& c) {
                                                read_vec3(b, "sources: a point"), size_near, size_far,
                                                radius_near, radius_far});
            })
+      .def(
+          "add_named_size",
+          [](Problem& p, const std::string& name, double size, double reach, double growth,
+             double curvature) {
+            p.problem.size.named.push_back({name, size, reach, growth, curvature, "size_on"});
+          },
+          py::arg("name"), py::arg("size") = 0, py::arg("reach") = 0,
+          py::arg("growth") = NamedSize::kNamedGrowth, py::arg("curvature") = 0)
       .def("size_limits",
            [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
               const std::optional<double>& min, const std::optional<double>& max) {

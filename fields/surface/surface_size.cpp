@@ -181,15 +181,21 @@ double WantedSize::least_by_curvature(double base_size) const {
   return min > 0 ? min : kLeastPart * base_size;
 }
 
-double WantedSize::by_curvature(double k, double base_size) const {
-  if (!(k > 0)) return base_size;
-  return std::min(base_size, std::max(least_by_curvature(base_size), 2 * std::numbers::pi / (k * per_turn)));
+double WantedSize::by_curvature(double k, double turn, double base_size) const {
+  if (!(k > 0) || !(turn > 0)) return base_size;
+  return std::min(base_size, std::max(least_by_curvature(base_size), 2 * std::numbers::pi / (k * turn)));
+}
+
+double WantedSize::of(const std::vector<double>& own, int entity) const {
+  const bool has_own = static_cast<std::size_t>(entity) < own.size() && own[entity] > 0;
+  return has_own ? own[entity] : per_turn;
 }
 
 double WantedSize::in_face(int face, const Vec3& x) const {
   int hint = -1;
   const double size = base->at(x, hint);
-  return at_most_by_spots(curvature ? by_curvature(curvature->of_face(face, x), size) : size, x);
+  return at_most_by_spots(
+      curvature ? by_curvature(curvature->of_face(face, x), of(face_per_turn, face), size) : size, x);
 }
 
 double WantedSize::on_curve(int curve, const Vec3& x) const {
@@ -197,7 +203,9 @@ double WantedSize::on_curve(int curve, const Vec3& x) const {
   const double size = base->at(x, hint);
   const bool has_limit = static_cast<std::size_t>(curve) < curve_limit.size();  // cuts have none
   const double limited = has_limit ? std::min(size, curve_limit[curve]) : size;
-  return at_most_by_spots(curvature ? by_curvature(curvature->of_curve(curve, x), limited) : limited, x);
+  return at_most_by_spots(
+      curvature ? by_curvature(curvature->of_curve(curve, x), of(curve_per_turn, curve), limited) : limited,
+      x);
 }
 
 double WantedSize::at_most_by_spots(double size, const Vec3& x) const {

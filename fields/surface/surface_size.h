@@ -27,6 +27,8 @@ struct WantedSize {
   /// Elements per full turn: delta = 2 pi r / per_turn with the smallest radius of curvature r of the face,
   /// and of the curve on curves; > 0 where there is `curvature`.
   double per_turn = 0;
+  /// In place of it, of each face and curve; empty: none; 0 in them: as `per_turn`.
+  std::vector<double> face_per_turn = {}, curve_per_turn = {};
   double min = 0;  ///< least size that curvature asks for; 0: a twentieth of the base
   /// The most |grad delta| along the surface; 0: no limit, and then no curvature either, whose sizes jump
   /// between faces.
@@ -44,7 +46,8 @@ struct WantedSize {
   bool lives_on_surface() const { return gradation > 0; }
 
  private:
-  double by_curvature(double curvature, double base_size) const;
+  double by_curvature(double curvature, double per_turn, double base_size) const;
+  double of(const std::vector<double>& own, int entity) const;
   double at_most_by_spots(double size, const Vec3& x) const;
 };
 

@@ -65,6 +65,20 @@ struct SizeSource {
   double size_near, size_far, radius_near, radius_far;
 };
 
+/// What a name asks for: all curves, points, regions and faces that have it.
+struct NamedSize {
+  std::string name;
+  /// Up to `reach` from them (inside of regions: everywhere) sizes are at most this; 0: `curvature` is all
+  /// that is asked.
+  double size = 0;
+  double reach = 0;
+  double growth = kNamedGrowth;  ///< of sizes from there on, per unit length
+  /// Elements per full turn of faces and curves of that name, in place of SizeSpec::curvature; 0: as that.
+  double curvature = 0;
+  std::string where = {};  ///< who asked for it, for messages
+  static constexpr double kNamedGrowth = 0.3;
+};
+
 /// A cross: four directions theta + k pi/2, stored as exp(4 i theta), not necessarily of unit length.
 /// [Section 3]
 struct Cross {
@@ -110,6 +124,7 @@ struct SizeSpec {
   /// The lengths of the lines that a LineModel gives, extended smoothly; so, too, where nothing is said.
   bool from_boundary = false;
   std::vector<SizeSource> sources = {};  ///< the smallest counts
+  std::vector<NamedSize> named = {};     ///< so, too
   double gradation = 0;  ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
   double curvature = 0;  ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
   double min = 0;        ///< least size that curvature asks for; 0: a twentieth of what it would be without

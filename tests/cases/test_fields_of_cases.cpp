@@ -47,6 +47,35 @@ TEST_F(Cases, AFileGivesTheSize) {
   expect_input_error([&] { prepare("none.msh"); }, {"none.msh"});
 }
 
+TEST_F(Cases, NamesHaveSizes) {
+  const std::string model =
+      "loop = [{ rectangle = [[0, 0], [1, 1]], boundary = [\"bottom\", \"\", \"top\", \"\"] },\n"
+      "        { circle = { centre = [0.5, 0.5], radius = 0.2 }, region = \"core\" }]\n"
+      "embed = { point = [0.9, 0.9], name = \"sensor\" }\n[size]\nbase = 0.2\n";
+  const PreparedProblem p = prepare_case(
+      read(model +
+           "on = [{ name = \"bottom\", size = 0.05 }, { name = \"core\", size = 0.04, growth = 0.5 },\n"
+           "      { name = \"sensor\", size = 0.03, reach = 0.05 }]\n"));
+  EXPECT_DOUBLE_EQ(size_at(p, 0.1, 0), 0.05);
+  EXPECT_NEAR(size_at(p, 0.1, 0.1), 0.05 + 0.3 * 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0.45, 0.55), 0.04);
+  EXPECT_NEAR(size_at(p, 0.5, 0.65), 0.04, 1e-12);
+  EXPECT_NEAR(size_at(p, 0.2, 0.5), 0.04 + 0.5 * 0.1, 1e-4);  // the core has chords
+  EXPECT_NEAR(size_at(p, 0.9, 0.86), 0.03, 1e-12);
+  EXPECT_NEAR(size_at(p, 0.9, 0.75), 0.03 + 0.3 * 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0, 0.98), 0.2);
+  const PreparedProblem by_number = prepare_case(read(model + "on = { name = \"curve_2\", size = 0.05 }\n"));
+  EXPECT_DOUBLE_EQ(size_at(by_number, 1, 0.5), 0.05);
+
+  const auto prepare = [&](const std::string& on) { prepare_case(read(model + "on = " + on + "\n")); };
+  expect_input_error([&] { prepare("{ name = \"botom\", size = 0.1 }"); },
+                     {"c.toml:6: nothing is called 'botom'; did you mean 'bottom'?"});
+  expect_input_error([&] { prepare("{ name = \"elsewhere\", size = 0.1 }"); }, {"there are", "'core'"});
+  expect_input_error([&] { prepare("{ name = \"core\" }"); }, {"expected 'size' or 'curvature'"});
+  expect_input_error([&] { prepare("{ name = \"core\", curvature = 24 }"); }, {"planar"});
+  expect_input_error([&] { prepare("{ name = \"core\", size = 0 }"); }, {"c.toml:6"});
+}
+
 TEST_F(Cases, SourcesAndGradationShapeTheSize) {
   const PreparedProblem p = prepare_case(
       read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "

@@ -68,6 +68,16 @@ def test_sources():
     assert np.median(lengths[middles[:, 0] < 0.05]) < 0.03
 
 
+def test_sizes_by_name():
+    sides = [delquad.segment((0, 0), (1, 0), "floor"), delquad.polyline([(1, 0), (1, 1), (0, 1), (0, 0)])]
+    for asked in (0.02, {"size": 0.02, "reach": 0.01, "growth": 0.5}):
+        r = delquad.mesh(delquad.planar([sides]), size=0.2, size_on={"floor": asked}, word="DB")
+        assert abs(np.count_nonzero(r.points[:, 1] == 0) - 51) <= 1
+        assert np.count_nonzero(r.points[:, 1] == 1) <= 8
+    with pytest.raises(delquad.InputError, match="nothing is called 'inlet'"):
+        delquad.mesh(square(), size=0.2, size_on={"inlet": 0.02})
+
+
 def test_nodal_sizes():
     background = delquad.mesh(square(), size=0.2)
     values = 0.02 + 0.1 * background.points[:, 0]

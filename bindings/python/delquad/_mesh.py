@@ -119,6 +119,7 @@ def mesh(
     quality=None,
     cross=None,
     sources=(),
+    size_on=None,
     gradation=None,
     curvature=None,
     min_size=None,
@@ -151,6 +152,8 @@ def mesh(
     cross: "boundary", "size-aware", "gradient", or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).
     sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
+    size_on: {name: size} of curves, points, regions and faces, or {name: {"size": 0.1, "reach": 0.5, "growth": 0.3}}
+        or {name: {"curvature": 24}}; the smallest size counts.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -171,6 +174,8 @@ def mesh(
         _set_size(problem, size)
     for source in sources:
         problem.add_source(*source)
+    for on, asked in (size_on or {}).items():
+        problem.add_named_size(on, **(asked if isinstance(asked, dict) else {"size": asked}))
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/planar/planar_model.h"
+#include "mesher/fine_spots.h"
+
+namespace delquad {
+
+/// What has names in a model, as segments (of points, without length) and triangles. What has none goes by
+/// its number, as in files: curve_7, region_3.
+class NamedParts {
+ public:
+  /// Lines, triangles and named points of a mesh.
+  explicit NamedParts(const Mesh& mesh);
+  /// Curves and points of a model, and the regions of a domain that was made from it.
+  NamedParts(const PlanarModel& model, const PlanarDomain& domain);
+  /// Lines and named points of a domain, and its regions.
+  explicit NamedParts(const PlanarDomain& domain);
+
+  /// What is asked of sizes by names. Throws InputError for a name that nothing has.
+  std::vector<FineSpot> spots(const std::vector<NamedSize>& wanted) const;
+
+ private:
+  struct Part {
+    Vec3 a, b;
+    std::optional<Vec3> c;
+  };
+  void add(const std::string& kind, const Entity& entity, const Part& part);
+  void add_lines(const Mesh& mesh);
+  void add_regions(const PlanarDomain& domain);
+
+  std::map<std::string, std::vector<Part>> parts_;
+};
+
+/// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".
+std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
+                                const std::string& name);
+
+/// What to say of a name that nothing has.
+std::string unknown_name(const std::string& name, std::vector<std::string> known);
+
+}  // namespace delquad
