@@ -50,6 +50,7 @@ struct Case {
   bool may_be_absent = false;          ///< the model's file is data that the case is skipped without
   SurfaceSpec surface;                 ///< of a mesh of triangles, surface_file or example
   SizeText size;
+  std::vector<CurveDivision> divisions;
   CrossText cross;
   Options options;
   long long max_elements = MeshProblem{}.max_elements;

@@ -76,6 +76,18 @@ NamedSize read_named_size(const TomlTable& table) {
   return named;
 }
 
+constexpr long long kMostDivided = 100'000'000;
+
+CurveDivision read_division(const TomlTable& table) {
+  CurveDivision division{.name = table.text("name"), .where = table.where()};
+  division.edges = static_cast<int>(integer_between(table, "edges", 1, kMostDivided, 1));
+  for (const auto& [key, value] :
+       {std::pair("progression", &division.progression), std::pair("bump", &division.bump)})
+    if (table.has(key)) *value = table.positive_number(key);
+  table.finish(division_keys());
+  return division;
+}
+
 SizeText read_size(const TomlTable& table) {
   SizeText size;
   size.where = table.where("size");
@@ -179,6 +191,9 @@ void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
   if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
   if (table.has("size")) target.size = read_size(table);
+  if (table.has("divide")) target.divisions.clear();
+  for (const TomlTable& division : table.tables("divide"))
+    target.divisions.push_back(read_division(division));
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
   target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   for (const OptionGroup& group : option_groups())

@@ -183,6 +183,14 @@ const TomlKeys& source_keys() {
   return keys;
 }
 
+const TomlKeys& division_keys() {
+  static const TomlKeys keys = {{"name", "of curves", kText, nullptr, false, true},
+                                {"edges", "of each of them", at_least("integer", 1), nullptr, false, true},
+                                {"progression", "length of each edge, of that before it", kPositive},
+                                {"bump", "length of edges at the ends, of those in the middle", kPositive}};
+  return keys;
+}
+
 const TomlKeys& named_size_keys() {
   static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
                                 {"size", "at most, on them and in them", kPositive},
@@ -220,6 +228,7 @@ TomlKeys case_keys() {
                    {"data", "a surface or MSH file in the folder of --data", kText},
                    {"surface", "what becomes of a surface's faces", "", surface_keys},
                    {"size", "wanted edge length", kSize, size_keys},
+                   {"divide", "numbers of edges of curves", "", division_keys, true},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
                    {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {

@@ -147,6 +147,7 @@ MeshProblem make_problem(const Case& c) {
   problem.model = read_model(c);
   problem.surface = c.surface;
   problem.size = make_size(c);
+  problem.divisions = c.divisions;
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;
   problem.options = c.options;

@@ -65,6 +65,15 @@ void check(const NamedSize& n) {
     throw InputError(fmt::format("{}: '{}' has neither a size nor a curvature", n.where, n.name));
 }
 
+void check(const CurveDivision& d) {
+  if (d.edges < 1)
+    throw InputError(fmt::format("{}: {} edges for '{}': expected at least 1", d.where, d.edges, d.name));
+  for (const auto& [value, what] : {std::pair(d.progression, "progression"), std::pair(d.bump, "bump")})
+    if (!(value > 0) || !std::isfinite(value))
+      throw InputError(fmt::format("{}: the {} of '{}' is {}: expected a finite number above 0", d.where,
+                                   what, d.name, value));
+}
+
 void check(const SizeSpec& size) {
   if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
     throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
@@ -136,6 +145,7 @@ void check_problem(const MeshProblem& problem) {
         fmt::format("{}: at most {} elements: expected 1 or above", problem.where, problem.max_elements));
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
   check(problem.size);
+  for (const CurveDivision& division : problem.divisions) check(division);
   check(problem.cross);
   check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
 }

@@ -15,6 +15,21 @@ namespace {
 constexpr double kShort = 0.6;
 /// Sizes do not follow edges that are shorter than this part of the size.
 constexpr double kShortest = 0.05;
+/// Beside edges longer than the size it falls by so much per unit length: what was asked holds an edge or two
+/// away.
+constexpr double kRaisedGradation = 0.7;
+
+/// From a spot to x.
+double distance_to(const FineSpot& s, const Vec3& x) {
+  if (s.c) {
+    const auto w = nearest_weights(s.a, s.b, *s.c, x);
+    return norm(w[0] * s.a + w[1] * s.b + w[2] * *s.c - x);
+  }
+  const Vec3 d = s.b - s.a;
+  const double length2 = dot(d, d);
+  const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
+  return norm(x - s.a - along * d);
+}
 
 class SpotSize final : public SizeField {
  public:
@@ -40,19 +55,8 @@ class SpotSize final : public SizeField {
   }
 
  private:
-  static double distance(const FineSpot& s, const Vec3& x) {
-    if (s.c) {
-      const auto w = nearest_weights(s.a, s.b, *s.c, x);
-      return norm(w[0] * s.a + w[1] * s.b + w[2] * *s.c - x);
-    }
-    const Vec3 d = s.b - s.a;
-    const double length2 = dot(d, d);
-    const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
-    return norm(x - s.a - along * d);
-  }
-
   static double by(const FineSpot& s, const Vec3& x) {
-    return s.size + s.growth * std::max(distance(s, x) - s.reach, 0.0);
+    return s.size + s.growth * std::max(distance_to(s, x) - s.reach, 0.0);
   }
 
   std::shared_ptr<const SizeField> base_;
@@ -62,7 +66,59 @@ class SpotSize final : public SizeField {
   BoxTree<Vec3> tree_;
 };
 
+/// The field, and more around spots whose sizes are larger: less from there on by their growth.
+class RaisedSize final : public SizeField {
+ public:
+  RaisedSize(std::shared_ptr<const SizeField> base, std::vector<FineSpot> spots)
+      : base_(std::move(base)), spots_(std::move(spots)) {
+    std::vector<Box<Vec3>> boxes;
+    for (const FineSpot& s : spots_) {
+      boxes.push_back({lower(s.a, s.b), upper(s.a, s.b)});
+      most_ = std::max(most_, s.size);
+    }
+    tree_ = BoxTree<Vec3>(boxes);
+  }
+
+  double at(const Vec3& x, int& hint) const override {
+    double less = -base_->at(x, hint);
+    tree_.search(
+        less, [&](const auto& node) { return kRaisedGradation * std::sqrt(node.box.distance2(x)) - most_; },
+        [&](int i) {
+          const FineSpot& s = spots_[static_cast<std::size_t>(i)];
+          less = std::min(less, kRaisedGradation * distance_to(s, x) - s.size);
+        });
+    return -less;
+  }
+
+ private:
+  std::shared_ptr<const SizeField> base_;
+  std::vector<FineSpot> spots_;
+  double most_ = 0;
+  BoxTree<Vec3> tree_;
+};
+
 }  // namespace
+
+std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
+                                         const std::vector<FineSpot>& spots) {
+  std::vector<FineSpot> finer, coarser;
+  int hint = -1;
+  for (const FineSpot& s : spots) (s.size < base->at(0.5 * (s.a + s.b), hint) ? finer : coarser).push_back(s);
+  if (!coarser.empty()) base = std::make_shared<RaisedSize>(std::move(base), std::move(coarser));
+  return finer_near(std::move(base), std::move(finer));
+}
+
+std::vector<FineSpot> edges_of(const PlanarDomain& domain, const std::vector<char>& of_model_curve) {
+  std::vector<FineSpot> spots;
+  const Mesh& mesh = domain.boundary;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const std::vector<int>& curves = domain.model_curves[mesh.line_curve[l]];
+    if (std::ranges::none_of(curves, [&](int c) { return of_model_curve[c] != 0; })) continue;
+    const Vec3 &a = mesh.points[mesh.lines[l][0]], &b = mesh.points[mesh.lines[l][1]];
+    spots.push_back({a, b, norm(b - a), 0});
+  }
+  return spots;
+}
 
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
                                             std::vector<FineSpot> spots) {

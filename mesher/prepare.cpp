@@ -113,8 +113,19 @@ PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
                         const std::shared_ptr<const SizeField>& size) {
   CurveMeshOptions options;
   options.max_edges = static_cast<double>(problem.max_elements);
+  options.divisions = problem.divisions;
   const auto on_curves = problem.seed == 0 ? size : jittered(size, problem.seed, diagonal_of(model));
   return make_domain(model, as_function(on_curves), options);
+}
+
+/// Of each curve, whether a division names it.
+std::vector<char> divided_curves(const PlanarModel& model, const std::vector<CurveDivision>& divisions) {
+  std::vector<char> divided(model.curves.size(), 0);
+  for (const CurveDivision& division : divisions)
+    for (std::size_t c = 0; c < divided.size(); ++c)
+      if (model.curves[c].name == division.name || fmt::format("curve_{}", c + 1) == division.name)
+        divided[c] = 1;
+  return divided;
 }
 
 PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
@@ -140,6 +151,12 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     domain = mesh_model(problem, model, p.size);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
+  if (!problem.divisions.empty()) {
+    p.given_size = p.size;
+    p.size = as_near(p.size, edges_of(domain, divided_curves(model, problem.divisions)));
+    p.size_adapted_to.push_back("given edges");
+    domain = mesh_model(problem, model, p.size);
+  }
   std::vector<FineSpot> fine = short_edges(domain, *p.size);
   if (!fine.empty()) p.size_adapted_to.push_back("short curves");
   if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
@@ -148,8 +165,8 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
     fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
   }
-  if (fine.empty()) return domain;
-  p.given_size = p.size;
+  if (fine.empty() && problem.divisions.empty()) return domain;
+  if (!p.given_size) p.given_size = p.size;
   p.size = finer_near(p.size, std::move(fine));
   check_count_early(problem, model, p.size);
   domain = mesh_model(problem, model, p.size);
@@ -157,8 +174,16 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   return domain;
 }
 
+/// What cannot be where lines are kept.
+void check_lines_are_free(const MeshProblem& problem, const std::string& source) {
+  if (!problem.divisions.empty())
+    throw InputError(fmt::format("{}: '{}' cannot be divided: the lines of {} are kept as they are",
+                                 problem.divisions[0].where, problem.divisions[0].name, source));
+}
+
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
   const Mesh& mesh = model.mesh;
+  check_lines_are_free(problem, model.source);
   if (mesh.lines.empty())
     throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
   if (!mesh.triangles.empty() || !mesh.quads.empty())

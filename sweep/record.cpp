@@ -110,6 +110,9 @@ Json options_json(const Case& c) {
                {"cross", c.cross.text},
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
+  for (const CurveDivision& d : c.divisions)
+    json["divide"].push_back(
+        {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }

@@ -192,6 +192,12 @@ void define_size(py::class_<Problem>& c) {
           },
           py::arg("name"), py::arg("size") = 0, py::arg("reach") = 0,
           py::arg("growth") = NamedSize::kNamedGrowth, py::arg("curvature") = 0)
+      .def(
+          "divide",
+          [](Problem& p, const std::string& name, int edges, double progression, double bump) {
+            p.problem.divisions.push_back({name, edges, progression, bump, "divide"});
+          },
+          py::arg("name"), py::arg("edges"), py::arg("progression") = 1, py::arg("bump") = 1)
       .def("size_limits",
            [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
               const std::optional<double>& min, const std::optional<double>& max) {

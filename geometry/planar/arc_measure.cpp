@@ -150,11 +150,16 @@ double ArcMeasure::find(const Cell& cell, double begin, double target) const {
 }
 
 std::vector<double> ArcMeasure::interior_nodes(int n) const {
+  std::vector<double> targets;
+  for (int k = 1; k < n; ++k) targets.push_back(integral() * k / n);
+  return nodes_at(targets);
+}
+
+std::vector<double> ArcMeasure::nodes_at(const std::vector<double>& targets) const {
   std::vector<double> nodes;
-  nodes.reserve(static_cast<std::size_t>(n) - 1);
+  nodes.reserve(targets.size());
   std::size_t c = 0;
-  for (int k = 1; k < n; ++k) {
-    const double target = integral() * k / n;
+  for (const double target : targets) {
     while (c + 1 < cells_.size() && cells_[c].end < target) ++c;
     nodes.push_back(find(cells_[c], c == 0 ? 0 : cells_[c - 1].end, target));
   }

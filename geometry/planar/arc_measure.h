@@ -25,6 +25,8 @@ class ArcMeasure {
   /// The parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order; the ends
   /// are not among them.
   std::vector<double> interior_nodes(int n) const;
+  /// The parameters at which the integral from the beginning has these values, which ascend.
+  std::vector<double> nodes_at(const std::vector<double>& targets) const;
 
   static constexpr double kIntegralTolerance = 1e-7;
 

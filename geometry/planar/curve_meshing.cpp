@@ -2,60 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include "delquad/error.h"
-#include "geometry/planar/arc_measure.h"
+#include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/loops_apart.h"
-#include "geometry/planar/model_chain.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/planar/whiskers.h"
-#include "matching/t_join.h"
 
 namespace delquad {
 
 namespace {
 
-/// The part of a curve between two compulsory nodes.
-struct Piece {
-  std::vector<int> curves;  ///< of the model; several where these lie on each other; none: a whisker
-  std::array<int, 2> ends;  ///< nodes
-  std::shared_ptr<const Curve> shape;
-  double from = 0, to = 1;
-  std::optional<ArcMeasure> measure = {};
-  int least = 1;                      ///< fewest edges
-  int n = 1;                          ///< edges
-  std::vector<double> interior = {};  ///< parameters of its nodes
-  int curve = -1;                     ///< of the mesh; -1: a whisker
-
-  void set_edges(int edges) {
-    n = edges;
-    interior = measure->interior_nodes(n);
-  }
-  std::pair<int, int> sorted_ends() const { return std::minmax(ends[0], ends[1]); }
-};
-
 class CurveMesher {
  public:
   CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options)
-      : model_(model), chain_(chain_model(model)) {
-    cut_at_stops();
-    join_equal_pieces();
-    check_angles();
+      : model_(model), chain_(chain_model(model)), pieces_(cut_curves(model, chain_)) {
     measure(size, options.max_edges);
     name_curves();
     set_least();
-    for (Piece& p : pieces_)
-      p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
+    divide_pieces(model_, options.divisions, pieces_);
+    for (CurvePiece& p : pieces_)
+      if (!p.is_divided) p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
     add_whiskers(size);
     make_even();
   }
@@ -63,7 +37,7 @@ class CurveMesher {
   Mesh mesh() const {
     Mesh mesh;
     for (Vec2 p : chain_.nodes) mesh.points.push_back({p.x, p.y, 0});
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       int last = piece.ends[0];
       for (const double t : piece.interior) {
         const Vec2 p = piece.shape->point(t);
@@ -108,7 +82,7 @@ class CurveMesher {
  private:
   bool has_whiskers() const { return pieces_.back().curve < 0; }
   int whisker_curve() const { return static_cast<int>(curves_.size()); }
-  std::string prefix() const { return model_.source.empty() ? "" : model_.source + ": "; }
+  std::string prefix() const { return message_prefix(model_); }
 
   BoundaryNames names() const {
     return {model_.source,
@@ -122,22 +96,16 @@ class CurveMesher {
   /// Of the mesh's points.
   std::vector<CurvePlace> places() const {
     std::vector<CurvePlace> places(chain_.nodes.size());
-    for (const Piece& piece : pieces_)
+    for (const CurvePiece& piece : pieces_)
       if (piece.curve < 0) places[piece.ends[1]].is_free = true;
-    for (const Piece& piece : pieces_)
-      for (const double t : piece.interior) places.push_back({piece.shape, t, piece.from, piece.to});
+    for (const CurvePiece& piece : pieces_)
+      for (const double t : piece.interior)
+        places.push_back(piece.is_divided ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
     return places;
   }
 
-  std::vector<std::vector<int>> loops_of_model_curves() const {
-    std::vector<std::vector<int>> loops(model_.curves.size());
-    for (std::size_t l = 0; l < chain_.loops.size(); ++l)
-      for (const int c : chain_.loops[l].curves) loops[c].push_back(static_cast<int>(l));
-    return loops;
-  }
-
   std::vector<std::vector<int>> loops_of_curve() const {
-    const auto of_model = loops_of_model_curves();
+    const auto of_model = loops_of_model_curves(model_, chain_);
     std::vector<std::vector<int>> loops(curves_.size() + has_whiskers());
     for (std::size_t c = 0; c < of_curve_.size(); ++c)
       for (const int m : of_curve_[c])
@@ -163,12 +131,12 @@ class CurveMesher {
       while (joined[v] != v) v = joined[v] = joined[joined[v]];
       return v;
     };
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       const int a = root(piece.ends[0]), b = root(piece.ends[1]);
       joined[std::max(a, b)] = std::min(a, b);
     }
     std::vector<LoopEdge> edges;
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       if (piece.curve < 0) continue;
       double t = piece.from;
       Vec2 p = chain_.nodes[piece.ends[0]];
@@ -184,92 +152,9 @@ class CurveMesher {
     return edges;
   }
 
-  void cut_at_stops() {
-    for (std::size_t c = 0; c < model_.curves.size(); ++c) {
-      std::vector<CurveStop> stops = chain_.stops[c];
-      stops.push_back({1, chain_.curve_ends[c][1]});
-      double t = 0;
-      int node = chain_.curve_ends[c][0];
-      for (const auto& [stop, next] : stops) {
-        pieces_.push_back({{static_cast<int>(c)}, {node, next}, model_.curves[c].shape, t, stop});
-        t = stop;
-        node = next;
-      }
-    }
-  }
-
-  /// Of those that lie on each other the first one stays.
-  void join_equal_pieces() {
-    std::map<std::pair<int, int>, std::vector<std::size_t>> by_ends;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) by_ends[pieces_[i].sorted_ends()].push_back(i);
-    std::vector<char> is_copy(pieces_.size(), 0);
-    for (const auto& [ends, group] : by_ends) {
-      for (std::size_t j = 1; j < group.size(); ++j) {
-        for (std::size_t i = 0; i < j && !is_copy[group[j]]; ++i) {
-          if (is_copy[group[i]] || !are_equal(pieces_[group[i]], pieces_[group[j]])) continue;
-          is_copy[group[j]] = 1;
-          pieces_[group[i]].curves.push_back(pieces_[group[j]].curves[0]);
-        }
-      }
-    }
-    std::vector<Piece> kept;
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if (!is_copy[i]) kept.push_back(std::move(pieces_[i]));
-    pieces_ = std::move(kept);
-  }
-
-  /// Of two pieces with the same ends, whether some places of one lie on the other.
-  bool are_equal(const Piece& a, const Piece& b) const {
-    if (a.curves == b.curves) return false;
-    Box<Vec2> all = Box<Vec2>::around(std::span(chain_.nodes));
-    const double tolerance = kTouch * norm(all.size());
-    const CurveSpan other(*b.shape, b.from, b.to);
-    return std::ranges::all_of(std::array{0.21, 0.5, 0.83}, [&](double s) {
-      return other.nearest(a.shape->point(a.from + s * (a.to - a.from))).distance <= tolerance;
-    });
-  }
-
-  /// Curves of different loops that meet have an angle between them: else they would enclose nothing but
-  /// slivers.
-  void check_angles() const {
-    constexpr double kLeast = 1e-4;  // radians
-    struct End {
-      int node;
-      double angle;
-      const Piece* piece;
-    };
-    std::vector<End> ends;
-    for (const Piece& p : pieces_) {
-      const double step = 1e-6 * (p.to - p.from);
-      for (const int k : {0, 1}) {
-        const double t = k == 0 ? p.from : p.to;
-        const Vec2 d = p.shape->point(k == 0 ? t + step : t - step) - p.shape->point(t);
-        ends.push_back({p.ends[k], std::atan2(d.y, d.x), &p});
-      }
-    }
-    std::ranges::sort(ends, {}, [](const End& e) { return std::pair(e.node, e.angle); });
-    const auto loops = loops_of_model_curves();
-    const auto apart = [&](const Piece& p, const Piece& q) {
-      return p.curves != q.curves && (loops[p.curves[0]].empty() || loops[p.curves[0]] != loops[q.curves[0]]);
-    };
-    for (auto first = ends.begin(); first != ends.end();) {
-      const auto last = std::find_if(first, ends.end(), [&](const End& e) { return e.node != first->node; });
-      for (auto e = first; e != last; ++e) {
-        const auto next = e + 1 == last ? first : e + 1;
-        const double turn = next->angle - e->angle + (next == first ? 2 * std::numbers::pi : 0);
-        if (next == e || turn >= kLeast || !apart(*e->piece, *next->piece)) continue;
-        const Vec2 at = chain_.nodes[e->node];
-        throw InputError(fmt::format("{}{} and {} touch at ({:.4g}, {:.4g}), without an angle between them",
-                                     prefix(), curve_label(model_, e->piece->curves[0]),
-                                     curve_label(model_, next->piece->curves[0]), at.x, at.y));
-      }
-      first = last;
-    }
-  }
-
   void measure(const PointSize& size, double max_edges) {
     double total = 0;
-    for (Piece& p : pieces_) {
+    for (CurvePiece& p : pieces_) {
       p.measure.emplace(*p.shape, p.from, p.to, size, prefix() + curve_label(model_, p.curves[0]),
                         max_edges - total);
       total += p.measure->integral();
@@ -289,7 +174,7 @@ class CurveMesher {
       of_curve_.push_back({static_cast<int>(c)});
     }
     std::map<std::vector<int>, int> known;
-    for (Piece& piece : pieces_) {
+    for (CurvePiece& piece : pieces_) {
       piece.curve = piece.curves[0];
       if (piece.curves.size() == 1) continue;
       const auto [at, is_new] = known.try_emplace(piece.curves, static_cast<int>(curves_.size()));
@@ -308,26 +193,18 @@ class CurveMesher {
   // itself needs two: else it could not be opened (see build_domain()).
   void set_least() {
     std::map<std::pair<int, int>, int> count;
-    for (const Piece& p : pieces_) ++count[p.sorted_ends()];
-    const std::vector<int> valence = this->valence();
-    for (Piece& p : pieces_) {
+    for (const CurvePiece& p : pieces_) ++count[p.sorted_ends()];
+    const std::vector<int> valence = pieces_at_nodes(pieces_, chain_.nodes.size());
+    for (CurvePiece& p : pieces_) {
       const bool is_single = valence[p.ends[0]] == 1 && valence[p.ends[1]] == 1;
       p.least = p.ends[0] == p.ends[1] ? 3 : count[p.sorted_ends()] > 1 || is_single ? 2 : 1;
     }
   }
 
-  /// How many pieces end at each node.
-  std::vector<int> valence() const {
-    std::vector<int> valence(chain_.nodes.size(), 0);
-    for (const Piece& p : pieces_)
-      for (const int v : p.ends) ++valence[v];
-    return valence;
-  }
-
   /// Points that are on no curve get two edges.
   void add_whiskers(const PointSize& size) {
     std::vector<char> has_piece(chain_.nodes.size(), 0);
-    for (const Piece& p : pieces_)
+    for (const CurvePiece& p : pieces_)
       for (const int v : p.ends) has_piece[v] = 1;
     std::vector<int> nodes;
     std::vector<Vec2> points;
@@ -344,7 +221,7 @@ class CurveMesher {
     }
     if (nodes.empty()) return;
     std::vector<CurveSpan> curves;
-    for (const Piece& p : pieces_) curves.emplace_back(*p.shape, p.from, p.to);
+    for (const CurvePiece& p : pieces_) curves.emplace_back(*p.shape, p.from, p.to);
     const auto ends = whisker_ends(curves, points, sizes, labels);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (const Vec2 end : ends[i]) {
@@ -354,103 +231,26 @@ class CurveMesher {
       }
   }
 
-  /// Pieces whose edges must be even in number, each group by itself, where all loops are apart: components,
-  /// and interfaces.
-  std::vector<std::vector<int>> even_groups(const Arrangement& arrangement,
-                                            const FaceRegions& regions) const {
-    const auto is_filled = [&](int face) { return face >= 0 && regions.region[face] >= 0; };
-    // The plain holes of a region are counted with its outer loop, unless that is an interface, even by
-    // itself.
-    const std::size_t n = arrangement.faces.size();
-    std::vector<std::vector<int>> outlines(n), holes(n);
-    std::size_t line = 0;
-    for (std::size_t i = 0; i < pieces_.size(); line += pieces_[i++].n) {
-      const int left = arrangement.face_of[2 * line], right = arrangement.face_of[2 * line + 1];
-      const int inner = left >= 0 && arrangement.faces[left].around == right ? left : right;
-      const int around = arrangement.faces[inner].around;
-      if (is_filled(inner))
-        outlines[inner].push_back(static_cast<int>(i));
-      else
-        (is_filled(around) && is_filled(arrangement.faces[around].around) ? holes : outlines)[around]
-            .push_back(static_cast<int>(i));
-    }
-    outlines.insert(outlines.end(), holes.begin(), holes.end());
-    return outlines;
-  }
-
-  bool loops_are_apart() const {
-    return std::ranges::all_of(valence(), [](int n) { return n == 2; });
-  }
-
   void make_even() {
     const Mesh lines = mesh();
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    if (!loops_are_apart()) return change_by_t_join(arrangement, regions);
-    for (const std::vector<int>& group : even_groups(arrangement, regions)) {
-      int total = 0;
-      for (int i : group) total += pieces_[i].n;
-      if (total % 2 != 0) change_by_one(group);
-    }
-  }
-
-  /// The cheapest way to an edge more or less, and its cost.
-  std::pair<int, double> cheapest_change(const Piece& p) const {
-    int best = p.n + 1;
-    double least_cost = std::numeric_limits<double>::infinity();
-    for (int n : {p.n + 1, p.n - 1}) {
-      if (n < p.least) continue;
-      const double cost = std::abs(std::log(n / p.measure->integral()));
-      if (cost >= least_cost) continue;
-      best = n;
-      least_cost = cost;
-    }
-    return {best, least_cost};
-  }
-
-  void change_by_one(const std::vector<int>& group) {
-    const auto best =
-        std::ranges::min_element(group, {}, [&](int i) { return cheapest_change(pieces_[i]).second; });
-    pieces_[*best].set_edges(cheapest_change(pieces_[*best]).first);
-  }
-
-  /// Every face with a region gets an even number of sides at the least cost; the others do not matter, and
-  /// are one node of the graph.
-  void change_by_t_join(const Arrangement& arrangement, const FaceRegions& regions) {
-    const int rest = static_cast<int>(regions.region.size());
-    const auto node_of = [&](int face) { return face < 0 || regions.region[face] < 0 ? rest : face; };
-    WeightedGraph graph{rest + 1, {}};
-    std::vector<std::size_t> piece_of;
-    std::vector<int> sides(graph.n_nodes, 0);
-    std::size_t line = 0;
-    for (std::size_t i = 0; i < pieces_.size(); line += pieces_[i++].n) {
-      const int a = node_of(arrangement.face_of[2 * line]), b = node_of(arrangement.face_of[2 * line + 1]);
-      if (a == b) continue;
-      for (const int face : {a, b}) sides[face] += pieces_[i].n;
-      graph.edges.push_back({a, b, cheapest_change(pieces_[i]).second});
-      piece_of.push_back(i);
-    }
-    std::vector<int> odd;
-    for (int face = 0; face < rest; ++face)
-      if (sides[face] % 2 != 0) odd.push_back(face);
-    if (odd.size() % 2 != 0) odd.push_back(rest);
-    for (const int e : minimum_t_join(graph, odd, *matching_solver(matching_solver_names().front())).edges) {
-      Piece& piece = pieces_[piece_of[e]];
-      piece.set_edges(cheapest_change(piece).first);
-    }
+    const bool are_apart =
+        std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
+    make_counts_even(model_, arrangement, regions, are_apart, pieces_);
   }
 
   /// Points with whiskers lie in a region, and curves that no loop has on no boundary.
   void check_embedded(const Mesh& lines, const Arrangement& arrangement, const FaceRegions& regions) const {
-    const auto loops = loops_of_model_curves();
+    const auto loops = loops_of_model_curves(model_, chain_);
     const auto is_filled = [&](std::size_t side) {
       const int face = arrangement.face_of[side];
       return face >= 0 && regions.region[face] >= 0;
     };
     std::size_t line = 0;
     for (std::size_t i = 0; i < pieces_.size(); line += pieces_[i++].n) {
-      const Piece& piece = pieces_[i];
+      const CurvePiece& piece = pieces_[i];
       const Vec3 &a = lines.points[piece.ends[0]], &b = lines.points[piece.ends[1]];
       const bool is_inside = is_filled(2 * line) && is_filled(2 * line + 1);
       if (is_inside) continue;
@@ -475,7 +275,7 @@ class CurveMesher {
 
   const PlanarModel& model_;
   ModelChain chain_;
-  std::vector<Piece> pieces_;
+  std::vector<CurvePiece> pieces_;
   std::vector<Entity> curves_;              ///< of the mesh
   std::vector<std::vector<int>> of_curve_;  ///< the model's curves of each
 };

@@ -15,6 +15,7 @@ using PointSize = std::function<double(const Vec3&)>;
 struct CurveMeshOptions {
   /// The most boundary edges allowed; InputError with the estimate beyond it, before anything is allocated.
   double max_edges = 1e8;
+  std::vector<CurveDivision> divisions = {};
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)

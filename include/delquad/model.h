@@ -50,6 +50,15 @@ struct ModelCurve {
   bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
 };
 
+/// How curves are divided into edges, whatever the size asks for.
+struct CurveDivision {
+  std::string name;        ///< of the curves; those without go by their number, as in files: "curve_7"
+  int edges = 0;           ///< of each of them, at least 1
+  double progression = 1;  ///< length of each edge, of that before it, along the curve as it was given; > 0
+  double bump = 1;         ///< length of the edges at the ends, of those in the middle; > 0
+  std::string where = "division";  ///< who asked for it, for messages
+};
+
 /// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
 /// another.
 struct ModelLoop {

@@ -76,6 +76,75 @@ TEST_F(Cases, NamesHaveSizes) {
   expect_input_error([&] { prepare("{ name = \"core\", size = 0 }"); }, {"c.toml:6"});
 }
 
+TEST_F(Cases, CurvesAreDivided) {
+  const std::string model =
+      "loop = { rectangle = [[0, 0], [2, 1]], boundary = [\"bottom\", \"right\", \"top\", \"left\"] }\nsize "
+      "= 0.1\n";
+  const PreparedProblem p =
+      prepare_case(read(model + "divide = [{ name = \"bottom\", edges = 8, progression = 1.5 },\n"
+                                "          { name = \"top\", edges = 30, bump = 0.25 }]\n"));
+  std::vector<double> bottom, top;
+  for (const Vec3& x : p.boundary.points) {
+    if (x.y == 0) bottom.push_back(x.x);
+    if (x.y == 1) top.push_back(x.x);
+  }
+  std::ranges::sort(bottom);
+  std::ranges::sort(top);
+  ASSERT_EQ(bottom.size(), 9u);
+  for (std::size_t k = 2; k < bottom.size(); ++k)
+    EXPECT_NEAR((bottom[k] - bottom[k - 1]) / (bottom[k - 1] - bottom[k - 2]), 1.5, 1e-9);
+  ASSERT_EQ(top.size(), 31u);
+  EXPECT_NEAR((top[1] - top[0]) / (top[16] - top[15]), 0.25, 0.02);  // no edge is in the middle
+  EXPECT_NEAR(top[1] - top[0], top[30] - top[29], 1e-12);
+  // Sizes near the curve are those of its edges, smaller or larger.
+  const PreparedProblem one =
+      prepare_case(read(model + "divide = { name = \"bottom\", edges = 8, progression = 1.5 }\n"));
+  EXPECT_GT(size_at(one, 1.9, 0), 0.8 * (bottom[8] - bottom[7]));
+  EXPECT_NEAR(size_at(one, 0, 0), bottom[1] - bottom[0], 1e-9);
+  EXPECT_EQ(size_at(one, 1, 0.9), 0.1);
+
+  const auto prepare = [&](const std::string& divide) {
+    prepare_case(read(model + "divide = " + divide + "\n"));
+  };
+  expect_input_error([&] { prepare("{ name = \"botom\", edges = 8 }"); },
+                     {"c.toml:3: no curve is called 'botom'; did you mean 'bottom'?"});
+  expect_input_error([&] { prepare("{ name = \"top\", edges = 0 }"); }, {"c.toml:3", "'edges' is 0"});
+  expect_input_error([&] { prepare("{ name = \"top\", edges = 8, bump = 0 }"); }, {"c.toml:3", "bump"});
+  expect_input_error([&] { prepare("[{ name = \"top\", edges = 8 }, { name = \"top\", edges = 8 }]"); },
+                     {"divided twice"});
+  expect_input_error(
+      [&] {
+        prepare(
+            "[{ name = \"top\", edges = 8 }, { name = \"bottom\", edges = 7 }, { name = \"left\", edges = 4 "
+            "},"
+            " { name = \"right\", edges = 4 }]");
+      },
+      {"'domain' with an odd number", "'bottom'", "'right'"});
+}
+
+TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
+  // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
+  const PreparedProblem p =
+      prepare_case(read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0]] },\n"
+                        "         { name = \"rest\", polyline = [[2, 0], [2, 1], [0, 1], [0, 0]] }]\n"
+                        "loop = { curves = [\"wall\", \"rest\"] }\n"
+                        "embed = { segment = [[1.5, 0.1], [1.5, 1]], name = \"stiffener\" }\nsize = 0.1\n"
+                        "divide = [{ name = \"wall\", edges = 11 }, { name = \"stiffener\", edges = 5 }]\n"));
+  std::vector<int> edges(p.boundary.curves.size(), 0);
+  for (const int c : p.boundary.line_curve) ++edges[c];
+  EXPECT_EQ(edges[0], 11);
+  EXPECT_EQ(edges[2], 5);
+  expect_input_error(
+      [&] {
+        prepare_case(
+            read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0], [0, 1]] },\n"
+                 "         { name = \"rest\", segment = [[0, 1], [0, 0]] }]\n"
+                 "loop = { curves = [\"wall\", \"rest\"] }\nsize = 0.1\n"
+                 "divide = { name = \"wall\", edges = 2 }\n"));
+      },
+      {"3 pieces: expected at least 3"});
+}
+
 TEST_F(Cases, SourcesAndGradationShapeTheSize) {
   const PreparedProblem p = prepare_case(
       read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "

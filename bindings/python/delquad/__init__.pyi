@@ -119,6 +119,7 @@ def mesh(
     cross: str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
     sources: Iterable[tuple[npt.ArrayLike, npt.ArrayLike, float, float, float, float]] = (),
     size_on: Mapping[str, float | Mapping[str, float]] | None = None,
+    divide: Mapping[str, int | Mapping[str, float]] | None = None,
     gradation: float | None = None,
     curvature: float | None = None,
     min_size: float | None = None,

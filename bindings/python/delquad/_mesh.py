@@ -120,6 +120,7 @@ def mesh(
     cross=None,
     sources=(),
     size_on=None,
+    divide=None,
     gradation=None,
     curvature=None,
     min_size=None,
@@ -154,6 +155,7 @@ def mesh(
     sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
     size_on: {name: size} of curves, points, regions and faces, or {name: {"size": 0.1, "reach": 0.5, "growth": 0.3}}
         or {name: {"curvature": 24}}; the smallest size counts.
+    divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -176,6 +178,8 @@ def mesh(
         problem.add_source(*source)
     for on, asked in (size_on or {}).items():
         problem.add_named_size(on, **(asked if isinstance(asked, dict) else {"size": asked}))
+    for on, asked in (divide or {}).items():
+        problem.divide(on, **(asked if isinstance(asked, dict) else {"edges": asked}))
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
