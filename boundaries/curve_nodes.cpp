@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "boundaries/divided_chains.h"
 #include "delquad/error.h"
 #include "matching/t_join.h"
 
@@ -168,9 +169,11 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
   std::vector<int> curve_of_edge, branching;
   for (size_t c = 0; c < curves.size(); ++c) {
     const CurveDemand& curve = curves[c];
-    const int n = std::max(curve.minimum, static_cast<int>(std::lround(curve.integral)));
+    const int n = curve.exact > 0 ? curve.exact
+                                  : std::max(curve.minimum, static_cast<int>(std::lround(curve.integral)));
     counts.push_back(n);
     for (const int p : curve.patches) total[p] += n;
+    if (curve.exact > 0) continue;
     if (curve.patches.size() > 2) branching.push_back(static_cast<int>(c));
     if (curve.patches.empty() || curve.patches.size() > 2) continue;
     const int a = curve.patches[0], b = curve.patches.size() == 2 ? curve.patches[1] : n_patches;
@@ -270,9 +273,7 @@ CurvePlaces equal_places(const std::vector<int>& counts) {
 
 Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
                     double s) {
-  const size_t line = std::min(static_cast<size_t>(s), chain.points.size() - 2);
-  const Vec3 a = model.fine.points[chain.points[line]], b = model.fine.points[chain.points[line + 1]];
-  const Vec3 x = a + (s - static_cast<double>(line)) * (b - a);
+  const Vec3 x = fine_point_at(model.fine, chain, s);
   if (!model.projector) return x;
   const int face = cut_face[chain.curve];
   return face >= 0 ? model.projector->to_face(face, x) : model.projector->to_curve(chain.curve, x);

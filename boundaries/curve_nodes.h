@@ -27,6 +27,7 @@ struct CurveDemand {
   double integral = 0;  ///< of ds/delta along it
   int minimum = 1;
   std::vector<int> patches;  ///< that it bounds; a seam names its patch twice
+  int exact = 0;             ///< where their number is given; 0: it is free
 };
 
 /// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of

@@ -72,8 +72,11 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
   placed.counts = even_counts(wanted.demands, static_cast<int>(maps.size()), solver, placed.odd_patches);
-  const CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
-                                        wanted.group, size_on_lines(size));
+  CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
+                                  wanted.group, size_on_lines(size));
+  for (std::size_t c = 0; c < wanted.divided.size(); ++c)
+    for (std::size_t k = 0; k < wanted.divided[c].size(); ++k)
+      places[c][k] = placed.counts[c] * wanted.integrals[c].part_at(wanted.divided[c][k]);
   placed.nodes = place_nodes(model, curves.chains, curves.cut_face, wanted.integrals, places);
   placed.boundaries.resize(maps.size());
   placed.at_fault.resize(maps.size());

@@ -10,6 +10,7 @@
 
 #include "base/activity.h"
 #include "base/parallel.h"
+#include "boundaries/divided_chains.h"
 #include "boundaries/narrow_places.h"
 #include "boundaries/tube_sizes.h"
 
@@ -71,6 +72,19 @@ void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vec
   }
 }
 
+/// Curves that face a divided one want as many edges.
+void demand_division(CurveDemands& wanted) {
+  std::map<int, int> of_group;
+  for (std::size_t c = 0; c < wanted.divided.size(); ++c) {
+    if (wanted.divided[c].empty()) continue;
+    wanted.demands[c].exact = static_cast<int>(wanted.divided[c].size()) - 1;
+    of_group.try_emplace(wanted.group[c], wanted.demands[c].exact);
+  }
+  for (std::size_t c = 0; c < wanted.demands.size(); ++c)
+    if (const auto at = of_group.find(wanted.group[c]); at != of_group.end())
+      wanted.demands[c].integral = at->second;
+}
+
 }  // namespace
 
 SizeOnLine size_on_lines(const SurfaceSize& size) {
@@ -110,7 +124,8 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
 }
 
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SurfaceSize& size, const SizeField& asked) {
+                            const SurfaceSize& size, const SizeField& asked,
+                            const std::vector<CurveDivision>& divisions) {
   const std::vector<CurveChain>& chains = curves.chains;
   const std::vector<std::vector<double>> limits = limits_on_curves(curves);
   CurveDemands wanted;
@@ -137,6 +152,8 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
     sum[wanted.group[c]] += std::log(wanted.demands[c].integral), ++members[wanted.group[c]];
   for (std::size_t c = 0; c < chains.size(); ++c)
     wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
+  wanted.divided = divide_chains(fine, chains, divisions);
+  demand_division(wanted);
   demand_edges_at_corners(curves, wanted.demands);
   demand_edges_of_loops(chains, wanted.integrals, wanted.demands);
   return wanted;

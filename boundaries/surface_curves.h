@@ -36,6 +36,7 @@ struct CurveDemands {
   std::vector<double> lengths;  ///< in sizes as asked
   std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
   std::vector<CurveDemand> demands;
+  std::vector<std::vector<double>> divided;  ///< see divide_chains()
 };
 
 /// `size` outlives it.
@@ -43,7 +44,8 @@ SizeOnLine size_on_lines(const SurfaceSize& size);
 
 /// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SurfaceSize& size, const SizeField& asked);
+                            const SurfaceSize& size, const SizeField& asked,
+                            const std::vector<CurveDivision>& divisions);
 
 /// One for each curve that is much shorter than the size.
 std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,

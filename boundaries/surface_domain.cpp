@@ -29,17 +29,34 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
   for (int attempt = 0;; ++attempt) {
     PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver);
     const FlatPatch* crossing = nullptr;
+    bool can_change = false;
     for (size_t p = 0; p < curves.maps.size(); ++p) {
       if (!placed.at_fault[p].empty()) crossing = &curves.maps[p];
       for (const int c : placed.at_fault[p]) wanted.demands[c].minimum = 2 * placed.counts[c];
+      can_change |=
+          std::ranges::any_of(placed.at_fault[p], [&](int c) { return wanted.demands[c].exact == 0; });
     }
     if (crossing == nullptr) return placed;
-    if (attempt == kRefinements)
-      throw FaceError(
-          crossing->face,
-          fmt::format("{}: its boundary crosses itself in the parameter plane however fine its curves are",
-                      face_name(model.fine, *crossing)));
+    if (attempt == kRefinements || !can_change)
+      throw FaceError(crossing->face, fmt::format("{}: its boundary crosses itself in the parameter plane {}",
+                                                  face_name(model.fine, *crossing),
+                                                  can_change ? "however fine its curves are"
+                                                             : "with the edges that its curves are given"));
   }
+}
+
+/// Refuses divisions that leave a patch with an odd boundary.
+void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
+                          const std::vector<int>& odd_patches, const std::vector<CurveDivision>& divisions) {
+  for (const int p : odd_patches)
+    for (std::size_t c = 0; c < curves.chains.size(); ++c)
+      if (wanted.demands[c].exact > 0 && std::ranges::count(wanted.demands[c].patches, p) > 0)
+        throw InputError(
+            fmt::format("{}: the numbers of edges that are given leave {} with an odd number around it, and "
+                        "quads need an "
+                        "even one: change that of curve {}",
+                        divisions.front().where, face_name(fine, curves.maps[static_cast<std::size_t>(p)]),
+                        fine.curves[curves.chains[c].curve].tag));
 }
 
 /// Nodes of a patch where two curves meet that have it on one side only.
@@ -132,14 +149,17 @@ Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, cons
 }  // namespace
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
-                                  const MatchingSolver& solver, const SizeField* asked) {
+                                  const MatchingSolver& solver, const SizeField* asked,
+                                  const std::vector<CurveDivision>& divisions) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
-  CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
+  CurveDemands wanted =
+      measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size, divisions);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver);
+  check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
   for (const int p : placed.odd_patches)
     domain.warnings.push_back(
         {"faces with an odd boundary that no curve can make even", 0,
@@ -167,6 +187,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   }
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
   domain.chains = std::move(curves.chains);
+  for (const auto& places : wanted.divided) domain.chain_is_divided.push_back(!places.empty());
   domain.cut_face = std::move(curves.cut_face);
   return domain;
 }

@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
+#include "geometry/planar/curve_divisions.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
@@ -123,8 +124,7 @@ std::vector<char> divided_curves(const PlanarModel& model, const std::vector<Cur
   std::vector<char> divided(model.curves.size(), 0);
   for (const CurveDivision& division : divisions)
     for (std::size_t c = 0; c < divided.size(); ++c)
-      if (model.curves[c].name == division.name || fmt::format("curve_{}", c + 1) == division.name)
-        divided[c] = 1;
+      if (names_curve(division, {model.curves[c].name}, static_cast<int>(c) + 1)) divided[c] = 1;
   return divided;
 }
 

@@ -8,9 +8,11 @@
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "boundaries/divided_chains.h"
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "mesher/fine_spots.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
@@ -64,12 +66,12 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
-                             const SizeField* asked, const Options& options, Failures& failures) {
-  const auto solver = matching_solver(recombination_options(options).solver, options);
+                             const SizeField* asked, const MeshProblem& problem, Failures& failures) {
+  const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked);
+                                 *solver, asked, problem.divisions);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -113,6 +115,20 @@ WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::sha
   return wanted;
 }
 
+/// The edges that curves are given, each a spot of its own length.
+std::vector<FineSpot> edges_of(const SurfaceModel& model, const std::vector<CurveDivision>& divisions) {
+  const std::vector<CurveChain> chains = curve_chains(model);
+  const auto divided = divide_chains(model.fine, chains, divisions);
+  std::vector<FineSpot> spots;
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    for (std::size_t k = 1; k < divided[c].size(); ++k) {
+      const Vec3 a = fine_point_at(model.fine, chains[c], divided[c][k - 1]);
+      const Vec3 b = fine_point_at(model.fine, chains[c], divided[c][k]);
+      spots.push_back({a, b, norm(b - a), 0});
+    }
+  return spots;
+}
+
 void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedProblem& p) {
   const std::vector<SurfacePatch>& patches = surface->domain.patches;
   p.patches.resize(patches.size());
@@ -149,6 +165,8 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
+  const std::shared_ptr<const SizeField> given = size;
+  if (!problem.divisions.empty()) size = as_near(size, edges_of(model, problem.divisions));
   const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots);
   const TimeSpent size_time = sizes.time();
 
@@ -171,7 +189,8 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   if (!wanted.curve_limit.empty()) p.size_adapted_to.push_back("short curves");
   if (wanted.curvature) p.size_adapted_to.push_back("curvature");
   if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
-  if (!p.size_adapted_to.empty()) p.given_size = wanted.base;
+  if (!problem.divisions.empty()) p.size_adapted_to.push_back("given edges");
+  if (!p.size_adapted_to.empty()) p.given_size = given;
   p.expected_quads = expected_quads(model.fine, *surface->size);
   check_count(p.expected_quads);
   auto on_curves = surface->size;
@@ -181,7 +200,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
     on_curves = std::make_shared<SurfaceSize>(model, other);
   }
   surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves,
-                                   wanted.curvature ? nullptr : wanted.base.get(), problem.options, failures);
+                                   wanted.curvature ? nullptr : wanted.base.get(), problem, failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;
