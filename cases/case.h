@@ -51,6 +51,7 @@ struct Case {
   SurfaceSpec surface;                 ///< of a mesh of triangles, surface_file or example
   SizeText size;
   std::vector<CurveDivision> divisions;
+  std::vector<PeriodicPair> periodic;
   CrossText cross;
   Options options;
   long long max_elements = MeshProblem{}.max_elements;

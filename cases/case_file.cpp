@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <limits>
+#include <numbers>
 
 #include "base/located.h"
 #include "cases/case_keys.h"
@@ -86,6 +87,19 @@ CurveDivision read_division(const TomlTable& table) {
     if (table.has(key)) *value = table.positive_number(key);
   table.finish(division_keys());
   return division;
+}
+
+PeriodicPair read_periodic(const TomlTable& table) {
+  PeriodicPair pair{.from = table.text("from"), .to = table.text("to"), .motion = {}, .where = table.where()};
+  if (table.has("translate")) pair.motion.shift = table.space_point("translate");
+  if (table.has("rotate")) pair.motion.angle = table.number("rotate") * std::numbers::pi / 180;
+  if (table.has("centre")) pair.motion.centre = table.space_point("centre");
+  if (table.has("axis")) pair.motion.axis = table.space_point("axis");
+  if (!table.has("translate") && !table.has("rotate"))
+    throw InputError(table.where() + ": how '" + pair.from + "' moves to '" + pair.to +
+                     "' is missing: expected 'translate' or 'rotate'");
+  table.finish(periodic_keys());
+  return pair;
 }
 
 SizeText read_size(const TomlTable& table) {
@@ -194,6 +208,8 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))
     target.divisions.push_back(read_division(division));
+  if (table.has("periodic")) target.periodic.clear();
+  for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
   target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   for (const OptionGroup& group : option_groups())

@@ -191,6 +191,16 @@ const TomlKeys& division_keys() {
   return keys;
 }
 
+const TomlKeys& periodic_keys() {
+  static const TomlKeys keys = {{"from", "name of curves", kText, nullptr, false, true},
+                                {"to", "name of their images", kText, nullptr, false, true},
+                                {"translate", "[x, y] or [x, y, z]", kSpacePoint},
+                                {"rotate", "degrees, counterclockwise", kNumber},
+                                {"centre", "of the rotation; the origin if absent", kSpacePoint},
+                                {"axis", "of the rotation; z if absent", kVector}};
+  return keys;
+}
+
 const TomlKeys& named_size_keys() {
   static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
                                 {"size", "at most, on them and in them", kPositive},
@@ -229,6 +239,7 @@ TomlKeys case_keys() {
                    {"surface", "what becomes of a surface's faces", "", surface_keys},
                    {"size", "wanted edge length", kSize, size_keys},
                    {"divide", "numbers of edges of curves", "", division_keys, true},
+                   {"periodic", "curves that get the nodes of others", "", periodic_keys, true},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
                    {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {

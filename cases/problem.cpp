@@ -148,6 +148,7 @@ MeshProblem make_problem(const Case& c) {
   problem.surface = c.surface;
   problem.size = make_size(c);
   problem.divisions = c.divisions;
+  problem.periodic = c.periodic;
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;
   problem.options = c.options;

@@ -91,6 +91,7 @@ class InpWriter {
       for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
     for (auto* sets : {&element_sets_, &sides_}) write_sets("ELSET", *sets);
     write_sets("NSET", node_sets_);
+    write_periodic();
     write_surfaces();
   }
 
@@ -201,6 +202,18 @@ class InpWriter {
       out_ << '*' << keyword << ", " << keyword << '=' << label << '\n';
       write_numbers(numbers, kNumbersPerLine);
     }
+  }
+
+  /// Two node sets for each pair of curves, in the same order, as equations between sets take them.
+  void write_periodic() {
+    for (std::size_t i = 0; i < mesh_.periodic.size(); ++i)
+      for (const int side : {0, 1}) {
+        out_ << "*NSET, UNSORTED, NSET=PERIODIC_" << i + 1 << (side == 0 ? "" : "_MASTER") << '\n';
+        const auto& nodes = mesh_.periodic[i].nodes;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          out_ << nodes[k][side] + 1
+               << (k + 1 == nodes.size() || (k + 1) % kNumbersPerLine == 0 ? "\n" : ", ");
+      }
   }
 
   void write_numbers(std::vector<int>& numbers, size_t per_line) {

@@ -278,6 +278,29 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   out.end_section("$EndElements");
 }
 
+/// Links whose curves are written.
+void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+  const auto is_written = [&](int curve) {
+    return std::ranges::any_of(blocks,
+                               [&](const Block& b) { return b.dim == 1 && b.entity == &mesh.curves[curve]; });
+  };
+  std::vector<const PeriodicNodes*> links;
+  for (const PeriodicNodes& link : mesh.periodic)
+    if (is_written(link.curve) && is_written(link.master)) links.push_back(&link);
+  if (links.empty()) return;
+  out.line("$Periodic");
+  out.size(links.size()).end_line();
+  for (const PeriodicNodes* link : links) {
+    out.integer(1).integer(mesh.curves[link->curve].tag).integer(mesh.curves[link->master].tag).end_line();
+    out.size(16);
+    for (const double x : link->motion.matrix()) out.real(x);
+    out.end_line();
+    out.size(link->nodes.size()).end_line();
+    for (const auto& [node, of] : link->nodes) out.size(node + 1).size(of + 1).end_line();
+  }
+  out.end_section("$EndPeriodic");
+}
+
 }  // namespace
 
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options) {
@@ -291,6 +314,7 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
   write_entities(out, blocks);
   write_nodes(out, mesh, blocks);
   write_elements(out, mesh, blocks);
+  write_periodic(out, mesh, blocks);
   out.flush();
   write_more_names(stream, blocks);
   write_unit(stream, mesh);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "mesh/renumber_nodes.h"
 
 namespace delquad {
 
@@ -24,8 +25,7 @@ inline int drop_unused_points(Mesh& mesh) {
     index[i] = kept++;
   }
   mesh.points.resize(kept);
-  std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return index[named.point] < 0; });
-  for (NamedPoint& named : mesh.named_points) named.point = index[named.point];
+  renumber_nodes(mesh, index);
   each_vertex([&](int& v) { v = index[v]; });
   return static_cast<int>(index.size()) - kept;
 }

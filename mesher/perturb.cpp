@@ -106,6 +106,11 @@ void rotate(const Rotation& rotation, PlanarDomain& domain) {
     const Vec2 q = rotation({p.x, p.y});
     p = {q.x, q.y, p.z};
   }
+  for (PeriodicNodes& pair : domain.boundary.periodic)
+    for (Vec3* v : {&pair.motion.shift, &pair.motion.centre}) {
+      const Vec2 q = rotation({v->x, v->y});
+      *v = {q.x, q.y, v->z};
+    }
   for (PatchBoundary& patch : domain.patches)
     for (Vec2& p : patch.points) p = rotation(p);
   for (CurvePlace& place : domain.places)

@@ -115,6 +115,7 @@ PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
   CurveMeshOptions options;
   options.max_edges = static_cast<double>(problem.max_elements);
   options.divisions = problem.divisions;
+  options.periodic = problem.periodic;
   const auto on_curves = problem.seed == 0 ? size : jittered(size, problem.seed, diagonal_of(model));
   return make_domain(model, as_function(on_curves), options);
 }
@@ -179,6 +180,10 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
   if (!problem.divisions.empty())
     throw InputError(fmt::format("{}: '{}' cannot be divided: the lines of {} are kept as they are",
                                  problem.divisions[0].where, problem.divisions[0].name, source));
+  if (!problem.periodic.empty())
+    throw InputError(
+        fmt::format("{}: '{}' cannot get the nodes of '{}': the lines of {} are kept as they are",
+                    problem.periodic[0].where, problem.periodic[0].to, problem.periodic[0].from, source));
 }
 
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {

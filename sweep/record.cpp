@@ -113,6 +113,8 @@ Json options_json(const Case& c) {
   for (const CurveDivision& d : c.divisions)
     json["divide"].push_back(
         {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
+  for (const PeriodicPair& pair : c.periodic)
+    json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }

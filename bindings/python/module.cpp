@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <numbers>
+
 #include "base/located.h"
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
@@ -198,6 +200,19 @@ void define_size(py::class_<Problem>& c) {
             p.problem.divisions.push_back({name, edges, progression, bump, "divide"});
           },
           py::arg("name"), py::arg("edges"), py::arg("progression") = 1, py::arg("bump") = 1)
+      .def(
+          "periodic",
+          [](Problem& p, const std::string& from, const std::string& to, const py::object& translate,
+             double rotate, const py::object& centre, const py::object& axis) {
+            p.problem.periodic.push_back(
+                {from,
+                 to,
+                 {read_vec3(translate, "periodic: translate"), rotate * std::numbers::pi / 180,
+                  read_vec3(centre, "periodic: centre"), read_vec3(axis, "periodic: axis")},
+                 "periodic"});
+          },
+          py::arg("from"), py::arg("to"), py::arg("translate"), py::arg("rotate"), py::arg("centre"),
+          py::arg("axis"))
       .def("size_limits",
            [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
               const std::optional<double>& min, const std::optional<double>& max) {

@@ -55,12 +55,20 @@ class EvenCounts {
     WeightedGraph graph{rest + 1, {}};
     std::vector<std::size_t> piece_of;
     std::vector<int> sides(graph.n_nodes, 0);
+    std::vector<std::set<int>> odd_beside(pieces_.size());  // of each with those that follow it
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const int a = node_of(face_beside(i, 0)), b = node_of(face_beside(i, 1));
-      if (a == b) continue;
-      for (const int face : {a, b}) sides[face] += pieces_[i].n;
-      if (pieces_[i].is_divided) continue;
-      graph.edges.push_back({a, b, cheapest_change(pieces_[i]).second});
+      const auto leader = pieces_[i].master < 0 ? i : static_cast<std::size_t>(pieces_[i].master);
+      for (const int side : {0, 1}) {
+        const int face = node_of(face_beside(i, side));
+        sides[face] += pieces_[i].n;
+        if (const auto [at, is_new] = odd_beside[leader].insert(face); !is_new) odd_beside[leader].erase(at);
+      }
+    }
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i].is_divided || odd_beside[i].size() != 2) continue;
+      const int a = *odd_beside[i].begin(), b = *odd_beside[i].rbegin();
+      const bool as_they_lie = node_of(face_beside(i, 0)) == a;
+      graph.edges.push_back({as_they_lie ? a : b, as_they_lie ? b : a, cheapest_change(pieces_[i]).second});
       piece_of.push_back(i);
     }
     std::vector<int> odd;
@@ -119,7 +127,8 @@ class EvenCounts {
   InputError odd_error(int face) const {
     std::set<std::string> names;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if (pieces_[i].is_divided && (face_beside(i, 0) == face || face_beside(i, 1) == face))
+      if ((pieces_[i].is_divided || pieces_[i].master >= 0) &&
+          (face_beside(i, 0) == face || face_beside(i, 1) == face))
         names.insert(curve_label(model_, pieces_[i].curves[0]));
     const Entity& region = regions_.regions[regions_.region[face]];
     return InputError(fmt::format(
@@ -143,7 +152,8 @@ class EvenCounts {
 void make_counts_even(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
                       bool loops_are_apart, std::vector<CurvePiece>& pieces) {
   EvenCounts counts(model, arrangement, regions, pieces);
-  loops_are_apart ? counts.of_groups() : counts.by_t_join();
+  const bool are_free = std::ranges::all_of(pieces, [](const CurvePiece& p) { return p.master < 0; });
+  loops_are_apart&& are_free ? counts.of_groups() : counts.by_t_join();
 }
 
 }  // namespace delquad

@@ -30,8 +30,11 @@ class CurveMesher {
     divide_pieces(model_, options.divisions, pieces_);
     for (CurvePiece& p : pieces_)
       if (!p.is_divided) p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
+    pair_periodic(model_, options.periodic, chain_, pieces_);
+    follow_masters(model_, pieces_);
     add_whiskers(size);
     make_even();
+    follow_masters(model_, pieces_);
   }
 
   Mesh mesh() const {
@@ -39,8 +42,8 @@ class CurveMesher {
     for (Vec2 p : chain_.nodes) mesh.points.push_back({p.x, p.y, 0});
     for (const CurvePiece& piece : pieces_) {
       int last = piece.ends[0];
-      for (const double t : piece.interior) {
-        const Vec2 p = piece.shape->point(t);
+      for (std::size_t k = 0; k < piece.interior.size(); ++k) {
+        const Vec2 p = piece.master < 0 ? piece.shape->point(piece.interior[k]) : piece.images[k];
         const int next = static_cast<int>(mesh.points.size());
         mesh.points.push_back({p.x, p.y, 0});
         mesh.lines.push_back({last, next});
@@ -50,6 +53,7 @@ class CurveMesher {
       mesh.line_curve.resize(mesh.lines.size(), piece.curve < 0 ? whisker_curve() : piece.curve);
     }
     mesh.curves = curves_;
+    add_periodic(mesh);
     if (has_whiskers()) mesh.curves.push_back({whisker_curve() + 1, {}});
     for (std::size_t i = 0; i < model_.points.size(); ++i) {
       const ModelPoint& point = model_.points[i];
@@ -80,6 +84,37 @@ class CurveMesher {
   }
 
  private:
+  /// Nodes of pieces that follow others.
+  void add_periodic(Mesh& mesh) const {
+    std::vector<int> first;
+    int next = static_cast<int>(chain_.nodes.size());
+    for (const CurvePiece& piece : pieces_) {
+      first.push_back(next);
+      next += static_cast<int>(piece.interior.size());
+    }
+    const auto nodes_of = [&](int i) {
+      std::vector<int> nodes{pieces_[i].ends[0]};
+      for (std::size_t k = 0; k < pieces_[i].interior.size(); ++k)
+        nodes.push_back(first[i] + static_cast<int>(k));
+      nodes.push_back(pieces_[i].ends[1]);
+      return nodes;
+    };
+    std::map<std::pair<int, int>, std::size_t> known;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const CurvePiece& piece = pieces_[i];
+      if (piece.master < 0) continue;
+      const int curve = piece.curve, master = pieces_[piece.master].curve;
+      const auto [at, is_new] = known.try_emplace({curve, master}, mesh.periodic.size());
+      if (is_new) mesh.periodic.push_back({curve, master, piece.motion, {}});
+      auto& pairs = mesh.periodic[at->second].nodes;
+      const std::vector<int> own = nodes_of(static_cast<int>(i)), of = nodes_of(piece.master);
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const std::array<int, 2> nodes{own[piece.runs_as_master ? k : own.size() - 1 - k], of[k]};
+        if (std::ranges::find(pairs, nodes) == pairs.end()) pairs.push_back(nodes);
+      }
+    }
+  }
+
   bool has_whiskers() const { return pieces_.back().curve < 0; }
   int whisker_curve() const { return static_cast<int>(curves_.size()); }
   std::string prefix() const { return message_prefix(model_); }
@@ -93,6 +128,12 @@ class CurveMesher {
             has_whiskers() ? whisker_curve() : -1};
   }
 
+  bool is_paired(const CurvePiece& piece) const {
+    return piece.master >= 0 || std::ranges::any_of(pieces_, [&](const CurvePiece& p) {
+             return p.master == &piece - pieces_.data();
+           });
+  }
+
   /// Of the mesh's points.
   std::vector<CurvePlace> places() const {
     std::vector<CurvePlace> places(chain_.nodes.size());
@@ -100,7 +141,9 @@ class CurveMesher {
       if (piece.curve < 0) places[piece.ends[1]].is_free = true;
     for (const CurvePiece& piece : pieces_)
       for (const double t : piece.interior)
-        places.push_back(piece.is_divided ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
+        places.push_back(piece.is_divided || is_paired(piece)
+                             ? CurvePlace{}
+                             : CurvePlace{piece.shape, t, piece.from, piece.to});
     return places;
   }
 

@@ -27,6 +27,11 @@ struct CurvePiece {
   bool is_divided = false;            ///< its nodes were asked for: neither n nor they change
   std::vector<double> interior = {};  ///< parameters of its nodes
   int curve = -1;                     ///< of the mesh; -1: a whisker
+  /// Index of the piece whose nodes it has the images of; -1: none. Then these count, in its direction.
+  int master = -1;
+  Motion motion = {};          ///< that takes the master here
+  bool runs_as_master = true;  ///< else the other way
+  std::vector<Vec2> images = {};
 
   void set_edges(int edges) {
     n = edges;
@@ -46,6 +51,14 @@ std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, co
 /// edges, and where two divisions disagree.
 void divide_pieces(const PlanarModel& model, std::span<const CurveDivision> divisions,
                    std::vector<CurvePiece>& pieces);
+
+/// Pairs the pieces of periodic curves, and puts the ends of those that are images where these are. Throws
+/// InputError where they do not match.
+void pair_periodic(const PlanarModel& model, std::span<const PeriodicPair> periodic, ModelChain& chain,
+                   std::vector<CurvePiece>& pieces);
+
+/// Gives pieces with a master its images.
+void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces);
 
 /// Changes numbers of edges by one, where it costs least, until every region has an even number of them.
 /// Throws InputError where what was divided forbids that.

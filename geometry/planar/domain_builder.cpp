@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "delquad/error.h"
+#include "mesh/renumber_nodes.h"
 
 namespace delquad {
 
@@ -85,10 +86,9 @@ class DomainBuilder {
       points.push_back({p.x, p.y, points.empty() ? p.z : points.front().z});
     }
     mesh.points = std::move(points);
-    std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
     for (auto& line : mesh.lines)
       for (int& v : line) v = renamed[v];
-    for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
+    renumber_nodes(mesh, renamed);
   }
 
   /// The region comes to lie on the left; of two, the one that the other is around. Sides keep their numbers.
@@ -288,8 +288,7 @@ void drop_stray_lines(PlanarDomain& domain) {
   for (PatchBoundary& patch : domain.patches)
     for (int& v : patch.point_node) v = renamed[v];
   for (int& v : domain.on_crack) v = renamed[v];
-  std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
-  for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
+  renumber_nodes(mesh, renamed);
 }
 
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options) {

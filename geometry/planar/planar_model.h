@@ -16,6 +16,7 @@ struct CurveMeshOptions {
   /// The most boundary edges allowed; InputError with the estimate beyond it, before anything is allocated.
   double max_edges = 1e8;
   std::vector<CurveDivision> divisions = {};
+  std::vector<PeriodicPair> periodic = {};
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)

@@ -58,6 +58,24 @@ struct NamedPoint {
   Entity entity;
 };
 
+/// A turn about an axis, then a shift.
+struct Motion {
+  Vec3 shift = {};
+  double angle = 0;  ///< radians, counterclockwise seen from where the axis points to
+  Vec3 centre = {};
+  Vec3 axis = {0, 0, 1};  ///< need not have unit length
+  Vec3 operator()(const Vec3& x) const;
+  /// As a matrix of four rows for points (x, y, z, 1).
+  std::array<double, 16> matrix() const;
+};
+
+/// Nodes of a curve that are images of those of another.
+struct PeriodicNodes {
+  int curve, master;                      ///< indices into Mesh::curves
+  Motion motion;                          ///< that takes the master there
+  std::vector<std::array<int, 2>> nodes;  ///< each beside that of which it is the image
+};
+
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
 /// Indices count from 0.
 struct Mesh {
@@ -71,6 +89,7 @@ struct Mesh {
   std::vector<Entity> curves;
   std::vector<Entity> regions;
   std::vector<NamedPoint> named_points;
+  std::vector<PeriodicNodes> periodic;
   std::string unit;  ///< of lengths, such as "mm"; empty: not known
 };
 

@@ -59,6 +59,13 @@ struct CurveDivision {
   std::string where = "division";  ///< who asked for it, for messages
 };
 
+/// Curves that get the images of the nodes of others.
+struct PeriodicPair {
+  std::string from, to;            ///< names of the curves, or numbers: "curve_7"
+  Motion motion;                   ///< that takes those of `from` to those of `to`
+  std::string where = "periodic";  ///< who asked for it, for messages
+};
+
 /// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
 /// another.
 struct ModelLoop {

@@ -120,6 +120,7 @@ def mesh(
     sources: Iterable[tuple[npt.ArrayLike, npt.ArrayLike, float, float, float, float]] = (),
     size_on: Mapping[str, float | Mapping[str, float]] | None = None,
     divide: Mapping[str, int | Mapping[str, float]] | None = None,
+    periodic: Iterable[Mapping[str, Any]] = (),
     gradation: float | None = None,
     curvature: float | None = None,
     min_size: float | None = None,

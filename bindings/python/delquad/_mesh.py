@@ -121,6 +121,7 @@ def mesh(
     sources=(),
     size_on=None,
     divide=None,
+    periodic=(),
     gradation=None,
     curvature=None,
     min_size=None,
@@ -156,6 +157,8 @@ def mesh(
     size_on: {name: size} of curves, points, regions and faces, or {name: {"size": 0.1, "reach": 0.5, "growth": 0.3}}
         or {name: {"curvature": 24}}; the smallest size counts.
     divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
+    periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
+        second curves get the images of the nodes of the first.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -180,6 +183,9 @@ def mesh(
         problem.add_named_size(on, **(asked if isinstance(asked, dict) else {"size": asked}))
     for on, asked in (divide or {}).items():
         problem.divide(on, **(asked if isinstance(asked, dict) else {"edges": asked}))
+    for pair in periodic:
+        motion = {"translate": (0, 0, 0), "rotate": 0, "centre": (0, 0, 0), "axis": (0, 0, 1)} | pair
+        problem.periodic(motion.pop("from"), motion.pop("to"), **motion)
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)

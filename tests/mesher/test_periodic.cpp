@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "delquad/mesher.h"
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+ModelCurve curve_of(std::shared_ptr<const Curve> shape, const std::string& name) {
+  return {std::move(shape), name, {}};
+}
+
+/// A square with a circular hole, and halves of a hole that its left and right side cut through.
+PlanarModel unit_cell() {
+  const double r = 0.2, pi = std::numbers::pi;
+  PlanarModel model;
+  model.curves = {curve_of(make_segment({0, 0}, {1, 0}), "bottom"),
+                  curve_of(make_segment({1, 0}, {1, 0.5 - r}), "right"),
+                  curve_of(make_arc({1, 0.5}, r, 1.5 * pi, 0.5 * pi), "pore"),
+                  curve_of(make_segment({1, 0.5 + r}, {1, 1}), "right"),
+                  curve_of(make_segment({0, 1}, {1, 1}), "top"),
+                  curve_of(make_segment({0, 0.5 + r}, {0, 1}), "left"),
+                  curve_of(make_arc({0, 0.5}, r, -0.5 * pi, 0.5 * pi), "pore"),
+                  curve_of(make_segment({0, 0}, {0, 0.5 - r}), "left"),
+                  curve_of(make_circle({0.5, 0.5}, 0.15), "hole")};
+  model.loops = {{{0, 1, 2, 3, 4, 5, 6, 7}, {}, {}}, {{8}, {}, {}}};
+  return model;
+}
+
+MeshProblem cell_problem(PlanarModel model, double size) {
+  MeshProblem problem;
+  problem.model = std::move(model);
+  problem.size.field = make_constant_size(size);
+  problem.cross.kind = CrossKind::kSizeAware;
+  problem.periodic = {{"left", "right", {{1, 0, 0}}, "p 1"}, {"bottom", "top", {{0, 1, 0}}, "p 2"}};
+  return problem;
+}
+
+std::set<int> nodes_on(const Mesh& mesh, const std::string& name) {
+  std::set<int> nodes;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    if (mesh.curves[mesh.line_curve[l]].names == std::vector{name})
+      nodes.insert(mesh.lines[l].begin(), mesh.lines[l].end());
+  return nodes;
+}
+
+/// Every node of `to` is the image of just one of `from`, as the mesh says.
+void expect_images(const Mesh& mesh, const std::string& from, const std::string& to) {
+  std::map<int, int> of;
+  for (const PeriodicNodes& pair : mesh.periodic) {
+    if (mesh.curves[pair.curve].names != std::vector{to} ||
+        mesh.curves[pair.master].names != std::vector{from})
+      continue;
+    for (const auto& [node, master] : pair.nodes) {
+      EXPECT_LT(norm(pair.motion(mesh.points[master]) - mesh.points[node]), 1e-14);
+      EXPECT_TRUE(of.emplace(node, master).second || of[node] == master);
+    }
+  }
+  std::set<int> images, masters;
+  for (const auto& [node, master] : of) images.insert(node), masters.insert(master);
+  EXPECT_EQ(images, nodes_on(mesh, to));
+  EXPECT_EQ(masters, nodes_on(mesh, from));
+}
+
+TEST(Periodic, CellsWithHolesMatch) {
+  for (const double size : {0.11, 0.05, 0.021}) {
+    for (const long long seed : {0, 7}) {
+      MeshProblem problem = cell_problem(unit_cell(), size);
+      problem.seed = seed;
+      const MeshResult r = mesh(problem);
+      EXPECT_TRUE(r.mesh.triangles.empty());
+      EXPECT_EQ(r.mesh.periodic.size(), 3u);
+      expect_images(r.mesh, "left", "right");
+      expect_images(r.mesh, "bottom", "top");
+    }
+  }
+}
+
+TEST(Periodic, SizesOnTheFirstSideCount) {
+  MeshProblem problem = cell_problem(unit_cell(), 0.1);
+  problem.size.field = make_function_size([](const Vec3& x) { return 0.02 + 0.1 * x.x; }, "size");
+  const MeshResult r = mesh(problem);
+  EXPECT_TRUE(r.mesh.triangles.empty());
+  expect_images(r.mesh, "left", "right");
+}
+
+TEST(Periodic, SectorsTurn) {
+  const double third = 2 * std::numbers::pi / 3;
+  const Vec2 e{std::cos(third), std::sin(third)};
+  PlanarModel model;
+  model.curves = {curve_of(make_segment({1, 0}, {2, 0}), "first"),
+                  curve_of(make_arc({0, 0}, 2, 0, third), "outer"),
+                  curve_of(make_segment({2 * e.x, 2 * e.y}, {e.x, e.y}), "last"),
+                  curve_of(make_arc({0, 0}, 1, third, 0), "inner")};
+  model.loops = {{{0, 1, 2, 3}, {}, {}}};
+  MeshProblem problem;
+  problem.model = model;
+  problem.size.field = make_constant_size(0.12);
+  problem.periodic = {{"first", "last", {{}, third}, "p"}};
+  const MeshResult r = mesh(problem);
+  EXPECT_TRUE(r.mesh.triangles.empty());
+  expect_images(r.mesh, "first", "last");
+}
+
+TEST(Periodic, IsWritten) {
+  const testing_support::TemporaryFolder folder;
+  const MeshResult r = mesh(cell_problem(unit_cell(), 0.1));
+  write_mesh(folder / "cell.msh", r.mesh);
+  const std::string text = testing_support::read_text(folder / "cell.msh");
+  EXPECT_NE(text.find("$Periodic\n3\n1 2 8\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n"), std::string::npos);
+  EXPECT_NE(text.find("$EndPeriodic"), std::string::npos);
+  write_mesh(folder / "cell.inp", r.mesh);
+  EXPECT_NE(testing_support::read_text(folder / "cell.inp").find("*NSET, UNSORTED, NSET=PERIODIC_3_MASTER"),
+            std::string::npos);
+  EXPECT_EQ(read_mesh(folder / "cell.msh").quads, r.mesh.quads);
+}
+
+TEST(Periodic, SidesThatDoNotMatchAreRefused) {
+  const auto refused = [](const PeriodicPair& pair, std::initializer_list<const char*> says) {
+    MeshProblem problem = cell_problem(unit_cell(), 0.1);
+    problem.periodic = {pair};
+    expect_input_error([&] { mesh(problem); }, says);
+  };
+  refused({"left", "right", {{0.9, 0, 0}}, "p 1"},
+          {"p 1: the sides do not match", "has no image in 'right'"});
+  refused({"left", "rihgt", {{1, 0, 0}}, "p 1"}, {"p 1: no curve is called 'rihgt'; did you mean 'right'?"});
+  refused({"pore", "hole", {{1, 0, 0}}, "p 1"}, {"p 1: the sides do not match"});
+  MeshProblem divided = cell_problem(unit_cell(), 0.1);
+  divided.divisions = {{"top", 8, 1, 1, "d 1"}};
+  expect_input_error([&] { mesh(divided); }, {"p 2: curve", "gets its nodes twice"});
+  divided.divisions = {{"bottom", 9, 1.1, 1, "d 1"}};
+  const MeshResult r = mesh(divided);
+  EXPECT_EQ(nodes_on(r.mesh, "top").size(), 10u);
+  expect_images(r.mesh, "bottom", "top");
+}
+
+}  // namespace
+}  // namespace delquad
