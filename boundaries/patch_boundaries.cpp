@@ -71,13 +71,24 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
                                  const SurfaceSize& size, const MatchingSolver& solver) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
-  placed.counts = even_counts(wanted.demands, static_cast<int>(maps.size()), solver, placed.odd_patches);
+  placed.counts = even_counts(joined_demands(wanted.demands, curves.pairs), static_cast<int>(maps.size()),
+                              solver, placed.odd_patches);
+  for (const ChainPair& pair : curves.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
                                   wanted.group, size_on_lines(size));
   for (std::size_t c = 0; c < wanted.divided.size(); ++c)
     for (std::size_t k = 0; k < wanted.divided[c].size(); ++k)
       places[c][k] = placed.counts[c] * wanted.integrals[c].part_at(wanted.divided[c][k]);
+  for (const ChainPair& pair : curves.pairs) {
+    const SizeIntegral &own = wanted.integrals[pair.chain], &of = wanted.integrals[pair.master];
+    const double n = placed.counts[pair.chain];
+    std::vector<double> at;
+    for (const double place : places[pair.master]) at.push_back(of.s_at(place / n));
+    places[pair.chain] = image_places(model.fine, curves.chains, pair, at);
+    for (double& place : places[pair.chain]) place = n * own.part_at(place);
+  }
   placed.nodes = place_nodes(model, curves.chains, curves.cut_face, wanted.integrals, places);
+  place_images(model.fine, curves.chains, curves.pairs, placed.nodes);
   placed.boundaries.resize(maps.size());
   placed.at_fault.resize(maps.size());
   for_each_patch(model.fine, maps, [&](size_t p) {

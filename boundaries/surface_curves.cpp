@@ -13,6 +13,7 @@
 #include "boundaries/divided_chains.h"
 #include "boundaries/narrow_places.h"
 #include "boundaries/tube_sizes.h"
+#include "delquad/error.h"
 
 namespace delquad {
 
@@ -108,13 +109,15 @@ void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
       [&](std::size_t p) { return static_cast<double>(maps[p].flat.points.size()); });
 }
 
-SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size) {
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                          const std::vector<PeriodicPair>& periodic) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves;
   curves.maps = std::move(flattening.patches);
   curves.cut_face.assign(fine.curves.size(), -1);
   for (const SurfaceCut& cut : flattening.cuts) curves.cut_face[cut.curve] = cut.face;
   curves.chains = curve_chains(model);
+  curves.pairs = pair_chains(fine, curves.chains, periodic);
   const LineIndex lines(curves.chains);
   for (const FlatPatch& map : curves.maps)
     curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
@@ -153,6 +156,12 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
   for (std::size_t c = 0; c < chains.size(); ++c)
     wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
   wanted.divided = divide_chains(fine, chains, divisions);
+  for (const ChainPair& pair : curves.pairs)
+    if (!wanted.divided[pair.chain].empty())
+      throw InputError(
+          fmt::format("curve {} is divided and gets the nodes of curve {}: expected the latter to be "
+                      "divided",
+                      fine.curves[chains[pair.chain].curve].tag, fine.curves[chains[pair.master].curve].tag));
   demand_division(wanted);
   demand_edges_at_corners(curves, wanted.demands);
   demand_edges_of_loops(chains, wanted.integrals, wanted.demands);

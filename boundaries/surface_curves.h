@@ -8,6 +8,7 @@
 #include "boundaries/curve_nodes.h"
 #include "boundaries/face_corners.h"
 #include "boundaries/patch_outline.h"
+#include "boundaries/periodic_chains.h"
 #include "delquad/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/surface/flatten.h"
@@ -23,12 +24,14 @@ struct SurfaceCurves {
   std::vector<FlatPatch> maps;
   std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
   std::vector<CurveChain> chains;
+  std::vector<ChainPair> pairs;        ///< of them
   std::vector<PatchOutline> outlines;  ///< of each map
   std::vector<FaceCorner> corners;
   std::vector<std::vector<double>> tube_sizes;  ///< at the vertices of each map
 };
 
-SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size);
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                          const std::vector<PeriodicPair>& periodic);
 
 /// How many edges curves want and must have, by chain.
 struct CurveDemands {

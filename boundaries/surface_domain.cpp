@@ -150,9 +150,10 @@ Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, cons
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
-                                  const std::vector<CurveDivision>& divisions) {
+                                  const std::vector<CurveDivision>& divisions,
+                                  const std::vector<PeriodicPair>& periodic) {
   const Mesh& fine = model.fine;
-  SurfaceCurves curves = find_curves(model, std::move(flattening), size);
+  SurfaceCurves curves = find_curves(model, std::move(flattening), size, periodic);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
   CurveDemands wanted =
       measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size, divisions);
@@ -186,8 +187,11 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     }
   }
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
+  domain.boundary.periodic = periodic_nodes(curves.chains, curves.pairs, domain.nodes);
   domain.chains = std::move(curves.chains);
-  for (const auto& places : wanted.divided) domain.chain_is_divided.push_back(!places.empty());
+  for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
+  for (const ChainPair& pair : curves.pairs)
+    domain.chain_stays[pair.chain] = domain.chain_stays[pair.master] = 1;
   domain.cut_face = std::move(curves.cut_face);
   return domain;
 }

@@ -38,7 +38,7 @@ struct SurfaceDomain {
   Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
   std::vector<SurfacePatch> patches;
   std::vector<CurveChain> chains;
-  std::vector<char> chain_is_divided;      ///< its nodes stay
+  std::vector<char> chain_stays;           ///< its nodes were asked for, and no stage moves them
   std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
   SurfaceNodes nodes;                      ///< those of `boundary`
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
@@ -50,11 +50,13 @@ struct SurfaceDomain {
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
-/// Curves of `divisions` get these edges. Throws FaceError when no refinement gives a valid boundary, naming
+/// Curves of `divisions` get these edges, and the second curves of `periodic` the images of the nodes of the
+/// first. Throws FaceError when no refinement gives a valid boundary, naming
 /// the face, and InputError where divisions leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
-                                  const std::vector<CurveDivision>& divisions = {});
+                                  const std::vector<CurveDivision>& divisions = {},
+                                  const std::vector<PeriodicPair>& periodic = {});
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print

@@ -71,7 +71,7 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, problem.divisions);
+                                 *solver, asked, problem.divisions, problem.periodic);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });

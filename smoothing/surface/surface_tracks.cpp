@@ -68,7 +68,7 @@ void SurfaceTracks::add_curves() {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       length.push_back(length.back() +
                        norm(model_.fine.points[points[i + 1]] - model_.fine.points[points[i]]));
-    if (domain_.chain_is_divided[c]) continue;
+    if (domain_.chain_stays[c]) continue;
     const auto& on_curve = nodes_.on_curve[c];
     for (std::size_t k = 1; k + 1 < on_curve.size(); ++k) {
       const auto line = std::min(static_cast<std::size_t>(on_curve[k].s), points.size() - 2);

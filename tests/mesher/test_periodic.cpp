@@ -109,6 +109,52 @@ TEST(Periodic, SectorsTurn) {
   expect_images(r.mesh, "first", "last");
 }
 
+/// The part of a torus of radii 2 and 0.7 from angle 0 on, open at both ends.
+TriangleModel torus_sector(double angle, int along) {
+  constexpr int kAround = 40;
+  Mesh mesh;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < kAround; ++i) {
+      const double u = angle * j / along, v = 2 * std::numbers::pi * i / kAround, r = 2 + 0.7 * std::cos(v);
+      mesh.points.push_back({r * std::cos(u), r * std::sin(u), 0.7 * std::sin(v)});
+    }
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < kAround; ++i) {
+      const int a = j * kAround + i, b = j * kAround + (i + 1) % kAround;
+      mesh.triangles.push_back({a, b + kAround, b});
+      mesh.triangles.push_back({a, a + kAround, b + kAround});
+    }
+  mesh.regions.push_back({1, {}});
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  return {mesh};
+}
+
+TEST(Periodic, SurfacesMatch) {
+  const double angle = 0.5 * std::numbers::pi;
+  MeshProblem problem;
+  problem.model = torus_sector(angle, 30);
+  problem.size.field = make_constant_size(0.31);
+  problem.periodic = {{"curve_1", "curve_2", {{}, angle}, "p"}};
+  const MeshResult r = mesh(problem);
+  EXPECT_TRUE(r.mesh.triangles.empty());
+  ASSERT_EQ(r.mesh.periodic.size(), 1u);
+  std::set<int> images, masters;
+  for (const auto& [node, master] : r.mesh.periodic[0].nodes) {
+    EXPECT_LT(norm(r.mesh.periodic[0].motion(r.mesh.points[master]) - r.mesh.points[node]), 1e-14);
+    images.insert(node), masters.insert(master);
+  }
+  for (std::size_t l = 0; l < r.mesh.lines.size(); ++l)
+    for (const int v : r.mesh.lines[l]) {
+      const double x = r.mesh.points[v].x, y = r.mesh.points[v].y;
+      EXPECT_EQ(std::abs(y) < 1e-9, masters.contains(v));
+      EXPECT_EQ(std::abs(x) < 1e-9, images.contains(v));
+    }
+  EXPECT_EQ(images.size(), masters.size());
+  EXPECT_GT(images.size(), 10u);
+  problem.periodic[0].motion.angle = 1.5;
+  expect_input_error([&] { mesh(problem); }, {"p: the sides do not match: curve 1"});
+}
+
 TEST(Periodic, IsWritten) {
   const testing_support::TemporaryFolder folder;
   const MeshResult r = mesh(cell_problem(unit_cell(), 0.1));
