@@ -69,6 +69,7 @@ struct MeshArguments {
   std::optional<double> feature_angle, weld_tolerance;
   std::optional<double> ignore_below;                     ///< a length
   bool glue = false;                                      ///< else as the model says
+  std::vector<std::string> mapped;                        ///< names of regions, or "auto"
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string quality = kDefaultQuality;

@@ -110,6 +110,10 @@ int mesh_command(const MeshArguments& arguments) {
   c.max_elements = arguments.max_elements;
   c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
+  if (!arguments.mapped.empty()) {
+    c.mapped = {arguments.mapped, false, "--mapped"};
+    c.mapped.automatic = std::erase(c.mapped.names, "auto") > 0;
+  }
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};

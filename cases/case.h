@@ -52,6 +52,7 @@ struct Case {
   SizeText size;
   std::vector<CurveDivision> divisions;
   std::vector<PeriodicPair> periodic;
+  MappedSpec mapped;
   CrossText cross;
   Options options;
   long long max_elements = MeshProblem{}.max_elements;

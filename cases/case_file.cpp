@@ -102,6 +102,18 @@ PeriodicPair read_periodic(const TomlTable& table) {
   return pair;
 }
 
+MappedSpec read_mapped(const TomlTable& table) {
+  MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped")};
+  if (table.kind("mapped") != TomlKind::kText) {
+    mapped.names = table.texts("mapped");
+  } else if (const std::string text = table.text("mapped"); text == "auto") {
+    mapped.automatic = true;
+  } else {
+    mapped.names = {text};
+  }
+  return mapped;
+}
+
 SizeText read_size(const TomlTable& table) {
   SizeText size;
   size.where = table.where("size");
@@ -208,6 +220,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))
     target.divisions.push_back(read_division(division));
+  if (table.has("mapped")) target.mapped = read_mapped(table);
   if (table.has("periodic")) target.periodic.clear();
   for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};

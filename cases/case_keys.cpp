@@ -240,6 +240,7 @@ TomlKeys case_keys() {
                    {"size", "wanted edge length", kSize, size_keys},
                    {"divide", "numbers of edges of curves", "", division_keys, true},
                    {"periodic", "curves that get the nodes of others", "", periodic_keys, true},
+                   {"mapped", "regions that become grids, or \"auto\"", kTextOrTexts},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
                    {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {

@@ -149,6 +149,7 @@ MeshProblem make_problem(const Case& c) {
   problem.size = make_size(c);
   problem.divisions = c.divisions;
   problem.periodic = c.periodic;
+  problem.mapped = c.mapped;
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;
   problem.options = c.options;

@@ -14,6 +14,7 @@
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
+#include "mesher/mapped_grid.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -116,6 +117,7 @@ PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
   options.max_edges = static_cast<double>(problem.max_elements);
   options.divisions = problem.divisions;
   options.periodic = problem.periodic;
+  options.mapped = problem.mapped;
   const auto on_curves = problem.seed == 0 ? size : jittered(size, problem.seed, diagonal_of(model));
   return make_domain(model, as_function(on_curves), options);
 }
@@ -175,6 +177,12 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   return domain;
 }
 
+/// Refuses grids where there can be none.
+void check_not_mapped(const MeshProblem& problem) {
+  if (problem.mapped.automatic || !problem.mapped.names.empty())
+    throw InputError(problem.mapped.where + ": grids are for planar models of curves");
+}
+
 /// What cannot be where lines are kept.
 void check_lines_are_free(const MeshProblem& problem, const std::string& source) {
   if (!problem.divisions.empty())
@@ -189,6 +197,7 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
   const Mesh& mesh = model.mesh;
   check_lines_are_free(problem, model.source);
+  check_not_mapped(problem);
   if (mesh.lines.empty())
     throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
   if (!mesh.triangles.empty() || !mesh.quads.empty())
@@ -255,6 +264,7 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) 
 }
 
 PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
+  check_not_mapped(problem);
   const Stopwatch reading;
   const DoingStage stage("reading");
   std::vector<FeatureBall> kept_features;
@@ -293,6 +303,21 @@ void check_planar(const MeshProblem& problem) {
                      ": sizes by curvature are for surfaces, and this is a planar domain");
 }
 
+/// Faces that become grids.
+void add_grids(const MeshProblem& problem, const PlanarDomain& domain, PreparedProblem& p) {
+  for (const auto& [patch, corners] : domain.mapped) {
+    p.patches[patch].grid = mapped_grid(p.patches[patch].boundary, corners);
+    const Entity& region = p.boundary.regions[p.patches[patch].region];
+    const bool asked = std::ranges::any_of(problem.mapped.names, [&](const std::string& name) {
+      return !entities_named({region}, "region", name).empty();
+    });
+    if (!p.patches[patch].grid && asked)
+      throw InputError(
+          fmt::format("{}: '{}' cannot be a grid: it would fold", problem.mapped.where,
+                      region.names.empty() ? fmt::format("region {}", region.tag) : region.names[0]));
+  }
+}
+
 /// Cross field and patches.
 void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const CrossField>& given,
                      PlanarDomain&& domain, PreparedProblem& p) {
@@ -302,10 +327,15 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
   const double z = p.boundary.points[0].z;
   const auto size = std::make_shared<PlanarSize>(p.size, z);
   for (std::size_t i = 0; i < domain.patches.size(); ++i)
-    p.patches.push_back(
-        {std::move(domain.patches[i]), domain.patch_region[i], cross, size, [z](Vec2 u, int&) {
-           return Vec3{u.x, u.y, z};
-         }});
+    p.patches.push_back({std::move(domain.patches[i]),
+                         domain.patch_region[i],
+                         cross,
+                         size,
+                         [z](Vec2 u, int&) {
+                           return Vec3{u.x, u.y, z};
+                         },
+                         {}});
+  add_grids(problem, domain, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);
   p.times.emplace_back("fields", fields.time());

@@ -23,6 +23,7 @@ struct PreparedPatch {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
+  std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, which no stage changes
 };
 
 /// What the patches of a surface were made from.

@@ -21,6 +21,7 @@
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
 #include "mesher/lift_bad_quads.h"
+#include "mesher/mapped_grid.h"
 #include "mesher/part_twins.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
@@ -348,6 +349,10 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         std::string& reason = state.reasons[i];
         const DoingFace face = doing_patch(prepared, i);
         patches[i].inside.clear();
+        if (const auto& grid = prepared.patches[i].grid) {
+          patches[i] = grid_as(stage.to, *grid);
+          return;
+        }
         if (reason.empty()) reason = run_on_patch(stage, prepared, i, patches[i], logs[i]);
       },
       [&](std::size_t i) {
@@ -357,7 +362,8 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   for (const StageLog& one : logs) state.log.add(one);
   check_insertion(prepared, state.log);
   std::vector<char> left_out;
-  for (const std::string& reason : state.reasons) left_out.push_back(!reason.empty());
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    left_out.push_back(!state.reasons[i].empty() || prepared.patches[i].grid);
   const AllPatches all{prepared, prepared.options, patches, left_out, state.nodes};
   if (prepared.surface && repair_options(prepared.options).part_twins) {
     const Stopwatch parting;

@@ -115,6 +115,8 @@ Json options_json(const Case& c) {
         {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
   for (const PeriodicPair& pair : c.periodic)
     json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
+  if (c.mapped.automatic) json["mapped"] = "auto";
+  if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }

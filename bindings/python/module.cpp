@@ -213,6 +213,10 @@ void define_size(py::class_<Problem>& c) {
           },
           py::arg("from"), py::arg("to"), py::arg("translate"), py::arg("rotate"), py::arg("centre"),
           py::arg("axis"))
+      .def("mapped",
+           [](Problem& p, const std::vector<std::string>& names, bool automatic) {
+             p.problem.mapped = {names, automatic, "mapped"};
+           })
       .def("size_limits",
            [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
               const std::optional<double>& min, const std::optional<double>& max) {

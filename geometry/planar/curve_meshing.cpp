@@ -13,6 +13,7 @@
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/loops_apart.h"
+#include "geometry/planar/mapped_faces.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/planar/whiskers.h"
 
@@ -23,7 +24,10 @@ namespace {
 class CurveMesher {
  public:
   CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options)
-      : model_(model), chain_(chain_model(model)), pieces_(cut_curves(model, chain_)) {
+      : model_(model),
+        mapped_spec_(options.mapped),
+        chain_(chain_model(model)),
+        pieces_(cut_curves(model, chain_)) {
     measure(size, options.max_edges);
     name_curves();
     set_least();
@@ -79,6 +83,7 @@ class CurveMesher {
     for (const int v : domain.on_crack) domain.places[v] = {};
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
+    add_mapped(domain);
     if (domain.has_junctions) drop_stray_lines(domain);
     return domain;
   }
@@ -128,6 +133,34 @@ class CurveMesher {
             has_whiskers() ? whisker_curve() : -1};
   }
 
+  /// Patches by the corners of the faces that they are of.
+  void add_mapped(PlanarDomain& domain) const {
+    for (const MappedFace& face : mapped_) {
+      std::size_t edges = 0;
+      for (const auto& side : face.sides)
+        for (const int piece : side) edges += static_cast<std::size_t>(pieces_[piece].n);
+      for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+        const std::vector<Vec2>& points = domain.patches[p].points;
+        if (points.size() != edges) continue;
+        std::array<int, 4> corners;
+        for (int k = 0; k < 4; ++k)
+          corners[k] =
+              static_cast<int>(std::ranges::find(points, chain_.nodes[face.corners[k]]) - points.begin());
+        if (std::ranges::all_of(corners, [&](int c) { return c < static_cast<int>(points.size()); }))
+          domain.mapped.emplace_back(static_cast<int>(p), corners);
+      }
+    }
+  }
+
+  /// Whether its nodes stay in all stages: they were asked for, or a face that is a grid has them.
+  bool stays(const CurvePiece& piece) const {
+    const int index = static_cast<int>(&piece - pieces_.data());
+    return piece.is_divided || is_paired(piece) || std::ranges::any_of(mapped_, [&](const MappedFace& face) {
+             return std::ranges::any_of(
+                 face.sides, [&](const auto& side) { return std::ranges::find(side, index) != side.end(); });
+           });
+  }
+
   bool is_paired(const CurvePiece& piece) const {
     return piece.master >= 0 || std::ranges::any_of(pieces_, [&](const CurvePiece& p) {
              return p.master == &piece - pieces_.data();
@@ -141,9 +174,7 @@ class CurveMesher {
       if (piece.curve < 0) places[piece.ends[1]].is_free = true;
     for (const CurvePiece& piece : pieces_)
       for (const double t : piece.interior)
-        places.push_back(piece.is_divided || is_paired(piece)
-                             ? CurvePlace{}
-                             : CurvePlace{piece.shape, t, piece.from, piece.to});
+        places.push_back(stays(piece) ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
     return places;
   }
 
@@ -279,6 +310,10 @@ class CurveMesher {
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
+    if (mapped_spec_.automatic || !mapped_spec_.names.empty()) {
+      mapped_ = find_mapped_faces(mapped_spec_, lines, arrangement, regions, pieces_);
+      return balance_mapped(model_, mapped_, arrangement, regions, pieces_);
+    }
     const bool are_apart =
         std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
     make_counts_even(model_, arrangement, regions, are_apart, pieces_);
@@ -317,8 +352,10 @@ class CurveMesher {
   }
 
   const PlanarModel& model_;
+  const MappedSpec mapped_spec_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
+  std::vector<MappedFace> mapped_;
   std::vector<Entity> curves_;              ///< of the mesh
   std::vector<std::vector<int>> of_curve_;  ///< the model's curves of each
 };

@@ -17,6 +17,7 @@ struct CurveMeshOptions {
   double max_edges = 1e8;
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
+  MappedSpec mapped = {};
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)
@@ -43,8 +44,10 @@ struct PlanarDomain {
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
-  bool has_junctions = false;     ///< some node has other than two lines
-  std::vector<int> on_crack;      ///< nodes along cracks, those that were doubled and the others
+  /// Of those that are to be grids, by patch: the points of its boundary at which its four sides begin.
+  std::vector<std::pair<int, std::array<int, 4>>> mapped;
+  bool has_junctions = false;  ///< some node has other than two lines
+  std::vector<int> on_crack;   ///< nodes along cracks, those that were doubled and the others
   /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second
   /// lips of cracks.
   std::vector<std::vector<int>> model_curves;

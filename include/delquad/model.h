@@ -66,6 +66,13 @@ struct PeriodicPair {
   std::string where = "periodic";  ///< who asked for it, for messages
 };
 
+/// Regions that become grids, as fine as their sides.
+struct MappedSpec {
+  std::vector<std::string> names = {};  ///< of the regions, or numbers: "region_2"
+  bool automatic = false;        ///< and all where that pays: four nearly right angles, sides that match
+  std::string where = "mapped";  ///< who asked for it, for messages
+};
+
 /// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
 /// another.
 struct ModelLoop {

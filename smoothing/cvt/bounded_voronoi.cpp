@@ -45,10 +45,10 @@ bool BoundedVoronoi::build(const MovingDelaunay& delaunay) {
   for (int i = 0; i < tri.n_boundary; ++i) {
     const int t = delaunay.corners(i).front() / 3, k = delaunay.corners(i).front() % 3;
     const auto& v = tri.triangles[t];
-    const Vec2 a = tri.points[i], b = tri.points[v[kNext[k]]], apex = tri.points[v[kLast[k]]];
+    const Vec2 a = tri.points[i], b = tri.points[v[kNextCorner[k]]], apex = tri.points[v[kLastCorner[k]]];
     if (dot(a - apex, b - apex) >= 0) continue;
     Chain chain{a, b};
-    if (!grow(tri, t, kLast[k], chain)) return false;
+    if (!grow(tri, t, kLastCorner[k], chain)) return false;
   }
   return true;
 }
@@ -62,7 +62,7 @@ bool BoundedVoronoi::grow(const TriPatch& tri, int triangle, int entered, Chain&
   const Vec2 along = chain.b - chain.a;
   const auto& v = tri.triangles[triangle];
   for (const int i : v) cut_[i] = 1;
-  for (const int k : {kLast[entered], kNext[entered]}) {
+  for (const int k : {kLastCorner[entered], kNextCorner[entered]}) {
     const int beyond = tri.neighbours[triangle][k];
     if (beyond >= 0) {
       const double height = cross(along, centres_[beyond] - chain.a);
@@ -73,7 +73,7 @@ bool BoundedVoronoi::grow(const TriPatch& tri, int triangle, int entered, Chain&
         continue;
       }
     }
-    const int from = v[kNext[k]], to = v[kLast[k]];
+    const int from = v[kNextCorner[k]], to = v[kLastCorner[k]];
     const Vec2 p = tri.points[from], q = tri.points[to];
     const double at = dot(0.5 * (p + q) - chain.a, q - p) / dot(along, q - p);
     if (!(at >= chain.at - kOrderTolerance && at <= 1 + kOrderTolerance)) return false;

@@ -43,19 +43,19 @@ void walk_cell(const MovingDelaunay& delaunay, const BoundedVoronoi& cells, int 
   CellEnd before, first_of_all;
   int last_triangle = -1, last_corner = -1;
   for_each_corner(delaunay, seed, [&](int t, int k) {
-    const CellEnd here = end_in(t, k, kLast[k]);
+    const CellEnd here = end_in(t, k, kLastCorner[k]);
     if (last_triangle >= 0)
       visit(before, here);
     else if (on_boundary)
-      visit(middle(tri.triangles[t][kNext[k]]), here);
+      visit(middle(tri.triangles[t][kNextCorner[k]]), here);
     else
       first_of_all = here;
-    before = end_in(t, k, kNext[k]);
+    before = end_in(t, k, kNextCorner[k]);
     last_triangle = t;
     last_corner = k;
   });
   if (on_boundary)
-    visit(before, middle(tri.triangles[last_triangle][kLast[last_corner]]));
+    visit(before, middle(tri.triangles[last_triangle][kLastCorner[last_corner]]));
   else
     visit(before, first_of_all);
 }

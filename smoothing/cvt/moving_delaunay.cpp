@@ -28,7 +28,7 @@ PatchBoundary boundary_of(const TriPatch& tri) {
   for (std::size_t t = 0; t < tri.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
       if (tri.neighbours[t][k] < 0)
-        boundary.edges.push_back({tri.triangles[t][kNext[k]], tri.triangles[t][kLast[k]]});
+        boundary.edges.push_back({tri.triangles[t][kNextCorner[k]], tri.triangles[t][kLastCorner[k]]});
   return boundary;
 }
 
@@ -53,7 +53,7 @@ void MovingDelaunay::make_stars() {
     for (int k = 0; k < 3; ++k) {
       Star& star = star_[tri_.triangles[t][k]];
       ++star.room;
-      if (star.first < 0 || tri_.neighbours[t][kLast[k]] < 0) star.first = 3 * static_cast<int>(t) + k;
+      if (star.first < 0 || tri_.neighbours[t][kLastCorner[k]] < 0) star.first = 3 * static_cast<int>(t) + k;
     }
   std::size_t n = 0;
   for (Star& star : star_) {
@@ -77,7 +77,7 @@ bool MovingDelaunay::renew_star(int i) {
     const auto& v = tri_.triangles[t];
     const int k = v[0] == i ? 0 : v[1] == i ? 1 : 2;
     stars_[star.begin + star.count++] = 3 * t + k;
-    t = tri_.neighbours[t][kNext[k]];
+    t = tri_.neighbours[t][kNextCorner[k]];
   } while (t >= 0 && t != star.first / 3);
   return true;
 }
@@ -145,7 +145,8 @@ bool MovingDelaunay::rebuild(const std::vector<Vec2>& points) {
 bool MovingDelaunay::illegal(int side) const {
   const int t = side / 3, k = side % 3;
   const auto &v = tri_.triangles[t], &n = tri_.triangles[tri_.neighbours[t][k]];
-  const int apex = n[0] ^ n[1] ^ n[2] ^ v[kNext[k]] ^ v[kLast[k]];  // the corner that is not the side's
+  const int apex =
+      n[0] ^ n[1] ^ n[2] ^ v[kNextCorner[k]] ^ v[kLastCorner[k]];  // the corner that is not the side's
   return in_circle_or_unsure(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]], tri_.points[apex]) > 0;
 }
 
@@ -190,7 +191,7 @@ void MovingDelaunay::flip(int side) {
     for (int i = 0; i < 3; ++i) {
       const int v = tri_.triangles[changed][i];
       Star& star = star_[v];
-      if (v >= tri_.n_boundary || tri_.neighbours[changed][kLast[i]] < 0) star.first = 3 * changed + i;
+      if (v >= tri_.n_boundary || tri_.neighbours[changed][kLastCorner[i]] < 0) star.first = 3 * changed + i;
       if (!star.stale) stale_.push_back(v);
       star.stale = true;
     }

@@ -9,7 +9,7 @@
 namespace delquad {
 
 /// Of a triangle's corner, the next one counterclockwise, and the one before.
-inline constexpr std::array<int, 3> kNext = {1, 2, 0}, kLast = {2, 0, 1};
+inline constexpr std::array<int, 3> kNextCorner = {1, 2, 0}, kLastCorner = {2, 0, 1};
 
 /// A constrained Delaunay triangulation whose inner points move, between fixed boundary points. It follows
 /// the points by flips; only where a triangle would turn over is it made anew.

@@ -121,6 +121,7 @@ def mesh(
     size_on: Mapping[str, float | Mapping[str, float]] | None = None,
     divide: Mapping[str, int | Mapping[str, float]] | None = None,
     periodic: Iterable[Mapping[str, Any]] = (),
+    mapped: str | Sequence[str] = (),
     gradation: float | None = None,
     curvature: float | None = None,
     min_size: float | None = None,

@@ -122,6 +122,7 @@ def mesh(
     size_on=None,
     divide=None,
     periodic=(),
+    mapped=(),
     gradation=None,
     curvature=None,
     min_size=None,
@@ -159,6 +160,7 @@ def mesh(
     divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
     periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
         second curves get the images of the nodes of the first.
+    mapped: names of regions that become grids, or "auto" for all where that pays.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -186,6 +188,8 @@ def mesh(
     for pair in periodic:
         motion = {"translate": (0, 0, 0), "rotate": 0, "centre": (0, 0, 0), "axis": (0, 0, 1)} | pair
         problem.periodic(motion.pop("from"), motion.pop("to"), **motion)
+    if mapped:
+        problem.mapped([] if mapped == "auto" else [mapped] if isinstance(mapped, str) else mapped, mapped == "auto")
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
