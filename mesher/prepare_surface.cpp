@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
+#include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
@@ -131,6 +132,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
+  imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
   const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots);
