@@ -255,7 +255,11 @@ class Imprinter {
                        entity.names.empty() ? "" : fmt::format(" '{}'", entity.names[0]));
   }
 
-  void add_piece(const LooseLine& line, const std::vector<int>& chain, int face) {
+  /// With a point inside, so that a patch can be opened between its ends.
+  void add_piece(const LooseLine& line, std::vector<int> chain, int face) {
+    if (chain.size() == 2)
+      chain.insert(chain.begin() + 1,
+                   split(chain[0], chain[1], 0.5 * (mesh_.points[chain[0]] + mesh_.points[chain[1]])));
     mesh_.curves[editor_.add_curve(chain)].names = line.names;
     pieces_.push_back({&line, face});
   }
