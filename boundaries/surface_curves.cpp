@@ -103,10 +103,7 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   curves.cut_face.assign(fine.curves.size(), -1);
   for (const SurfaceCut& cut : flattening.cuts) curves.cut_face[cut.curve] = cut.face;
   curves.is_embedded.assign(fine.curves.size(), 0);
-  for (const EmbeddedCurve& embedded : model.embedded) {
-    curves.cut_face[embedded.curve] = embedded.face;
-    curves.is_embedded[embedded.curve] = 1;
-  }
+  for (const EmbeddedCurve& embedded : model.embedded) curves.is_embedded[embedded.curve] = 1;
   curves.chains = curve_chains(model);
   const LineIndex lines(curves.chains);
   for (const FlatPatch& map : curves.maps)

@@ -21,8 +21,7 @@ inline constexpr int kFewestLoopEdges = 4;
 /// The curves of a flattened model and how they bound its patches: all that stays while they get their edges.
 struct SurfaceCurves {
   std::vector<FlatPatch> maps;
-  /// Of each curve of the model: the face that this cut or embedded curve runs through; -1: neither.
-  std::vector<int> cut_face;
+  std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
   std::vector<char> is_embedded;  ///< of each curve of the model
   std::vector<CurveChain> chains;
   std::vector<PatchOutline> outlines;  ///< of each map

@@ -38,7 +38,7 @@ struct SurfaceDomain {
   Mesh boundary;  ///< nodes on curves, lines, curves, regions (one a face); no elements
   std::vector<SurfacePatch> patches;
   std::vector<CurveChain> chains;
-  std::vector<int> cut_face;               ///< of each curve, see SurfaceCurves
+  std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
   SurfaceNodes nodes;                      ///< those of `boundary`
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta

@@ -451,8 +451,7 @@ class Flattener {
     if (!model_.projector) return x;
     const int line = editor.line_on(a, b);
     const int curve = line < 0 ? -1 : mesh_.line_curve[line];
-    const bool is_cut = is_embedded(curve) ||
-                        std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
+    const bool is_cut = std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
     const Vec3 y =
         curve < 0 || is_cut ? model_.projector->to_face(chart.face, x) : model_.projector->to_curve(curve, x);
     // A projection that jumps elsewhere is no use.
