@@ -178,11 +178,17 @@ class Imprinter {
     const PartedTriangles::Found found = places_.find(x, editor_);
     const auto v = mesh_.triangles[found.triangle];
     for (const int p : v)
-      if (norm(mesh_.points[p] - found.at) <= snap) return p;
+      if (std::min(norm(mesh_.points[p] - found.at), norm(mesh_.points[p] - x)) <= snap) return p;
     for (int k = 0; k < 3; ++k) {
       const int a = v[(k + 1) % 3], b = v[(k + 2) % 3];
       const Vec3 d = mesh_.points[b] - mesh_.points[a], to = found.at - mesh_.points[a];
       if (norm(cross(d, to)) <= snap * norm(d)) return split(a, b, found.at);
+      // A point of a curve need not be one of its chord.
+      const int line = editor_.line_on(a, b);
+      if (line < 0 || !model_.projector || mesh_.line_curve[line] >= first_curve_) continue;
+      const double part = dot(to, d) / dot(d, d);
+      if (part > 0 && part < 1 && norm(model_.projector->to_curve(mesh_.line_curve[line], x) - x) <= snap)
+        return split(a, b, mesh_.points[a] + part * d);
     }
     return editor_.split_triangle(found.triangle,
                                   on_surface(found.at, -1, mesh_.triangle_region[found.triangle],
