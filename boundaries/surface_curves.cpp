@@ -46,7 +46,9 @@ std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
 void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDemand>& demands) {
   std::vector<std::map<int, int>> sharp_ends(curves.chains.size());  // of each curve, by patch
   for (const FaceCorner& corner : curves.corners)
-    if (corner.is_tip())
+    if (corner.is_tip() && curves.is_embedded[curves.chains[corner.after].curve])
+      continue;
+    else if (corner.is_tip())
       demands[corner.after].minimum = std::max(demands[corner.after].minimum, kFewestTipEdges);
     else if (corner.angle < kOneQuadAngle)
       ++sharp_ends[corner.before][corner.patch], ++sharp_ends[corner.after][corner.patch];
@@ -116,6 +118,8 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   curves.maps = std::move(flattening.patches);
   curves.cut_face.assign(fine.curves.size(), -1);
   for (const SurfaceCut& cut : flattening.cuts) curves.cut_face[cut.curve] = cut.face;
+  curves.is_embedded.assign(fine.curves.size(), 0);
+  for (const EmbeddedCurve& embedded : model.embedded) curves.is_embedded[embedded.curve] = 1;
   curves.chains = curve_chains(model);
   curves.pairs = pair_chains(fine, curves.chains, periodic);
   const LineIndex lines(curves.chains);

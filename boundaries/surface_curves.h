@@ -23,6 +23,7 @@ inline constexpr int kFewestLoopEdges = 4;
 struct SurfaceCurves {
   std::vector<FlatPatch> maps;
   std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
+  std::vector<char> is_embedded;  ///< of each curve of the model
   std::vector<CurveChain> chains;
   std::vector<ChainPair> pairs;        ///< of them
   std::vector<PatchOutline> outlines;  ///< of each map

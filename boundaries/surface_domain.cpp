@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "base/activity.h"
@@ -143,6 +144,16 @@ Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, cons
       boundary.line_curve.push_back(chains[c].curve);
     }
   boundary.points = nodes.points;
+  for (const NamedPoint& named : fine.named_points) {
+    const auto ends = [&](const CurveChain& c) {
+      return c.points.front() == named.point || c.points.back() == named.point;
+    };
+    const auto chain = std::ranges::find_if(chains, ends);
+    if (chain == chains.end()) throw std::logic_error("a named point is the end of no curve");
+    const auto& on_curve = nodes.on_curve[chain - chains.begin()];
+    boundary.named_points.push_back(
+        {chain->points.front() == named.point ? on_curve.front().node : on_curve.back().node, named.entity});
+  }
   return boundary;
 }
 

@@ -215,7 +215,12 @@ const std::filesystem::path& model_path(const Case& c) {
 
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
-  if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
+  if (const auto surface = table.optional_table("surface")) {
+    std::vector<EmbeddedLine> embed = std::move(target.surface.embed);
+    target.surface = read_surface_spec(*surface);
+    target.surface.embed = std::move(embed);
+  }
+  if (table.has("embed") && !has_planar_model(table)) target.surface.embed = read_embedded_lines(table);
   if (table.has("size")) target.size = read_size(table);
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))

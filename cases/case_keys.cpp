@@ -41,8 +41,8 @@ const std::string kCompound =
     R"({"anyOf": [{"enum": ["all", "tangent"]},
                   {"type": "array", "items": {"type": "array", "items": {"type": "integer"}, "minItems": 2}}]})";
 
-std::string points(int least) {
-  return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}}})", kPoint, least);
+std::string points(int least, const std::string& point = kPoint) {
+  return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}}})", point, least);
 }
 
 std::string two_points() {
@@ -126,9 +126,13 @@ const TomlKeys& curve_keys() {
 }
 
 const TomlKeys& embed_keys() {
-  static const TomlKeys keys = with_shapes({{"name", "its physical group", kText},
-                                            {"crack", "whether the mesh comes apart along it", kFlag},
-                                            {"point", "a point that becomes a node", kPoint}});
+  static const TomlKeys keys = [] {
+    TomlKeys all = with_shapes({{"name", "its physical group", kText},
+                                {"crack", "whether the mesh comes apart along it", kFlag},
+                                {"point", "a point that becomes a node", kSpacePoint}});
+    std::ranges::find(all, "polyline", &TomlKey::name)->type = points(2, kSpacePoint);
+    return all;
+  }();
   return keys;
 }
 
@@ -231,7 +235,8 @@ TomlKeys case_keys() {
   TomlKeys keys = {{"loop", "closed loops", "", loop_keys, true},
                    {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
                    {"curve", "curves that loops are made of", "", curve_keys, true},
-                   {"embed", "curves and points inside of regions", "", embed_keys, true},
+                   {"embed", "curves and points inside of regions, polylines and points on surfaces", "",
+                    embed_keys, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file", kText},
                    {"model", "a model file, a surface or an MSH file", kText},

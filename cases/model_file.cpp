@@ -234,8 +234,23 @@ class ModelReader {
 
 bool has_planar_model(const TomlTable& table) {
   bool found = false;  // every key is asked for, so that all of them are known to finish()
-  for (const char* key : {"curve", "loop", "pattern", "embed"}) found = table.has(key) || found;
+  for (const char* key : {"curve", "loop", "pattern"}) found = table.has(key) || found;
   return found;
+}
+
+std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table) {
+  std::vector<EmbeddedLine> lines;
+  for (const TomlTable& embedded : table.tables("embed")) {
+    const std::string key = only_key(embedded, {"polyline", "point"});
+    EmbeddedLine line{{}, group_name(embedded, "name", embedded.text("name", "")), embedded.where()};
+    if (key == "point")
+      line.points = {embedded.space_point(key)};
+    else if (line.points = embedded.space_points(key); line.points.size() < 2)
+      throw InputError(embedded.where(key) + ": a polyline has two points or more");
+    embedded.finish(embed_keys());
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 PlanarModel read_planar_model(const TomlTable& table) {

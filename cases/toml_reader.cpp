@@ -114,6 +114,12 @@ struct TomlTable::Data {
     if (!pair || pair->size() != 2) expected(node, key, what);
     return {number(*pair->get(0), key, what), number(*pair->get(1), key, what)};
   }
+  Vec3 space_point(const toml::node& node, const std::string& key, const std::string& what) const {
+    const toml::array* x = node.as_array();
+    if (!x || x->size() < 2 || x->size() > 3) expected(node, key, what);
+    const auto at = [&](std::size_t i) { return number(*x->get(i), key, what); };
+    return {at(0), at(1), x->size() == 3 ? at(2) : 0};
+  }
   const toml::array& array(const toml::node& node, const std::string& key, const std::string& what) const {
     if (!node.is_array()) expected(node, key, what);
     return *node.as_array();
@@ -226,12 +232,14 @@ Vec2 TomlTable::point(const std::string& key) const {
 }
 
 Vec3 TomlTable::space_point(const std::string& key) const {
-  const std::string what = "a point [x, y] or [x, y, z]";
-  const toml::node& node = data_->need(key, what);
-  const toml::array* x = node.as_array();
-  if (!x || x->size() < 2 || x->size() > 3) data_->expected(node, key, what);
-  const auto at = [&](std::size_t i) { return data_->number(*x->get(i), key, what); };
-  return {at(0), at(1), x->size() == 3 ? at(2) : 0};
+  constexpr const char* kWhat = "a point [x, y] or [x, y, z]";
+  return data_->space_point(data_->need(key, kWhat), key, kWhat);
+}
+
+std::vector<Vec3> TomlTable::space_points(const std::string& key) const {
+  constexpr const char* kWhat = "a list of points [[x, y, z], ...]";
+  return data_->list<Vec3>(key, kWhat,
+                           [&](const toml::node& node) { return data_->space_point(node, key, kWhat); });
 }
 
 std::vector<Vec2> TomlTable::points(const std::string& key) const {

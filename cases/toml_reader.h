@@ -51,6 +51,8 @@ class TomlTable {
   Vec3 space_point(const std::string& key) const;
   /// [[x, y], ...]
   std::vector<Vec2> points(const std::string& key) const;
+  /// [[x, y, z], ...]; z = 0 where it is left out
+  std::vector<Vec3> space_points(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
   /// [[n, ...], ...], of the range of int.
   std::vector<std::vector<int>> integer_lists(const std::string& key) const;

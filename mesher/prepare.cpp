@@ -293,10 +293,11 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
 void check_planar(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
   if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.feature_angle ||
-      s.weld_tolerance || s.mirror || s.glue || !s.unit.empty())
-    throw InputError((s.where.empty() ? problem.where : s.where) +
-                     ": the model is planar: compounds, feature angles, welding, gluing, mirrors, units and "
-                     "lengths below which entities are ignored are for surfaces");
+      s.weld_tolerance || s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
+    throw InputError(
+        (s.where.empty() ? problem.where : s.where) +
+        ": the model is planar: compounds, feature angles, welding, gluing, mirrors, units, lines "
+        "embedded in space and lengths below which entities are ignored are for surfaces");
   if (problem.size.curvature > 0 ||
       std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
     throw InputError(problem.size.where +

@@ -11,6 +11,7 @@
 #include "boundaries/divided_chains.h"
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
+#include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/fine_spots.h"
 #include "mesher/named_parts.h"
@@ -163,6 +164,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
+  imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
   const std::shared_ptr<const SizeField> given = size;

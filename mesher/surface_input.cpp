@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/length_unit.h"
 #include "base/located.h"
@@ -96,8 +97,14 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
     throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
-  triangles.named_points.clear();
   convert(model.source, spec, triangles);
+  std::vector<LooseLine> points;
+  for (const NamedPoint& named : triangles.named_points)
+    if (!named.entity.names.empty())
+      points.push_back({{triangles.points[named.point]},
+                        named.entity.names,
+                        fmt::format("{}: the point '{}'", model.source, named.entity.names[0])});
+  triangles.named_points.clear();
   const std::string& source = model.source;
   split_quads(triangles, notes);
   TriangulatedOptions options;
@@ -110,7 +117,20 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
   SurfaceModel surface = make_compounds(spec, make_surface_model(std::move(triangles), options));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
   surface.fine.unit = unit;
+  surface.loose.insert(surface.loose.end(), points.begin(), points.end());
   return surface;
+}
+
+LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
+  LooseLine loose{line.points, {}, line.where.empty() ? where : line.where, true};
+  if (!line.name.empty()) loose.names = {line.name};
+  loose.where += fmt::format(": the embedded {}{}", line.points.size() == 1 ? "point" : "polyline",
+                             line.name.empty() ? "" : " '" + line.name + "'");
+  if (line.points.empty()) throw InputError(loose.where + " has no points");
+  for (const Vec3& x : line.points)
+    if (!(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)))
+      throw InputError(loose.where + " has a coordinate that is not finite");
+  return loose;
 }
 
 /// CAD or an example.
@@ -147,8 +167,11 @@ bool holds_surface(const Mesh& mesh) {
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);
-    return triangles != nullptr ? make_surface(problem.surface, *triangles, kept_features)
-                                : make_from_cad(problem);
+    SurfaceModel model = triangles != nullptr ? make_surface(problem.surface, *triangles, kept_features)
+                                              : make_from_cad(problem);
+    for (const EmbeddedLine& line : problem.surface.embed)
+      model.loose.push_back(loose_line(line, problem.surface.where));
+    return model;
   });
 }
 

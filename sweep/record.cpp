@@ -72,6 +72,16 @@ Json compound_json(const SurfaceSpec& surface) {
   return Json();
 }
 
+Json embed_json(const std::vector<EmbeddedLine>& lines) {
+  Json json = Json::array();
+  for (const EmbeddedLine& line : lines) {
+    Json points = Json::array();
+    for (const Vec3& x : line.points) points.push_back(point_json(x));
+    json.push_back({{"name", line.name}, {"points", points}});
+  }
+  return json;
+}
+
 Json surface_json(const SurfaceSpec& surface) {
   Json json = {{"compound", compound_json(surface)},
                {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
@@ -86,6 +96,7 @@ Json surface_json(const SurfaceSpec& surface) {
                       {"normal", point_json(surface.mirror->normal)},
                       {"tolerance", surface.mirror->tolerance},
                       {"join", surface.mirror->join}};
+  if (!surface.embed.empty()) json["embed"] = embed_json(surface.embed);
   return json;
 }
 

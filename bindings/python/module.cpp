@@ -274,6 +274,10 @@ void define_surface(py::class_<Problem>& c) {
            })
       .def("feature_angle", [](Problem& p, double degrees) { p.problem.surface.feature_angle = degrees; })
       .def("weld", [](Problem& p, double tolerance) { p.problem.surface.weld_tolerance = tolerance; })
+      .def("embed",
+           [](Problem& p, const py::object& points, const std::string& name) {
+             p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
+           })
       .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
       .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })

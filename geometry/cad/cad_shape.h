@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/warning.h"
+#include "geometry/surface/surface_model.h"
 
 namespace delquad::cad {
 
@@ -38,6 +39,7 @@ struct CadShape {
   std::string unit;     ///< of lengths; empty: unknown
   std::vector<Warning> warnings;
   std::vector<int> late_faces;       ///< numbers of the faces for which the kernel takes too long, ascending
+  std::vector<LooseLine> loose;      ///< edges and vertices of the file that are no part of a face's boundary
   std::vector<std::string> why_not;  ///< of each face, why it has no triangulation; mostly empty texts
 };
 

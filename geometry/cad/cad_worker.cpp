@@ -31,6 +31,7 @@
 #include "delquad/error.h"
 #include "geometry/cad/glue_shape.h"
 #include "geometry/cad/heal_shape.h"
+#include "geometry/cad/loose_edges.h"
 #include "geometry/cad/mesh_by_outline.h"
 #include "geometry/cad/shape_bytes.h"
 #include "geometry/cad/shape_file.h"
@@ -47,6 +48,8 @@ namespace {
 
 /// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
 constexpr double kSewing = 1e-6;
+/// Fraction of the diagonal: how far edges that bound no face may be from their chords.
+constexpr double kLooseDeflection = 1e-5;
 
 double diagonal_of(const TopoDS_Shape& shape) {
   Bnd_Box box;
@@ -146,6 +149,7 @@ CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
   cad.late_faces = request.late_faces;
+  cad.loose = loose_edges(cad.shape, kLooseDeflection * cad.diagonal);
   heal(cad, request.options, request.heals, watch);
   if (request.options.glue) glue_shape(cad, kSewing * cad.diagonal);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);

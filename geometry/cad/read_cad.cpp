@@ -134,6 +134,8 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   model.warnings = std::move(cad.warnings);
   model.fine = std::move(welded.mesh);
   model.fine.unit = cad.unit;
+  model.loose = std::move(cad.loose);
+  for (LooseLine& line : model.loose) line.where = source + ": " + line.where;
   model.corners = std::move(welded.corners);
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
   const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);

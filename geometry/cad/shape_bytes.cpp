@@ -28,6 +28,15 @@ void put(std::ostream& out, const std::vector<std::string>& texts) {
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
   }
 }
+void put(std::ostream& out, const std::vector<LooseLine>& lines) {
+  put(out, lines.size());
+  for (const LooseLine& line : lines) {
+    put(out, line.names);
+    put(out, std::vector<std::string>{line.where});
+    put(out, line.points.size());
+    for (const Vec3& x : line.points) put(out, x);
+  }
+}
 std::vector<std::string> get_texts(std::istream& in) {
   std::vector<std::string> texts(get<std::size_t>(in));
   for (std::string& text : texts) {
@@ -35,6 +44,17 @@ std::vector<std::string> get_texts(std::istream& in) {
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
   }
   return texts;
+}
+
+std::vector<LooseLine> get_lines(std::istream& in) {
+  std::vector<LooseLine> lines(get<std::size_t>(in));
+  for (LooseLine& line : lines) {
+    line.names = get_texts(in);
+    line.where = get_texts(in).at(0);
+    line.points.resize(get<std::size_t>(in));
+    for (Vec3& x : line.points) x = get<Vec3>(in);
+  }
+  return lines;
 }
 
 TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
@@ -51,6 +71,7 @@ std::string to_bytes(const CadShape& cad) {
   put(out, texts(cad.warnings));
   put(out, std::vector<std::string>{cad.unit});
   put(out, cad.why_not);
+  put(out, cad.loose);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
   // The shape last: its reader looks ahead. The names are in the order of its faces, so they come by number.
@@ -72,6 +93,7 @@ CadShape from_bytes(const std::string& bytes) {
   for (std::string& text : get_texts(in)) cad.warnings.emplace_back(std::move(text));
   cad.unit = get_texts(in).at(0);
   cad.why_not = get_texts(in);
+  cad.loose = get_lines(in);
   const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
   for (int f = 1; f <= faces.Extent(); ++f)
     for (const std::string& name : get_texts(in)) cad.names.add(faces(f), name);

@@ -30,7 +30,7 @@ void join(std::vector<int>& parent, int i, int j) {
 /// Finds which triangles continue each other and which corners of theirs are one vertex.
 class Gluing {
  public:
-  Gluing(const Mesh& fine, const std::vector<char>& wanted)
+  Gluing(const Mesh& fine, const std::vector<char>& wanted, const std::vector<char>& open)
       : fine_(fine),
         wanted_(wanted),
         across_(3 * fine.triangles.size(), -1),
@@ -38,13 +38,18 @@ class Gluing {
         vertex_(3 * fine.triangles.size()) {
     std::iota(chart_.begin(), chart_.end(), 0);
     std::iota(vertex_.begin(), vertex_.end(), 0);
-    std::vector<std::pair<int, int>> lines;
-    for (const auto& [a, b] : fine.lines) lines.push_back(std::minmax(a, b));
+    std::vector<std::pair<int, int>> lines, open_lines;
+    for (std::size_t l = 0; l < fine.lines.size(); ++l)
+      (open.empty() || !open[l] ? lines : open_lines)
+          .push_back(std::minmax(fine.lines[l][0], fine.lines[l][1]));
     std::ranges::sort(lines);
+    std::ranges::sort(open_lines);
     const std::vector<HalfEdge> sides = sorted_half_edges(fine);
     for_each_edge(std::span(sides), [&](std::span<const HalfEdge> edge) {
       if (std::ranges::none_of(edge, [&](const HalfEdge& e) { return wanted_[e.element] != 0; })) return;
-      if (!std::ranges::binary_search(lines, std::pair(edge[0].lo, edge[0].hi))) glue(edge);
+      const std::pair ends(edge[0].lo, edge[0].hi);
+      if (std::ranges::binary_search(lines, ends)) return;
+      if (continues(edge) || !std::ranges::binary_search(open_lines, ends)) glue(edge);
     });
   }
 
@@ -58,12 +63,16 @@ class Gluing {
     return 3 * triangle + static_cast<int>(std::ranges::find(v, node) - v.begin());
   }
 
+  /// Whether two wanted triangles of one face with one orientation share the edge.
+  bool continues(std::span<const HalfEdge> edge) const {
+    return edge.size() == 2 && wanted_[edge[1].element] && wanted_[edge[0].element] &&
+           edge[0].forward != edge[1].forward &&
+           fine_.triangle_region[edge[0].element] == fine_.triangle_region[edge[1].element];
+  }
+
   void glue(std::span<const HalfEdge> edge) {
     const HalfEdge& e = edge[0];
-    const bool sound = edge.size() == 2 && wanted_[edge[1].element] && wanted_[e.element] &&
-                       e.forward != edge[1].forward &&
-                       fine_.triangle_region[e.element] == fine_.triangle_region[edge[1].element];
-    if (!sound) {
+    if (!continues(edge)) {
       const int face = fine_.triangle_region[e.element];
       throw InputError(
           fmt::format("face {}: the side between nodes {} and {} is on no curve, but is not shared by two "
@@ -162,8 +171,9 @@ double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted) {
-  Gluing gluing(fine, wanted);
+std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
+                                  const std::vector<char>& open) {
+  Gluing gluing(fine, wanted, open);
   std::vector<std::vector<int>> members(fine.triangles.size());
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
     if (wanted[t]) members[gluing.chart_of(static_cast<int>(t))].push_back(static_cast<int>(t));

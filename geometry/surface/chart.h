@@ -21,8 +21,10 @@ struct Chart {
 };
 
 /// The charts that the wanted triangles form, in the order of their first triangles. Throws InputError where
-/// a side is neither a line nor shared by two triangles of one face that agree in orientation.
-std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted);
+/// a side is neither a line nor shared by two triangles of one face that agree in orientation. `open` (empty:
+/// none): lines, by index, that do not bound charts where wanted triangles of one face are on both sides.
+std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
+                                  const std::vector<char>& open = {});
 
 /// Number of handles: 0 for a disk, an annulus, a sphere.
 int genus(const Chart& chart);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -159,6 +160,43 @@ FlatPatch to_patch(const Chart& chart, Map map) {
   return patch;
 }
 
+/// Part of the shorter side at a point of an outline that meets itself by which it is moved into its corner:
+/// far above rounding, far below any edge; less where triangles are thin.
+constexpr double kOpenings[] = {1e-6, 1e-7, 1e-8, 1e-9};
+
+/// The places of a part of a chart in the chart's map. Where the part's boundary meets itself, along curves
+/// that stand in it and where these end on it, its points are moved apart into their corners, as in the plane
+/// (see build_domain()). None if that cannot be.
+std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vector<Vec2>& map,
+                                            const Chart& part) {
+  std::map<int, std::size_t> place_of;  // of fine triangles in the chart
+  for (std::size_t t = 0; t < chart.fine_triangle.size(); ++t) place_of[chart.fine_triangle[t]] = t;
+  std::vector<int> vertex(part.points.size());
+  for (std::size_t t = 0; t < part.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      vertex[part.triangles[t][k]] = chart.triangles[place_of.at(part.fine_triangle[t])][k];
+  std::vector<int> visits(map.size(), 0);
+  for (int v = 0; v < part.n_boundary; ++v) ++visits[vertex[v]];
+  std::vector<Vec2> closed;
+  for (const int v : vertex) closed.push_back(map[v]);
+  for (const double opening : kOpenings) {
+    std::vector<Vec2> flat = closed;
+    for (const auto& loop : part.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (visits[vertex[loop[i]]] < 2) continue;
+        const Vec2 at = closed[loop[i]], out = closed[loop[(i + 1) % loop.size()]] - at,
+                   in = closed[loop[(i + loop.size() - 1) % loop.size()]] - at;
+        const double from = std::atan2(out.y, out.x);
+        double turn = std::atan2(in.y, in.x) - from;
+        if (turn <= 0) turn += 2 * std::numbers::pi;
+        const double angle = from + turn / 2;
+        flat[loop[i]] += opening * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
+      }
+    if (is_one_to_one(part, flat)) return flat;
+  }
+  return std::nullopt;
+}
+
 /// Chains of the edges, which end where other than two meet and at marked nodes; the last node of a closed
 /// one is its first.
 template <class IsEnd>
@@ -202,7 +240,10 @@ class Flattener {
         open_(mesh_.triangles.size(), 1),
         tries_(mesh_.triangles.size(), 0),
         stuck_(mesh_.triangles.size(), 0),
-        failed_(mesh_.regions.size(), 0) {}
+        failed_(mesh_.regions.size(), 0),
+        is_embedded_(mesh_.curves.size(), 0) {
+    for (const EmbeddedCurve& c : model.embedded) is_embedded_[c.curve] = 1;
+  }
 
   Flattening run() {
     for (int round = 0; std::ranges::find(open_, 1) != open_.end(); ++round) flatten_open(round);
@@ -227,7 +268,7 @@ class Flattener {
   void flatten_open(int round) {
     const std::vector<CutEnd> ends = cut_ends();
     std::vector<Planned> planned;
-    std::vector<Chart> charts = extract_charts(mesh_, open_);
+    std::vector<Chart> charts = extract_charts(mesh_, open_, standing_lines());
     std::vector<Outcome> outcomes(charts.size());
     parallel_for(
         charts.size(),
@@ -252,11 +293,46 @@ class Flattener {
       }
       for (int t : chart.fine_triangle) open_[t] = 0;
       if (outcome.map)
-        patches_.push_back(to_patch(chart, std::move(*outcome.map)));
+        add_patches(chart, std::move(*outcome.map));
       else
         failed_[chart.face] = 1;
     }
     if (!planned.empty()) cut(planned);
+  }
+
+  /// The lines that maps take no notice of; empty: none.
+  std::vector<char> standing_lines() const {
+    if (model_.embedded.empty()) return {};
+    std::vector<char> standing;
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) standing.push_back(is_standing(static_cast<int>(l)));
+    return standing;
+  }
+  bool is_embedded(int curve) const {
+    return curve < static_cast<int>(is_embedded_.size()) && is_embedded_[curve] != 0;
+  }
+  bool is_standing(int line) const {
+    const auto& [a, b] = mesh_.lines[line];
+    return is_embedded(mesh_.line_curve[line]) && !on_cut_.contains(std::minmax(a, b));
+  }
+
+  /// One patch, or where embedded curves stand in the chart, those that they part it into, cut open along
+  /// them.
+  void add_patches(const Chart& chart, Map map) {
+    if (model_.embedded.empty()) {
+      patches_.push_back(to_patch(chart, std::move(map)));
+      return;
+    }
+    std::vector<char> wanted(mesh_.triangles.size(), 0);
+    for (const int t : chart.fine_triangle) wanted[t] = 1;
+    for (const Chart& part : extract_charts(mesh_, wanted)) {
+      auto flat = opened_map(chart, map.flat, part);
+      if (!flat) {
+        failed_[chart.face] = 1;
+        continue;
+      }
+      const FlatQuality quality = measure_flat(part, *flat);
+      patches_.push_back(to_patch(part, {std::move(*flat), quality, map.method}));
+    }
   }
 
   std::vector<CutEnd> cut_ends() const {
@@ -310,17 +386,37 @@ class Flattener {
       const int a = chart.fine_node[p.a], b = chart.fine_node[p.b];
       // Split in this round by the cut of a neighbour: the next round makes another plan.
       if (editor.triangles_on(a, b).empty()) return true;
+      const bool was_on_cut = on_cut_.contains(std::minmax(a, b));
       chain.push_back(editor.split_edge(a, b, on_surface(editor, chart, p, a, b)));
+      if (was_on_cut)
+        for (const int end : {a, b}) on_cut_.insert(std::minmax(end, chain.back()));
     }
     if (path.closed) chain.push_back(chain.front());
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      if (editor.triangles_on(chain[i], chain[i + 1]).empty() || editor.line_on(chain[i], chain[i + 1]) >= 0)
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const int line = editor.line_on(chain[i], chain[i + 1]);
+      if (editor.triangles_on(chain[i], chain[i + 1]).empty() || (line >= 0 && !is_standing(line)))
         return false;
+    }
     add_cut(editor, chart, chain, outcome.divides);
     return true;
   }
 
+  /// Where it runs along embedded curves, these are the cut.
   void add_cut(SurfaceEditor& editor, const Chart& chart, const std::vector<int>& chain, bool divides) {
+    std::vector<std::vector<int>> pieces = {{chain.front()}};
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      if (editor.line_on(chain[i], chain[i + 1]) < 0) {
+        pieces.back().push_back(chain[i + 1]);
+        continue;
+      }
+      on_cut_.insert(std::minmax(chain[i], chain[i + 1]));
+      pieces.push_back({chain[i + 1]});
+    }
+    for (const auto& piece : pieces)
+      if (piece.size() > 1) add_new_cut(editor, chart, piece, divides);
+  }
+
+  void add_new_cut(SurfaceEditor& editor, const Chart& chart, const std::vector<int>& chain, bool divides) {
     double length = 0;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       length += norm(mesh_.points[chain[i + 1]] - mesh_.points[chain[i]]);
@@ -388,6 +484,9 @@ class Flattener {
   std::vector<int> tries_;   ///< of each triangle, cuts through its chart although it had a map
   std::vector<char> stuck_;  ///< first triangles of charts whose last cut could not be made
   std::vector<char> failed_;
+  std::vector<char> is_embedded_;  ///< of the curves that the model had
+  std::set<std::pair<int, int>>
+      on_cut_;  ///< lines of embedded curves that cuts run along, as (lower, higher)
   std::vector<FlatPatch> patches_;
   std::vector<SurfaceCut> cuts_;
 };

@@ -75,6 +75,24 @@ int SurfaceEditor::split_edge(int a, int b, const Vec3& x) {
   return node;
 }
 
+int SurfaceEditor::split_triangle(int triangle, const Vec3& x) {
+  const auto corners = mesh_.triangles[triangle];
+  const int node = static_cast<int>(mesh_.points.size());
+  mesh_.points.push_back(x);
+  triangles_at_.emplace_back();
+  lines_at_.emplace_back();
+  for (int k = 1; k < 3; ++k) {
+    const int part = static_cast<int>(mesh_.triangles.size());
+    mesh_.triangles.push_back(corners);
+    mesh_.triangles.back()[k] = node;
+    mesh_.triangle_region.push_back(mesh_.triangle_region[triangle]);
+    for (const int v : mesh_.triangles.back()) triangles_at_[v].push_back(part);
+    splits_.push_back({triangle, part});
+  }
+  replace_corner(triangle, corners[0], node);
+  return node;
+}
+
 bool SurfaceEditor::flip_edge(int a, int b) {
   const std::vector<int> pair = triangles_on(a, b);
   if (pair.size() != 2 || line_on(a, b) >= 0) return false;

@@ -26,6 +26,8 @@ class SurfaceEditor {
 
   /// Puts a new node on an existing edge; splits its triangles and its line. Returns the node.
   int split_edge(int a, int b, const Vec3& x);
+  /// Puts a new node inside a triangle, which becomes three. Returns the node.
+  int split_triangle(int triangle, const Vec3& x);
   /// Turns the edge that two triangles share, if it is not a line and the other diagonal is no edge yet.
   bool flip_edge(int a, int b);
   /// Adds a curve of lines along existing edges; the last node equals the first one when it is closed.

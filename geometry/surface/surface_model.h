@@ -33,6 +33,23 @@ struct LeftOutFace {
   std::string reason;  ///< names the face
 };
 
+/// A polyline, or a single point, on a surface that is no part of its triangulation yet, see imprint().
+struct LooseLine {
+  std::vector<Vec3> points;        ///< one: a point
+  std::vector<std::string> names;  ///< physical groups; may be empty
+  std::string where;               ///< what it is, for messages
+  /// Whether the user asked for it: all its points become nodes, and it must lie on the surface. Else it is
+  /// from the model's file: its ends and sharp turns become nodes, and it is left out with a warning where it
+  /// lies elsewhere.
+  bool is_asked = false;
+};
+
+/// A curve that stands in a face, with the face on both sides, and need not reach the face's boundary.
+struct EmbeddedCurve {
+  int curve;  ///< index into SurfaceModel::fine.curves
+  int face;   ///< index into SurfaceModel::fine.regions
+};
+
 /// A model made of faces that share curves, as a fine conforming triangulation.
 struct SurfaceModel {
   std::string source;  ///< file it was read from, for messages
@@ -42,10 +59,12 @@ struct SurfaceModel {
   /// orientation wherever the model is orientable.
   Mesh fine;
   /// Points of `fine` that must be nodes of any mesh, ascending: ends of curves, points where more than two
-  /// curves meet.
+  /// curves meet, imprinted points. fine.named_points are among them.
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;
+  std::vector<LooseLine> loose;         ///< to be imprinted
+  std::vector<EmbeddedCurve> embedded;  ///< by curve
   std::vector<LeftOutFace> left_out;
   std::vector<Warning> warnings;  ///< what was repaired or looks suspicious
 };

@@ -84,19 +84,19 @@ std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, const
   return cut;
 }
 
-/// Takes cuts away from their loose ends. Returns how many of the given lines went.
-int drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& cut) {
+/// Takes cuts away from their loose ends. Adds the sides of given lines that went, and their curves.
+void drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& cut,
+                     std::vector<std::pair<int, int>>& given) {
   std::vector<std::vector<int>> sides_at(mesh.points.size());  // one side of each cut edge
   for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
     if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
     sides_at[side_start(mesh, s)].push_back(s);
     sides_at[side_end(mesh, s)].push_back(s);
   }
-  int given = 0;
   for (int seed = 0; seed < static_cast<int>(sides_at.size()); ++seed) {
     for (int p = seed; sides_at[p].size() == 1;) {
       const int s = sides_at[p][0];
-      given += cut[s] >= 0;
+      if (cut[s] >= 0) given.emplace_back(s, cut[s]);
       cut[s] = cut[twin[s]] = kNoCut;  // a free edge has cuts at both ends: this one has a twin
       const int q = side_start(mesh, s) == p ? side_end(mesh, s) : side_start(mesh, s);
       sides_at[p].clear();
@@ -104,7 +104,30 @@ int drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<
       p = q;
     }
   }
-  return given;
+}
+
+/// Given lines that end inside faces, joined by curve.
+std::vector<LooseLine> join_loose_lines(const Mesh& mesh, std::vector<std::pair<int, int>> sides,
+                                        const std::string& source) {
+  std::ranges::sort(sides);
+  SurfaceModel lines;
+  lines.fine.points = mesh.points;
+  std::vector<int> given;
+  for (const auto& [side, curve] : sides) {
+    lines.fine.lines.push_back({side_start(mesh, side), side_end(mesh, side)});
+    given.push_back(curve);
+  }
+  std::vector<LooseLine> loose;
+  std::size_t line = 0;
+  for (const auto& chain : chain_lines(lines, given, std::vector<char>(mesh.points.size(), 0))) {
+    const Entity& curve = mesh.curves[given[chain[0]]];
+    loose.push_back({{mesh.points[lines.fine.lines[line][0]]},
+                     curve.names,
+                     fmt::format("{}: curve {}", source, curve.tag)});
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      loose.back().points.push_back(mesh.points[lines.fine.lines[line++][1]]);
+  }
+  return loose;
 }
 
 /// Makes edges features again that are sharp enough and have their middle in one of the balls.
@@ -178,18 +201,16 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   const std::vector<int> twin = side_twins(model.fine);
   const std::vector<double> angles = side_angles(model.fine, twin);
   std::vector<int> cut = find_cuts(model.fine, twin, angles, angle);
-  int loose = drop_loose_ends(model.fine, twin, cut);
+  std::vector<std::pair<int, int>> loose;
+  drop_loose_ends(model.fine, twin, cut, loose);
   const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
-  loose += drop_loose_ends(model.fine, twin, cut);
+  drop_loose_ends(model.fine, twin, cut, loose);
   keep_features(model.fine, options.kept_features, angles, cut);
   if (noise.islands > 0)
     model.warnings.push_back(
         fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",
                     counted(static_cast<int>(noise.islands), "island"), noise.edges, show_point(noise.at)));
-  if (loose > 0) {
-    model.warnings.push_back("left out " + counted(loose, "line") +
-                             " that only led into a face and ended there");
-  }
+  model.loose = join_loose_lines(model.fine, std::move(loose), options.source);
   model.fine.regions = entities_of_pieces(model.fine.regions, number_faces(model.fine, twin, cut));
   make_curves(model, twin, cut, angle);
   report_edges(model);

@@ -27,8 +27,9 @@ struct TriangulatedOptions {
 /// along features. A face keeps the tag of its region; further faces of the same region get new tags and its
 /// names. Curves are the chains of these cuts, ended where other than two meet, where they turn sharply and
 /// where the given curve changes. A cut that ends inside a face bounds nothing and is dropped from its loose
-/// end; a cut that has the same face on both sides but no loose end stays, like the seam of a tube. In the
-/// balls of options.kept_features all edges of more than 60 degrees stay.
+/// end, given lines to SurfaceModel::loose; a cut that has the same face on both sides but no loose end
+/// stays, like the seam of a tube. In the balls of options.kept_features all edges of more than 60 degrees
+/// stay.
 ///
 /// The direction of a triangle whose height is within the rounding of single precision coordinates is that of
 /// its neighbour across its longest side: such slivers make no features.

@@ -171,6 +171,16 @@ struct MirrorPlane {
   bool join = true;
 };
 
+/// A polyline on a surface, which becomes edges of the mesh, or a single point, which becomes a node.
+struct EmbeddedLine {
+  /// At most a thousandth of the model's diagonal away from the surface, in the unit of the mesh; one: a
+  /// point. All become nodes. Edges between two of them follow the surface in the plane through both and the
+  /// mean of its normals there.
+  std::vector<Vec3> points;
+  std::string name;   ///< physical group; may be empty, and that of several
+  std::string where;  ///< as that of a curve
+};
+
 /// How the faces of a surface are made from what its model holds.
 struct SurfaceSpec {
   Compounds compounds = Compounds::kNone;
@@ -186,6 +196,7 @@ struct SurfaceSpec {
   /// Of the lengths that the mesh gets, for models that say theirs: um, mm, cm, m, km, in or ft; empty: mm
   /// for STEP and IGES, else as the model has them.
   std::string unit;
+  std::vector<EmbeddedLine> embed;
   std::string where;  ///< who asked for it, for messages; empty: nothing was asked for
 };
 

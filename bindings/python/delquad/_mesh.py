@@ -105,6 +105,12 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_b
         problem.unit(unit)
 
 
+def _embed(problem, embed):
+    for entry in embed:
+        points, name = entry if isinstance(entry, tuple) and isinstance(entry[-1], str) else (entry, "")
+        problem.embed(points if len(points) == 0 or hasattr(points[0], "__len__") else [points], name)
+
+
 def _bar(stage, part):
     """Writes a line that the next one replaces."""
     end = "\n" if part >= 1 else ""
@@ -135,6 +141,7 @@ def mesh(
     mirror=None,
     glue=False,
     unit=None,
+    embed=(),
     options=None,
     name=None,
     seed=None,
@@ -168,6 +175,8 @@ def mesh(
     ignore_below: a length; narrower faces become part of neighbours, shorter curves points.
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
+    embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
+        each alone or with a name, (points, "name"). (In the plane: see planar().)
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
     options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
@@ -194,6 +203,7 @@ def mesh(
     if cross is not None:
         _set_cross(problem, cross)
     _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit)
+    _embed(problem, embed)
     if word is None:
         word = problem.quality(quality or "good")
     for key, value in (options or {}).items():

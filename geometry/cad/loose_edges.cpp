@@ -1,0 +1,70 @@
+#include "geometry/cad/loose_edges.h"
+
+#include <fmt/format.h>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_TangentialDeflection.hxx>
+#include <Geom_Curve.hxx>
+#include <Precision.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+
+#include "geometry/cad/sub_shapes.h"
+
+namespace delquad::cad {
+
+namespace {
+
+/// Radians between neighbouring chords.
+constexpr double kTurnOfChords = 0.1;
+
+/// Edges that bound faces; those inside of faces are INTERNAL.
+TopTools_MapOfShape bounding_edges(const TopoDS_Shape& shape) {
+  TopTools_MapOfShape bounding;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+    for (TopExp_Explorer edge(face.Current().Oriented(TopAbs_FORWARD), TopAbs_EDGE); edge.More(); edge.Next())
+      if (const auto side = edge.Current().Orientation(); side == TopAbs_FORWARD || side == TopAbs_REVERSED)
+        bounding.Add(edge.Current());
+  return bounding;
+}
+
+Vec3 vec3(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+
+std::vector<Vec3> chords(const TopoDS_Edge& edge, double deflection) {
+  const BRepAdaptor_Curve curve(edge);
+  const GCPnts_TangentialDeflection cut(curve, kTurnOfChords, deflection);
+  std::vector<Vec3> points;
+  for (int i = 1; i <= cut.NbPoints(); ++i) points.push_back(vec3(cut.Value(i)));
+  return points;
+}
+
+bool is_finite_curve(const TopoDS_Edge& edge) {
+  if (BRep_Tool::Degenerated(edge) || !BRepLib::BuildCurve3d(edge)) return false;
+  double first, last;
+  return !BRep_Tool::Curve(edge, first, last).IsNull() && !Precision::IsInfinite(first) &&
+         !Precision::IsInfinite(last);
+}
+
+}  // namespace
+
+std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection) {
+  std::vector<LooseLine> loose;
+  const TopTools_MapOfShape bounding = bounding_edges(shape);
+  const TopTools_IndexedMapOfShape edges = parts(shape, TopAbs_EDGE);
+  for (int e = 1; e <= edges.Extent(); ++e)
+    if (const TopoDS_Edge edge = TopoDS::Edge(edges(e)); !bounding.Contains(edge) && is_finite_curve(edge))
+      loose.push_back({chords(edge, deflection), {}, fmt::format("edge {}", e)});
+  TopTools_IndexedMapOfShape vertices;
+  for (TopExp_Explorer vertex(shape, TopAbs_VERTEX, TopAbs_EDGE); vertex.More(); vertex.Next())
+    vertices.Add(vertex.Current());
+  for (int v = 1; v <= vertices.Extent(); ++v)
+    loose.push_back({{vec3(BRep_Tool::Pnt(TopoDS::Vertex(vertices(v))))},
+                     {},
+                     fmt::format("the vertex without edges {}", v)});
+  return loose;
+}
+
+}  // namespace delquad::cad

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <vector>
+
+#include "geometry/surface/surface_model.h"
+
+namespace delquad::cad {
+
+/// The edges that bound no face, those inside of faces and those beside all, as polylines no further than
+/// `deflection` (a length) from them, and the vertices that no edge has. Edges without a curve and infinite
+/// ones are left to others.
+std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection);
+
+}  // namespace delquad::cad
