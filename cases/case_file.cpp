@@ -11,6 +11,7 @@
 #include "cases/problem.h"
 #include "cases/surface_spec.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/planar/layers/layer_heights.h"
 #include "io/mesh_io.h"
 #include "mesher/check_problem.h"
 
@@ -62,6 +63,20 @@ SizeSource read_source(const TomlTable& table) {
     throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
   table.finish(source_keys());
   return source;
+}
+
+LayerSpec read_layer(const TomlTable& table) {
+  LayerSpec layer;
+  layer.where = table.where();
+  layer.on = table.kind("on") == TomlKind::kText ? std::vector{table.text("on")} : table.texts("on");
+  layer.first = table.positive_number("first");
+  layer.growth = table.number("growth", layer.growth);
+  layer.number = static_cast<int>(integer_between(table, "number", 1, 10000, 0));
+  if (table.has("thickness")) layer.thickness = table.positive_number("thickness");
+  layer.fan = table.number("fan", layer.fan);
+  table.finish(layer_keys());
+  layer_heights(layer);
+  return layer;
 }
 
 SizeText read_size(const TomlTable& table) {
@@ -165,6 +180,8 @@ const std::filesystem::path& model_path(const Case& c) {
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
   if (const auto surface = table.optional_table("surface")) target.surface = read_surface_spec(*surface);
+  if (table.has("layer")) target.layers.clear();
+  for (const TomlTable& layer : table.tables("layer")) target.layers.push_back(read_layer(layer));
   if (table.has("size")) target.size = read_size(table);
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
   target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);

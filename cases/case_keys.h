@@ -20,6 +20,7 @@ const TomlKeys& surface_keys();
 const TomlKeys& mirror_keys();
 const TomlKeys& size_keys();
 const TomlKeys& source_keys();
+const TomlKeys& layer_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 

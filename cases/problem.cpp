@@ -145,6 +145,7 @@ MeshProblem make_problem(const Case& c) {
   problem.where = c.where;
   problem.model = read_model(c);
   problem.surface = c.surface;
+  problem.layers = c.layers;
   problem.size = make_size(c);
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;

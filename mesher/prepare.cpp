@@ -15,6 +15,7 @@
 #include "mesher/fine_spots.h"
 #include "mesher/named_domain.h"
 #include "mesher/perturb.h"
+#include "mesher/planar_layers.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/size_aware.h"
 #include "mesher/size_warnings.h"
@@ -168,8 +169,6 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
     domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
-  for (const std::string& line : odd_boundaries(domain))
-    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   return domain;
 }
 
@@ -278,7 +277,14 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   const DoingStage meshing_curves("boundary");
   PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, refinement.spots, p)
                                          : prepare_lines(problem, std::get<LineModel>(problem.model), p);
-  p.expected_quads = expected_quads(*p.background, *p.size);
+  if (!problem.layers.empty()) {
+    put_layers(problem, domain, p);
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  }
+  if (model == nullptr)
+    for (const std::string& line : odd_boundaries(domain))
+      p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+  p.expected_quads = expected_quads(*p.background, *p.size) + p.layers.count.quads;
   check_count(p.expected_quads, problem);
   warn_of_large_size(*p.size, domain.boundary, p.warnings);
   if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);

@@ -83,6 +83,21 @@ def _set_cross(problem, cross):
         )
 
 
+_LAYER = {"first": float, "growth": float, "number": int, "thickness": float, "fan": float}
+
+
+def _add_layer(problem, layer):
+    values = {"growth": 1.2, "number": 0, "thickness": 0, "fan": 60, **layer}
+    on = values.pop("on", None)
+    unknown = sorted(set(values) - set(_LAYER))
+    if on is None or unknown or "first" not in values:
+        raise _core.InputError(
+            "layers: expected 'on', 'first' and either 'number' or 'thickness', perhaps 'growth' and 'fan'"
+            + (f", got '{unknown[0]}'" if unknown else "")
+        )
+    problem.add_layer([on] if isinstance(on, str) else list(on), *(read(values[key]) for key, read in _LAYER.items()))
+
+
 def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
@@ -119,6 +134,7 @@ def mesh(
     quality=None,
     cross=None,
     sources=(),
+    layers=(),
     gradation=None,
     curvature=None,
     min_size=None,
@@ -151,6 +167,8 @@ def mesh(
     cross: "boundary", "size-aware", "gradient", or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).
     sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
+    layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
+        "number": n or "thickness": height, "fan": 60} each; see docs/meshing.md.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -171,6 +189,8 @@ def mesh(
         _set_size(problem, size)
     for source in sources:
         problem.add_source(*source)
+    for layer in layers:
+        _add_layer(problem, layer)
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
