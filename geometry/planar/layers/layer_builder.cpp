@@ -100,7 +100,7 @@ void LayerBuilder::place_wall(int w) {
     const double place = wall.from + (wall.to - wall.from) * k / wall.n;
     wall.nodes.push_back(add_node(track.point(place)));
     if (domain_.places.empty()) continue;
-    const auto [low, high] = std::minmax(track.param(wall.from), track.param(wall.to));
+    const auto [low, high] = std::minmax({track.param(wall.from), track.param(wall.to)});
     domain_.places.back() = {track.curve(), track.param(place), low, high};
   }
 }
