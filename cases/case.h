@@ -49,6 +49,7 @@ struct Case {
   std::filesystem::path model_file;    ///< the .toml file that one of these comes from; empty: none
   bool may_be_absent = false;          ///< the model's file is data that the case is skipped without
   SurfaceSpec surface;                 ///< of a mesh of triangles, surface_file or example
+  std::vector<LayerSpec> layers;       ///< of a planar domain
   SizeText size;
   std::vector<CurveDivision> divisions;
   std::vector<PeriodicPair> periodic;

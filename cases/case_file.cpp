@@ -12,6 +12,7 @@
 #include "cases/problem.h"
 #include "cases/surface_spec.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/planar/layers/layer_heights.h"
 #include "io/mesh_io.h"
 #include "mesher/check_problem.h"
 
@@ -112,6 +113,20 @@ MappedSpec read_mapped(const TomlTable& table) {
     mapped.names = {text};
   }
   return mapped;
+}
+
+LayerSpec read_layer(const TomlTable& table) {
+  LayerSpec layer;
+  layer.where = table.where();
+  layer.on = table.kind("on") == TomlKind::kText ? std::vector{table.text("on")} : table.texts("on");
+  layer.first = table.positive_number("first");
+  layer.growth = table.number("growth", layer.growth);
+  layer.number = static_cast<int>(integer_between(table, "number", 1, 10000, 0));
+  if (table.has("thickness")) layer.thickness = table.positive_number("thickness");
+  layer.fan = table.number("fan", layer.fan);
+  table.finish(layer_keys());
+  layer_heights(layer);
+  return layer;
 }
 
 SizeText read_size(const TomlTable& table) {
@@ -221,6 +236,8 @@ void read_case_keys(const TomlTable& table, Case& target) {
     target.surface.embed = std::move(embed);
   }
   if (table.has("embed") && !has_planar_model(table)) target.surface.embed = read_embedded_lines(table);
+  if (table.has("layer")) target.layers.clear();
+  for (const TomlTable& layer : table.tables("layer")) target.layers.push_back(read_layer(layer));
   if (table.has("size")) target.size = read_size(table);
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))

@@ -225,6 +225,17 @@ const TomlKeys& size_keys() {
   return keys;
 }
 
+const TomlKeys& layer_keys() {
+  static const TomlKeys keys = {
+      {"on", "names of boundary curves", kTextOrTexts, nullptr, false, true},
+      {"first", "height of the quads at the curve", kPositive, nullptr, false, true},
+      {"growth", "height of a quad by that of the one below", at_least("number", 1)},
+      {"number", "quads that stand on each other", between("integer", 1, 10000)},
+      {"thickness", "instead of the number: height of all of them", kPositive},
+      {"fan", "degrees by which corners with a fan turn away", above(0, 120)}};
+  return keys;
+}
+
 TomlKeys keys_of(const OptionGroup& group) {
   TomlKeys keys;
   for (const OptionKey& key : group.keys) keys.push_back({key.name, key.help, type_of(key)});
@@ -242,6 +253,7 @@ TomlKeys case_keys() {
                    {"model", "a model file, a surface or an MSH file", kText},
                    {"data", "a surface or MSH file in the folder of --data", kText},
                    {"surface", "what becomes of a surface's faces", "", surface_keys},
+                   {"layer", "thin quads along curves", "", layer_keys, true},
                    {"size", "wanted edge length", kSize, size_keys},
                    {"divide", "numbers of edges of curves", "", division_keys, true},
                    {"periodic", "curves that get the nodes of others", "", periodic_keys, true},

@@ -23,6 +23,7 @@ const TomlKeys& periodic_keys();
 const TomlKeys& division_keys();
 const TomlKeys& size_keys();
 const TomlKeys& source_keys();
+const TomlKeys& layer_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 

@@ -146,6 +146,7 @@ MeshProblem make_problem(const Case& c) {
   problem.where = c.where;
   problem.model = read_model(c);
   problem.surface = c.surface;
+  problem.layers = c.layers;
   problem.size = make_size(c);
   problem.divisions = c.divisions;
   problem.periodic = c.periodic;

@@ -36,7 +36,8 @@ std::string entity_name(const Entity& entity, const std::string& kind) {
 std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, const Mesh& boundary) {
   std::vector<std::string> names;
   for (const int e : loop) {
-    const std::string name = entity_name(boundary.curves[patch.edge_curve[e]], "curve");
+    const int curve = patch.edge_curve[e];
+    const std::string name = curve < 0 ? "a layer" : entity_name(boundary.curves[curve], "curve");
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   const Vec2 at = patch.points[patch.edges[loop.front()][0]];

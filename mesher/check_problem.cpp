@@ -6,6 +6,7 @@
 
 #include "base/length_unit.h"
 #include "base/located.h"
+#include "geometry/planar/layers/layer_heights.h"
 #include "mesh/check_mesh.h"
 
 namespace delquad {
@@ -144,6 +145,11 @@ void check_problem(const MeshProblem& problem) {
     throw InputError(
         fmt::format("{}: at most {} elements: expected 1 or above", problem.where, problem.max_elements));
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
+  for (const LayerSpec& layer : problem.layers) layer_heights(layer);
+  const bool is_planar =
+      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
+  if (!problem.layers.empty() && !is_planar)
+    throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
   check(problem.size);
   for (const CurveDivision& division : problem.divisions) check(division);
   check(problem.cross);

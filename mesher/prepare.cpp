@@ -18,6 +18,7 @@
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
+#include "mesher/planar_layers.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/size_aware.h"
 #include "mesher/size_warnings.h"
@@ -216,8 +217,6 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
     domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
-  for (const std::string& line : odd_boundaries(domain))
-    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   return domain;
 }
 
@@ -304,6 +303,15 @@ void check_planar(const MeshProblem& problem) {
                      ": sizes by curvature are for surfaces, and this is a planar domain");
 }
 
+/// Refuses layers where they would take away what grids and periodic sides rely on.
+void check_layers_alone(const MeshProblem& problem) {
+  if (problem.layers.empty()) return;
+  const bool grids = problem.mapped.automatic || !problem.mapped.names.empty();
+  if (grids || !problem.periodic.empty())
+    throw InputError(fmt::format("{}: layers change the boundary that {} have: expected one of the two",
+                                 problem.layers[0].where, grids ? "grids" : "periodic sides"));
+}
+
 /// Faces that become grids.
 void add_grids(const MeshProblem& problem, const PlanarDomain& domain, PreparedProblem& p) {
   for (const auto& [patch, corners] : domain.mapped) {
@@ -344,13 +352,21 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
 
 PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& refinement) {
   check_planar(problem);
+  check_layers_alone(problem);
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   PreparedProblem p = with_settings_of(problem);
   const Stopwatch watch;
   const DoingStage meshing_curves("boundary");
   PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, refinement.spots, p)
                                          : prepare_lines(problem, std::get<LineModel>(problem.model), p);
-  p.expected_quads = expected_quads(*p.background, *p.size);
+  if (!problem.layers.empty()) {
+    put_layers(problem, domain, p);
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  }
+  if (model == nullptr)
+    for (const std::string& line : odd_boundaries(domain))
+      p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+  p.expected_quads = expected_quads(*p.background, *p.size) + p.layers.count.quads;
   check_count(p.expected_quads, problem);
   warn_of_large_size(*p.size, domain.boundary, p.warnings);
   if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);

@@ -12,6 +12,7 @@
 #include "boundaries/surface_domain.h"
 #include "delquad/mesher.h"
 #include "fields/fields.h"
+#include "geometry/planar/layers/add_layers.h"
 #include "geometry/planar/planar_model.h"
 
 namespace delquad {
@@ -43,9 +44,11 @@ struct PreparedProblem {
   Options options;
   long long max_elements = 0;
   bool keep_going = false;
-  Mesh boundary;                         ///< nodes on curves, lines, curves and regions; no elements
+  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
   std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
   std::vector<PreparedPatch> patches;
+  std::vector<PatchBoundary> outlines;  ///< of the patches with their layers; empty: there are no layers
+  LayerReport layers;
   std::shared_ptr<const SizeField> size;
   std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
   std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...

@@ -23,6 +23,7 @@
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/part_twins.h"
+#include "mesher/planar_layers.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
 
@@ -305,7 +306,7 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
       [&] {
         const Stopwatch watch;
         result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(),
-                                          prepared.options, sides);
+                                          prepared.options, sides, quads_in_layers(prepared, result.mesh));
         metrics_time = watch.time();
       },
       [&] {
@@ -335,6 +336,7 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
   state.reasons.resize(prepared.patches.size());
   if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
   state.nodes.points = prepared.boundary.points;
+  if (!prepared.outlines.empty()) add_summary(state.log, prepared.layers.count);
   return state;
 }
 

@@ -83,14 +83,21 @@ void check_finite(const Mesh& mesh, Soundness& result) {
   add_reason(mesh, places, "1 point is not finite", "points are not finite", result);
 }
 
+/// The boundary of a patch with its layers.
+const PatchBoundary& outline_of(const PreparedProblem& prepared, std::size_t patch) {
+  return prepared.outlines.empty() ? prepared.patches[patch].boundary : prepared.outlines[patch];
+}
+
 /// How many patches of a planar domain have each edge of the boundary.
 std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
   std::map<Edge, int> patches;
-  for (const PreparedPatch& patch : prepared.patches)
-    for (const auto& [i, j] : patch.boundary.edges) {
-      const int a = patch.boundary.point_node[i], b = patch.boundary.point_node[j];
+  for (std::size_t k = 0; k < prepared.patches.size(); ++k) {
+    const PatchBoundary& boundary = outline_of(prepared, k);
+    for (const auto& [i, j] : boundary.edges) {
+      const int a = boundary.point_node[i], b = boundary.point_node[j];
       ++patches[{std::min(a, b), std::max(a, b)}];
     }
+  }
   return patches;
 }
 
@@ -117,7 +124,7 @@ int euler_characteristic(const PreparedProblem& prepared, const std::map<Edge, i
   std::set<int> nodes;
   for (const auto& [edge, patches] : edges) nodes.insert(edge.begin(), edge.end());
   int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size());
-  for (const PreparedPatch& patch : prepared.patches) euler += 2 - pieces_of(patch.boundary);
+  for (std::size_t k = 0; k < prepared.patches.size(); ++k) euler += 2 - pieces_of(outline_of(prepared, k));
   return euler;
 }
 

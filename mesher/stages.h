@@ -7,6 +7,7 @@
 #include "base/counters.h"
 #include "boundaries/curve_nodes.h"
 #include "delquad/extend.h"
+#include "geometry/planar/layers/add_layers.h"
 
 namespace delquad {
 
@@ -71,6 +72,14 @@ struct Counters<RefinementSummary> {
   using S = RefinementSummary;
   static constexpr const char* step = "refine_unsound";
   static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
+};
+
+template <>
+struct Counters<LayerCount> {
+  using S = LayerCount;
+  static constexpr const char* step = "layers";
+  static constexpr auto all = std::tuple{counter("columns", &S::columns), counter("quads", &S::quads),
+                                         counter("fans", &S::fans), counter("least_scale", &S::least_scale)};
 };
 
 struct PreparedProblem;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <numbers>
@@ -109,6 +110,17 @@ void measure_lengths(const Mesh& mesh, std::span<const HalfEdge> sides, const Si
   values["tau_given"] = given == nullptr ? fit.tau : fit_to_size(mesh, sides, *given).tau;
 }
 
+/// Those of elements that are in no layer.
+std::vector<HalfEdge> sides_outside(const Mesh& mesh, std::span<const HalfEdge> sides,
+                                    const std::vector<char>& in_layers) {
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  std::vector<HalfEdge> outside;
+  std::ranges::copy_if(sides, std::back_inserter(outside), [&](const HalfEdge& side) {
+    return side.element < n_triangles || !in_layers[static_cast<size_t>(side.element - n_triangles)];
+  });
+  return outside;
+}
+
 void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMetrics& metrics) {
   std::vector<int> quads_at(mesh.points.size(), 0), triangles_at(mesh.points.size(), 0);
   for (const auto& v : mesh.quads) {
@@ -175,7 +187,8 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
 }
 
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                             const Options& options, std::span<const HalfEdge> sides) {
+                             const Options& options, std::span<const HalfEdge> sides,
+                             const std::vector<char>& in_layers) {
   MeshMetrics metrics;
   for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
   metrics.eta = {0, 1, std::vector<long long>(20, 0)};
@@ -191,7 +204,11 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   measure_shapes(mesh, metrics);
   measure_proportions(mesh, metrics.values);
   measure_topology(mesh, sides, metrics);
-  if (size != nullptr) measure_lengths(mesh, sides, *size, given, metrics.values);
+  if (size != nullptr) {
+    const bool has_layers = std::ranges::find(in_layers, 1) != in_layers.end();
+    const auto outside = has_layers ? sides_outside(mesh, sides, in_layers) : std::vector<HalfEdge>();
+    measure_lengths(mesh, has_layers ? outside : sides, *size, given, metrics.values);
+  }
   measure_from_outside({mesh, size, given, options}, metrics);
   return metrics;
 }

@@ -9,9 +9,11 @@
 
 namespace delquad {
 
-/// evaluate_metrics() with the mesh's sorted_half_edges().
+/// evaluate_metrics() with the mesh's sorted_half_edges(). `in_layers`: by quad; those are left out of what
+/// is measured against the size, since they are flat on purpose. Empty: none.
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                             const Options& options, std::span<const HalfEdge> sides);
+                             const Options& options, std::span<const HalfEdge> sides,
+                             const std::vector<char>& in_layers = {});
 
 /// The measures from outside, with their keys.
 struct OwnMetric {

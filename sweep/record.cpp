@@ -115,6 +115,15 @@ Json group_json(const OptionGroup& group, const Options& options) {
   return json;
 }
 
+Json layer_json(const LayerSpec& layer) {
+  return {{"on", layer.on},
+          {"first", layer.first},
+          {"growth", layer.growth},
+          {"number", layer.number > 0 ? Json(layer.number) : Json()},
+          {"thickness", layer.thickness > 0 ? Json(layer.thickness) : Json()},
+          {"fan", layer.fan}};
+}
+
 Json options_json(const Case& c) {
   Json json = {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
                {"size", size_json(c.size)},
@@ -128,6 +137,7 @@ Json options_json(const Case& c) {
     json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
   if (c.mapped.automatic) json["mapped"] = "auto";
   if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
+  for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }

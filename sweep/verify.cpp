@@ -13,6 +13,8 @@
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "mesh/half_edges.h"
+#include "mesher/planar_layers.h"
 #include "metrics/metrics.h"
 #include "sweep/digest.h"
 #include "sweep/experiment_copy.h"
@@ -90,7 +92,8 @@ Lines check_measures(const VerifiedCell& cell, const PreparedProblem* prepared) 
   const Mesh mesh = read_msh(cell.file.parent_path() / "mesh.msh");
   const MeshMetrics now =
       prepared != nullptr
-          ? evaluate_metrics(mesh, prepared->size.get(), prepared->given_size.get(), prepared->options)
+          ? evaluate_metrics(mesh, prepared->size.get(), prepared->given_size.get(), prepared->options,
+                             sorted_half_edges(mesh), quads_in_layers(*prepared, mesh))
           : evaluate_metrics(mesh, nullptr);
   Lines wrong;
   for (const auto& [key, value] : cell.record.at("metrics").items()) {

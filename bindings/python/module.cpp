@@ -259,6 +259,14 @@ void define_cross(py::class_<Problem>& c) {
       });
 }
 
+void define_layers(py::class_<Problem>& c) {
+  c.def("add_layer", [](Problem& p, const std::vector<std::string>& on, double first, double growth,
+                        int number, double thickness, double fan) {
+    const std::string where = "layer " + std::to_string(p.problem.layers.size() + 1);
+    p.problem.layers.push_back({on, first, growth, number, thickness, fan, where});
+  });
+}
+
 void define_surface(py::class_<Problem>& c) {
   c.def("compounds_named",
         [](Problem& p, const std::string& name) { p.problem.surface.compounds = compounds_named(name); })
@@ -289,6 +297,7 @@ void define_problem(py::module_& m) {
   c.def(py::init<const ModelHandle&>());
   define_size(c);
   define_cross(c);
+  define_layers(c);
   define_surface(c);
   c.def("option", [](Problem& p, const std::string& name, const OptionValue& value) {
     p.problem.options.set(name, value);

@@ -81,6 +81,8 @@ class CurveMesher {
     domain.places = places();
     domain.places.resize(domain.boundary.points.size());
     for (const int v : domain.on_crack) domain.places[v] = {};
+    for (const CurvePiece& piece : pieces_)
+      if (piece.curve >= 0) domain.pieces.push_back({piece.ends, piece.shape, piece.from, piece.to});
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
     add_mapped(domain);

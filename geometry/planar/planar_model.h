@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -38,9 +39,16 @@ struct CurvePlace {
   bool is_free = false;  ///< it is on no curve: it may go anywhere
 };
 
+/// A part of a curve between two nodes at which others meet it, or it ends.
+struct DomainPiece {
+  std::array<int, 2> ends;  ///< nodes
+  std::shared_ptr<const Curve> shape;
+  double from = 0, to = 1;
+};
+
 /// The regions that a line mesh bounds.
 struct PlanarDomain {
-  Mesh boundary;                   ///< points, lines, curves, regions; no elements
+  Mesh boundary;                   ///< points, lines, curves, regions; of elements the quads of layers alone
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
@@ -51,6 +59,9 @@ struct PlanarDomain {
   /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second
   /// lips of cracks.
   std::vector<std::vector<int>> model_curves;
+  std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
+  /// Where there are layers: the patches with these. `patches` are what is left to be meshed.
+  std::vector<PatchBoundary> outlines = {};
 };
 
 struct DomainOptions {

@@ -35,7 +35,8 @@ struct MeshProblem {
   std::string name = "model";   ///< in messages
   std::string where = "model";  ///< where it was written, for messages: a file and line
   Model model;
-  SurfaceSpec surface = {};  ///< of a TriangleModel, CadModel or ExampleModel
+  SurfaceSpec surface = {};            ///< of a TriangleModel, CadModel or ExampleModel
+  std::vector<LayerSpec> layers = {};  ///< of a PlanarModel or LineModel
   SizeSpec size = {};
   CrossSpec cross = {};
   std::vector<CurveDivision> divisions = {};  ///< sizes beside these curves follow their edges

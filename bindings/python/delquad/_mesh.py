@@ -83,6 +83,21 @@ def _set_cross(problem, cross):
         )
 
 
+_LAYER = {"first": float, "growth": float, "number": int, "thickness": float, "fan": float}
+
+
+def _add_layer(problem, layer):
+    values = {"growth": 1.2, "number": 0, "thickness": 0, "fan": 60, **layer}
+    on = values.pop("on", None)
+    unknown = sorted(set(values) - set(_LAYER))
+    if on is None or unknown or "first" not in values:
+        raise _core.InputError(
+            "layers: expected 'on', 'first' and either 'number' or 'thickness', perhaps 'growth' and 'fan'"
+            + (f", got '{unknown[0]}'" if unknown else "")
+        )
+    problem.add_layer([on] if isinstance(on, str) else list(on), *(read(values[key]) for key, read in _LAYER.items()))
+
+
 def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
@@ -129,6 +144,7 @@ def mesh(
     divide=None,
     periodic=(),
     mapped=(),
+    layers=(),
     gradation=None,
     curvature=None,
     min_size=None,
@@ -168,6 +184,8 @@ def mesh(
     periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
         second curves get the images of the nodes of the first.
     mapped: names of regions that become grids, or "auto" for all where that pays.
+    layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
+        "number": n or "thickness": height, "fan": 60} each; see docs/meshing.md.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
@@ -199,6 +217,8 @@ def mesh(
         problem.periodic(motion.pop("from"), motion.pop("to"), **motion)
     if mapped:
         problem.mapped([] if mapped == "auto" else [mapped] if isinstance(mapped, str) else mapped, mapped == "auto")
+    for layer in layers:
+        _add_layer(problem, layer)
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// What layers have come to.
+struct LayerCount {
+  int columns = 0;         ///< edges of curves with quads on them
+  int quads = 0;           ///< all
+  int fans = 0;            ///< quads at corners of fans, in the first layer
+  double least_scale = 1;  ///< of heights; below 1 where there is no room for them
+};
+
+struct LayerReport {
+  LayerCount count;
+  Vec2 least_at;  ///< where heights are scaled the most
+  /// Most length of an edge of a front by the height of its last layer, where that is as it was asked for.
+  double largest_jump = 1;
+};
+
+/// Adds quads to domain.boundary, along the curves that the layers name, and takes what these cover from the
+/// patches, so that the edges of the last layers become their boundary. The patches as they were are in
+/// domain.outlines. Nodes of curves on which layers end are placed anew; where there are such, patches get
+/// even numbers of edges. Throws InputError for layers that cannot be, and for more than `max_quads`.
+LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
+
+}  // namespace delquad

@@ -1,0 +1,193 @@
+#include "geometry/planar/layers/fit_layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "base/cancel.h"
+#include "base/predicates.h"
+#include "delquad/error.h"
+
+namespace delquad {
+namespace {
+
+/// By which layers are lower in the next round, and how many rounds there are: down to 1e-7.
+constexpr double kLower = 0.85;
+constexpr int kMostRounds = 100;
+/// How much thickness may change along a curve, by length.
+constexpr double kSteepest = 0.3;
+/// The least part of an edge's length that is left of it at the front.
+constexpr double kLeastFront = 0.4;
+/// How far layers keep from others, by their thickness and by the edges at their feet.
+constexpr double kGap = 0.5;
+
+/// What fronts must not touch, and what must not touch them.
+struct Segment {
+  Vec2 a, b;
+  std::array<int, 2> points;  ///< of the patch, to which it belongs: those of a point may touch
+  std::array<int, 2> walls = {-1, -1};
+  bool is_of_layer = true;
+};
+
+bool share(const std::array<int, 2>& a, const std::array<int, 2>& b) {
+  const auto has = [&](int i) { return i >= 0 && (i == b[0] || i == b[1]); };
+  return has(a[0]) || has(a[1]);
+}
+
+bool touch(const Segment& s, const Segment& t) {
+  return orient2d(s.a, s.b, t.a) * orient2d(s.a, s.b, t.b) <= 0 &&
+         orient2d(t.a, t.b, s.a) * orient2d(t.a, t.b, s.b) <= 0;
+}
+
+Box<Vec2> box_of(const Segment& s) { return {lower(s.a, s.b), upper(s.a, s.b)}; }
+
+bool overlap(const Box<Vec2>& a, const Box<Vec2>& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+class LayerFitter {
+ public:
+  LayerFitter(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers)
+      : patch_(patch), specs_(specs), layers_(layers) {
+    add_boundary();
+  }
+
+  void fit() {
+    for (int round = 0; round < kMostRounds; ++round) {
+      check_cancelled();
+      smooth();
+      layers_.place();
+      too_high_.assign(patch_.points.size(), 0);
+      for (int c = 0; c < layers_.n_chains(); ++c) check_quads(c);
+      check_distances();
+      if (!lower_marked()) return;
+    }
+    refuse();
+  }
+
+ private:
+  void add_boundary() {
+    std::vector<int> wall(patch_.points.size(), -1);  // of the edge from a point
+    const auto& walls = layers_.found().walls;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      for (std::size_t i = 0; i + 1 < walls[w].points.size(); ++i)
+        wall[walls[w].points[i]] = static_cast<int>(w);
+    for (const auto& [a, b] : patch_.edges)
+      boundary_.push_back({patch_.points[a], patch_.points[b], {a, b}, {wall[a], -1}, false});
+  }
+
+  /// No thickness differs from its neighbours' by more than kSteepest; the lower one counts.
+  void smooth() {
+    for (int c = 0; c < layers_.n_chains(); ++c) {
+      const int n = layers_.chain(c).n_points();
+      const auto limit = [&](int from, int to) {
+        const double most =
+            layers_.thickness(c, from) + kSteepest * norm(layers_.foot(c, to) - layers_.foot(c, from));
+        if (const double h = layers_.thickness(c, to); h > most) layers_.scales[c][to] *= most / h;
+      };
+      const bool is_closed = layers_.chain(c).is_closed;
+      for (int k = 1; k < (is_closed ? 2 * n : n); ++k) limit((k - 1) % n, k % n);
+      for (int k = is_closed ? 2 * n - 1 : n - 1; k > 0; --k) limit(k % n, (k - 1) % n);
+    }
+  }
+
+  void mark(int c, const LayerColumn& column) { too_high_[layers_.chain(c).points[column.at]] = 1; }
+
+  void check_quads(int c) {
+    const auto& columns = layers_.columns(c);
+    layers_.for_each_pair(c, [&](int a, int b) {
+      if (columns[a].point == columns[b].point) return;
+      const Vec2 edge = layers_.foot(c, columns[b].at) - layers_.foot(c, columns[a].at);
+      const int top = layers_.n_layers(c);
+      const Vec2 front = layers_.node(c, {b, top}) - layers_.node(c, {a, top});
+      if (dot(front, edge) < kLeastFront * dot(edge, edge)) mark(c, columns[a]), mark(c, columns[b]);
+    });
+    layers_.for_each_quad(c, [&](const std::array<ColumnNode, 4>& quad) {
+      std::array<Vec2, 4> p;
+      for (int i = 0; i < 4; ++i) p[i] = layers_.node(c, quad[i]);
+      for (int i = 0; i < 4; ++i)
+        if (orient2d(p[i], p[(i + 1) % 4], p[(i + 2) % 4]) <= 0)
+          for (const ColumnNode& node : quad) mark(c, columns[node.column]);
+    });
+  }
+
+  /// The top of a column, and the distance that it keeps.
+  Vec2 guarded_top(int c, const LayerColumn& column) const {
+    const double h = layers_.thickness(c, column.at);
+    const auto [before, after] = layers_.edges_at(c, column.at);
+    return layers_.point(c, column, h + kGap * std::min({h, before, after}));
+  }
+
+  std::vector<Segment> segments() const {
+    std::vector<Segment> all = boundary_;
+    for (int c = 0; c < layers_.n_chains(); ++c) {
+      const auto& columns = layers_.columns(c);
+      std::vector<Vec2> tops;
+      for (const LayerColumn& column : columns) {
+        tops.push_back(guarded_top(c, column));
+        all.push_back({layers_.foot(c, column.at), tops.back(), {column.point, -1}, {column.wall, -1}});
+      }
+      layers_.for_each_pair(c, [&](int a, int b) {
+        all.push_back(
+            {tops[a], tops[b], {columns[a].point, columns[b].point}, {columns[a].wall, columns[b].wall}});
+      });
+    }
+    return all;
+  }
+
+  void check_distances() {
+    const std::vector<Segment> all = segments();
+    std::vector<Box<Vec2>> boxes;
+    for (const Segment& s : all) boxes.push_back(box_of(s));
+    const BoxTree<Vec2> tree(boxes);
+    for (std::size_t i = boundary_.size(); i < all.size(); ++i)
+      tree.search(
+          0.0, [&](const auto& node) { return overlap(node.box, boxes[i]) ? 0.0 : 1.0; },
+          [&](int j) { compare(all[i], all[j]); });
+  }
+
+  void compare(const Segment& s, const Segment& t) {
+    if (share(s.points, t.points) || share(s.walls, t.walls) || !overlap(box_of(s), box_of(t)) ||
+        !touch(s, t))
+      return;
+    for (const Segment* one : {&s, &t})
+      for (const int p : one->points)
+        if (one->is_of_layer && p >= 0) too_high_[p] = 1;
+  }
+
+  bool lower_marked() {
+    bool some = false;
+    for (int c = 0; c < layers_.n_chains(); ++c)
+      for (int k = 0; k < layers_.chain(c).n_points(); ++k) {
+        if (!too_high_[layers_.chain(c).points[k]]) continue;
+        some = true;
+        layers_.scales[c][k] *= kLower;
+      }
+    return some;
+  }
+
+  [[noreturn]] void refuse() const {
+    const int p = static_cast<int>(std::ranges::find(too_high_, 1) - too_high_.begin());
+    const LayerSpec& spec = specs_[layers_.chain(0).spec[0]];
+    throw InputError(fmt::format("{}: there is no place for layers at ({:.6g}, {:.6g})", spec.where,
+                                 patch_.points[p].x, patch_.points[p].y));
+  }
+
+  const PatchBoundary& patch_;
+  std::span<const LayerSpec> specs_;
+  LayerColumns& layers_;
+  std::vector<Segment> boundary_;
+  std::vector<char> too_high_;  ///< by point of the patch
+};
+
+}  // namespace
+
+void fit_layers(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers) {
+  LayerFitter(patch, specs, layers).fit();
+}
+
+}  // namespace delquad

@@ -1,0 +1,66 @@
+#include "mesher/planar_layers.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "mesher/fine_spots.h"
+
+namespace delquad {
+namespace {
+
+/// Edges of fronts below this part of the size make it less.
+constexpr double kShortFront = 0.8;
+/// Beyond this, solvers see the jump from the last layer to the quads beside it.
+constexpr double kLargeJump = 4;
+
+std::vector<FineSpot> short_boundary_edges(const PlanarDomain& domain, const SizeField& size) {
+  const double z = domain.boundary.points[0].z;
+  std::vector<FineSpot> spots;
+  int hint = -1;
+  for (const PatchBoundary& patch : domain.patches)
+    for (const auto& [i, j] : patch.edges) {
+      const Vec3 a{patch.points[i].x, patch.points[i].y, z}, b{patch.points[j].x, patch.points[j].y, z};
+      const double length = norm(b - a);
+      if (length < kShortFront * size.at(0.5 * (a + b), hint)) spots.push_back({a, b, length, length});
+    }
+  return spots;
+}
+
+void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::vector<Warning>& warnings) {
+  const std::string& where = problem.layers[0].where;
+  if (layers.count.least_scale < 1)
+    warnings.emplace_back(
+        fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
+                    "({:.6g}, {:.6g})",
+                    where, layers.count.least_scale, layers.least_at.x, layers.least_at.y));
+  if (layers.largest_jump > kLargeJump)
+    warnings.emplace_back(fmt::format(
+        "{}: edges on the last layer are up to {:.3g} times as long as it is high: more layers, or "
+        "a smaller size there, would help",
+        where, layers.largest_jump));
+}
+
+}  // namespace
+
+void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
+  p.layers = add_layers(domain, problem.layers, static_cast<double>(p.max_elements));
+  p.outlines = std::move(domain.outlines);
+  warn_of_layers(problem, p.layers, p.warnings);
+  std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size);
+  if (fine.empty()) return;
+  p.size_adapted_to.push_back("layers");
+  if (!p.given_size) p.given_size = p.size;
+  p.size = finer_near(p.size, std::move(fine));
+}
+
+std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh) {
+  std::vector<int> left(prepared.boundary.regions.size(), 0);
+  for (const int region : prepared.boundary.quad_region) ++left[region];
+  std::vector<char> in_layers;
+  for (const int region : mesh.quad_region)
+    in_layers.push_back(region < static_cast<int>(left.size()) && left[region]-- > 0);
+  return in_layers;
+}
+
+}  // namespace delquad

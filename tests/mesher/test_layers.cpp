@@ -1,0 +1,372 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "base/predicates.h"
+#include "delquad/mesher.h"
+#include "geometry/planar/layers/layer_heights.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+struct LayeredModel {
+  PlanarModel model{"layered", {}, {}};
+
+  LayeredModel& polygon(const std::vector<Vec2>& corners, const std::vector<std::string>& names) {
+    ModelLoop loop{{}, "", ""};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      loop.curves.push_back(static_cast<int>(model.curves.size()));
+      model.curves.push_back(
+          {make_segment(corners[i], corners[(i + 1) % corners.size()]), names[i % names.size()], ""});
+    }
+    model.loops.push_back(loop);
+    return *this;
+  }
+  LayeredModel& rectangle(Vec2 low, Vec2 high, const std::vector<std::string>& names) {
+    return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, names);
+  }
+  LayeredModel& curve(std::shared_ptr<const Curve> shape, const std::string& name) {
+    model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
+    model.curves.push_back({std::move(shape), name, ""});
+    return *this;
+  }
+  MeshProblem problem(double size, std::vector<LayerSpec> layers) const {
+    MeshProblem problem;
+    problem.model = model;
+    problem.size.field = make_constant_size(size);
+    problem.layers = std::move(layers);
+    return problem;
+  }
+};
+
+LayerSpec layer_on(std::vector<std::string> on, double first, int number, double growth = 1.2) {
+  LayerSpec spec;
+  spec.on = std::move(on);
+  spec.first = first;
+  spec.number = number;
+  spec.growth = growth;
+  return spec;
+}
+
+Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
+
+long long count_of(const MeshResult& result, const std::string& key) {
+  return result.summaries.get<long long>("layers", key);
+}
+
+int lines_on(const Mesh& mesh, const std::vector<std::string>& names) {
+  int n = 0;
+  for (const int curve : mesh.line_curve)
+    n += std::ranges::any_of(mesh.curves[curve].names,
+                             [&](const auto& name) { return std::ranges::count(names, name) > 0; });
+  return n;
+}
+
+/// Every corner of every quad turns left, exactly; the areas add up to the domain's; the layers have each
+/// quad that they should.
+void expect_layers(const MeshProblem& problem, const MeshResult& result) {
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_TRUE(result.mesh.triangles.empty());
+  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>());
+  const Mesh& mesh = result.mesh;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_GT(orient2d(flat(mesh.points[q[k]]), flat(mesh.points[q[(k + 1) % 4]]),
+                         flat(mesh.points[q[(k + 2) % 4]])),
+                0);
+  double area = 0, inside = 0;
+  const auto swept = [&](int a, int b) { return cross(mesh.points[a], mesh.points[b]).z / 2; };
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) area += swept(q[k], q[(k + 1) % 4]);
+  for (const auto& [a, b] : mesh.lines) inside += swept(a, b);
+  EXPECT_NEAR(area, inside, 1e-9 * inside);
+  std::vector<std::string> names;
+  for (const LayerSpec& layer : problem.layers) names.insert(names.end(), layer.on.begin(), layer.on.end());
+  const long long columns = lines_on(mesh, names), fans = count_of(result, "fans");
+  const auto n = static_cast<long long>(layer_heights(problem.layers[0]).size());
+  EXPECT_EQ(count_of(result, "columns"), columns);
+  EXPECT_EQ(count_of(result, "quads"), n * columns + fans + 2 * fans * (n - 1));
+}
+
+/// Heights of the quads at the lines of a curve: areas by lengths.
+std::vector<double> first_heights(const Mesh& mesh, const std::string& name) {
+  std::set<std::pair<int, int>> lines;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    if (std::ranges::count(mesh.curves[mesh.line_curve[l]].names, name) > 0)
+      lines.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
+  std::vector<double> heights;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      if (!lines.contains(std::minmax(q[k], q[(k + 1) % 4]))) continue;
+      const Vec2 a = flat(mesh.points[q[k]]), b = flat(mesh.points[q[(k + 1) % 4]]);
+      const Vec2 c = flat(mesh.points[q[(k + 2) % 4]]);
+      heights.push_back(cross(b - a, c - a) / norm(b - a));
+    }
+  return heights;
+}
+
+TEST(Layers, HeightsAreAGeometricSeries) {
+  LayerSpec spec = layer_on({"a"}, 0.1, 3, 2);
+  EXPECT_EQ(layer_heights(spec), (std::vector<double>{0.1, 0.1 + 0.2, 0.1 + 0.2 + 0.4}));
+  spec.number = 0;
+  spec.thickness = 0.31;
+  EXPECT_EQ(layer_heights(spec).size(), 3u);  // 0.1 + 0.2 do not reach it
+  spec.growth = 1;
+  spec.thickness = 0.4;
+  EXPECT_EQ(layer_heights(spec).size(), 4u);
+}
+
+TEST(Layers, HoleInAPlate) {
+  const MeshProblem problem = LayeredModel()
+                                  .rectangle({0, 0}, {2, 1}, {"south", "east", "north", "west"})
+                                  .curve(make_circle({0.8, 0.5}, 0.2), "hole")
+                                  .problem(0.06, {layer_on({"hole"}, 1e-4, 20)});
+  for (const char* word : {"DB", "DBCO", "FB", "PBCO", "DLB"}) {
+    SCOPED_TRACE(word);
+    const MeshResult result = mesh(problem, word);
+    expect_layers(problem, result);
+    EXPECT_EQ(result.summaries.get<double>("layers", "least_scale"), 1.0);
+    for (const double h : first_heights(result.mesh, "hole")) EXPECT_NEAR(h, 1e-4, 2e-6);
+  }
+}
+
+TEST(Layers, CornersOfAnLHaveBisectorsAndAFan) {
+  const MeshProblem problem = LayeredModel()
+                                  .polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {"wall"})
+                                  .problem(0.06, {layer_on({"wall"}, 1e-3, 10, 1.3)});
+  const MeshResult result = mesh(problem, "DBCO");
+  expect_layers(problem, result);
+  EXPECT_EQ(count_of(result, "fans"), 1);
+  EXPECT_EQ(result.summaries.get<double>("layers", "least_scale"), 1.0);
+}
+
+TEST(Layers, EndsLieOnWalls) {
+  const MeshProblem problem =
+      LayeredModel()
+          .polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {"s", "e", "layer", "layer", "n", "w"})
+          .problem(0.06, {layer_on({"layer"}, 1e-3, 10)});
+  const MeshResult result = mesh(problem, "DBCO");
+  expect_layers(problem, result);
+  // Nodes of the wall at the heights of the layers, exactly on it.
+  const std::vector<double> heights = layer_heights(problem.layers[0]);
+  std::vector<double> found;
+  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l) {
+    if (result.mesh.curves[result.mesh.line_curve[l]].names[0] != "e") continue;
+    for (const int v : result.mesh.lines[l]) {
+      EXPECT_EQ(result.mesh.points[v].x, 2);
+      found.push_back(1 - result.mesh.points[v].y);
+    }
+  }
+  for (const double h : heights)
+    EXPECT_TRUE(std::ranges::any_of(found, [&](double f) { return std::abs(f - h) < 1e-12; })) << h;
+}
+
+TEST(Layers, EndsLieOnCurvedWalls) {
+  LayeredModel model;
+  const Vec2 a{-1, 0}, b{1, 0};
+  model.model.curves = {{make_segment(a, b), "plate", ""},
+                        {make_arc({0, 0}, 1, 0, std::numbers::pi), "dome", ""}};
+  model.model.loops = {{{0, 1}, "", ""}};
+  const MeshProblem problem = model.problem(0.08, {layer_on({"plate"}, 1e-3, 12)});
+  const MeshResult result = mesh(problem, "DBCO");
+  expect_layers(problem, result);
+  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l)
+    if (result.mesh.curves[result.mesh.line_curve[l]].names[0] == "dome")
+      for (const int v : result.mesh.lines[l]) EXPECT_NEAR(norm(result.mesh.points[v]), 1, 1e-12);
+}
+
+TEST(Layers, EndsStandFreeOnAStraightLine) {
+  const MeshProblem problem =
+      LayeredModel()
+          .polygon({{-1, 0}, {0, 0}, {2, 0}, {2, 1}, {-1, 1}}, {"symmetry", "plate", "out", "top", "in"})
+          .problem(0.08, {layer_on({"plate"}, 1e-3, 14)});
+  expect_layers(problem, mesh(problem, "DBCO"));
+}
+
+TEST(Layers, NarrowChannelsLowerThem) {
+  const double width = 0.07;
+  const MeshProblem problem =
+      LayeredModel()
+          .polygon({{0, 0},
+                    {1, 0},
+                    {1, 0.05},
+                    {2, 0.05},
+                    {2, 0},
+                    {3, 0},
+                    {3, 1},
+                    {2, 1},
+                    {2, 0.05 + width},
+                    {1, 0.05 + width},
+                    {1, 1},
+                    {0, 1}},
+                   {"a", "a", "a", "a", "a", "out", "top", "a", "a", "a", "top", "in"})
+          .problem(0.05, {layer_on({"a"}, 1e-3, 17)});
+  const MeshResult result = mesh(problem, "DBCO");
+  expect_layers(problem, result);
+  const double least = result.summaries.get<double>("layers", "least_scale");
+  EXPECT_LT(least * layer_heights(problem.layers[0]).back(), width / 2);
+  EXPECT_GT(least, 0.01);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings[0].text.find("layers are lower"), std::string::npos) << result.warnings[0].text;
+}
+
+std::vector<Vec2> star(int rays, double inner, double outer) {
+  std::vector<Vec2> corners;
+  for (int i = 0; i < 2 * rays; ++i) {
+    const double a = std::numbers::pi * i / rays, r = i % 2 == 0 ? outer : inner;
+    corners.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return corners;
+}
+
+TEST(Layers, SharpCornersOfStars) {
+  for (const bool is_hole : {true, false}) {
+    SCOPED_TRACE(is_hole ? "around" : "inside");
+    LayeredModel model;
+    if (is_hole) model.rectangle({-3, -3}, {3, 3}, {"far"});
+    model.polygon(star(6, 0.1, 1), {"star"});
+    const MeshProblem problem = model.problem(0.06, {layer_on({"star"}, 1e-3, 10)});
+    const MeshResult result = mesh(problem, "DBCO");
+    expect_layers(problem, result);
+    EXPECT_EQ(count_of(result, "fans"), is_hole ? 6 * 2 : 6);
+  }
+}
+
+TEST(Layers, StarsByChance) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int round = 0; round < 12; ++round) {
+    SCOPED_TRACE(round);
+    std::vector<Vec2> corners;
+    const int n = 5 + static_cast<int>(8 * part(random));
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n, r = 0.15 + part(random);
+      corners.push_back({r * std::cos(a), r * std::sin(a)});
+    }
+    LayeredModel model;
+    if (round % 2 == 0) model.rectangle({-3, -3}, {3, 3}, {"far"});
+    model.polygon(corners, {"star", round % 3 == 0 ? "other" : "star"});
+    const MeshProblem problem = model.problem(0.07, {layer_on({"star"}, 1e-4 * std::pow(50, part(random)),
+                                                              5 + static_cast<int>(15 * part(random)))});
+    expect_layers(problem, mesh(problem, "DB"));
+  }
+}
+
+TEST(Layers, GivenLines) {
+  Mesh lines;
+  const int n = 60;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    lines.points.push_back({std::cos(a), std::sin(a), 0});
+    lines.lines.push_back({i, (i + 1) % n});
+    lines.line_curve.push_back(i < n / 2 ? 0 : 1);
+  }
+  lines.curves = {{1, {"upper"}}, {2, {"lower"}}};
+  MeshProblem problem;
+  problem.model = LineModel{lines};
+  problem.size.from_boundary = true;
+  problem.layers = {layer_on({"upper", "lower"}, 1e-3, 12)};
+  const MeshResult result = mesh(problem, "DBCO");
+  expect_layers(problem, result);
+  for (int i = 0; i < n; ++i) EXPECT_EQ(result.mesh.points[i], lines.points[i]);
+}
+
+/// The chord is 1; the far field ten of them away.
+MeshProblem naca0012(bool is_sharp) {
+  const double last = is_sharp ? 0.1036 : 0.1015;
+  const auto half = [last](double s) {
+    return 0.6 * (0.2969 * s - 0.1260 * s * s - 0.3516 * std::pow(s, 4) + 0.2843 * std::pow(s, 6) -
+                  last * std::pow(s, 8));
+  };
+  LayeredModel model;
+  model.rectangle({-10, -10}, {11, 10}, {"far"});
+  std::vector<ModelCurve>& curves = model.model.curves;
+  const double tail = is_sharp ? 0 : half(1);
+  const auto side = [&](double sign) {
+    return make_parametric_curve(
+        [=](double s) {
+          return Vec2{s * s, s == 1 ? sign * tail : sign * half(s)};
+        },
+        0, 1);
+  };
+  ModelLoop loop{{4, 5}, "", "", true};
+  curves.push_back({side(1), "airfoil", ""});
+  curves.push_back({side(-1), "airfoil", ""});
+  if (!is_sharp) {
+    curves.push_back({make_segment({1, tail}, {1, -tail}), "airfoil", ""});
+    loop.curves = {4, 6, 5};
+  }
+  model.model.loops.push_back(loop);
+  LayerSpec layer = layer_on({"airfoil"}, 1e-5, 0);
+  layer.thickness = 0.02;
+  MeshProblem problem = model.problem(1, {layer});
+  problem.size.sources = {{{0, 0, 0}, {1, 0, 0}, 0.015, 1, 0.1, 8},
+                          {{0, 0, 0}, {0, 0, 0}, 0.004, 1, 0.01, 8},
+                          {{1, 0, 0}, {1, 0, 0}, 0.002, 1, 0.005, 8}};
+  return problem;
+}
+
+TEST(Layers, Airfoils) {
+  for (const bool is_sharp : {true, false}) {
+    SCOPED_TRACE(is_sharp);
+    const MeshProblem problem = naca0012(is_sharp);
+    const MeshResult result = mesh(problem, "DBCO");
+    expect_layers(problem, result);
+    EXPECT_EQ(count_of(result, "fans"), 2);  // one corner of 180 degrees, or two of 90
+    EXPECT_GT(result.metrics.values.at("aspect_max"), 1000);
+    for (const double h : first_heights(result.mesh, "airfoil")) EXPECT_LT(h, 1.2e-5);
+  }
+}
+
+TEST(Layers, BadInput) {
+  const LayeredModel plate = LayeredModel().rectangle({0, 0}, {2, 1}, {"south", "east", "north", "west"});
+  const auto refused = [&](const LayerSpec& spec, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { mesh(plate.problem(0.1, {spec}), "DB"); }, parts);
+  };
+  const LayerSpec good = layer_on({"south"}, 1e-3, 5);
+  LayerSpec bad = good;
+  bad.on = {"soth"};
+  refused(bad, {"layer", "'soth'", "'south'"});
+  bad = good, bad.first = 0;
+  refused(bad, {"first height 0", "above 0"});
+  bad = good, bad.growth = 0.5;
+  refused(bad, {"growth 0.5", "at least 1"});
+  bad = good, bad.number = 0;
+  refused(bad, {"none of 'number' and 'thickness'"});
+  bad = good, bad.thickness = 0.1;
+  refused(bad, {"both of 'number' and 'thickness'"});
+  bad = good, bad.thickness = -1, bad.number = 0;
+  refused(bad, {"thickness -1"});
+  bad = good, bad.fan = 130;
+  refused(bad, {"fan 130"});
+  bad = good, bad.first = 0.3;
+  refused(bad, {"1 wide", "thinner"});
+  MeshProblem twice = plate.problem(0.1, {good, good});
+  expect_input_error([&] { mesh(twice, "DB"); }, {"'south' has a layer already"});
+  MeshProblem uneven = plate.problem(0.1, {good, layer_on({"east"}, 1e-3, 6)});
+  expect_input_error([&] { mesh(uneven, "DB"); }, {"5 layers meet 6", "(2, 0)"});
+  MeshProblem surface = plate.problem(0.1, {good});
+  surface.model = ExampleModel{"bracket"};
+  expect_input_error([&] { mesh(surface, "DB"); }, {"planar"});
+}
+
+TEST(Layers, InterfacesAndCracksHaveNone) {
+  LayeredModel model = LayeredModel().rectangle({0, 0}, {1, 1}, {"s", "mid", "n", "w"});
+  model.rectangle({1, 0}, {2, 1}, {"s2", "e", "n2", "mid"});
+  const auto refuse = [&](const std::string& on, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { mesh(model.problem(0.1, {layer_on({on}, 1e-3, 5)}), "DB"); }, parts);
+  };
+  refuse("mid", {"'mid' has mesh on both sides"});
+  refuse("s", {"another curve meets the layer at (1, 0)"});
+  model.model.curves.push_back({make_segment({0.3, 0.5}, {0.7, 0.5}), "slit", "", true});
+  refuse("slit", {"'slit'", "crack"});
+}
+
+}  // namespace
+}  // namespace delquad
