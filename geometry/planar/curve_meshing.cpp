@@ -154,19 +154,18 @@ class CurveMesher {
     }
   }
 
-  /// Whether its nodes stay in all stages: they were asked for, or a face that is a grid has them.
-  bool stays(const CurvePiece& piece) const {
-    const int index = static_cast<int>(&piece - pieces_.data());
-    return piece.is_divided || is_paired(piece) || std::ranges::any_of(mapped_, [&](const MappedFace& face) {
-             return std::ranges::any_of(
-                 face.sides, [&](const auto& side) { return std::ranges::find(side, index) != side.end(); });
-           });
-  }
-
-  bool is_paired(const CurvePiece& piece) const {
-    return piece.master >= 0 || std::ranges::any_of(pieces_, [&](const CurvePiece& p) {
-             return p.master == &piece - pieces_.data();
-           });
+  /// Of each piece, whether its nodes stay in all stages: they were asked for, are paired, or a face that is
+  /// a grid has them.
+  std::vector<char> staying() const {
+    std::vector<char> stays(pieces_.size(), 0);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i].is_divided) stays[i] = 1;
+      if (pieces_[i].master >= 0) stays[i] = stays[pieces_[i].master] = 1;
+    }
+    for (const MappedFace& face : mapped_)
+      for (const auto& side : face.sides)
+        for (const int piece : side) stays[piece] = 1;
+    return stays;
   }
 
   /// Of the mesh's points.
@@ -174,9 +173,12 @@ class CurveMesher {
     std::vector<CurvePlace> places(chain_.nodes.size());
     for (const CurvePiece& piece : pieces_)
       if (piece.curve < 0) places[piece.ends[1]].is_free = true;
-    for (const CurvePiece& piece : pieces_)
+    const std::vector<char> stays = staying();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const CurvePiece& piece = pieces_[i];
       for (const double t : piece.interior)
-        places.push_back(stays(piece) ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
+        places.push_back(stays[i] ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
+    }
     return places;
   }
 
