@@ -319,7 +319,7 @@ TEST(Layers, Airfoils) {
     const MeshProblem problem = naca0012(is_sharp, 1e-5);
     const MeshResult result = mesh(problem, "DBCO");
     expect_layers(problem, result);
-    EXPECT_EQ(count_of(result, "fans"), 2);  // one corner of 180 degrees, or two of 90
+    EXPECT_EQ(count_of(result, "fans"), 4);  // of 45 degrees: a corner of 180, or two of 90
     EXPECT_GT(result.metrics.values.at("aspect_max"), 1000);
     for (const double h : first_heights(result.mesh, "airfoil")) EXPECT_LT(h, 1.2e-5);
   }
