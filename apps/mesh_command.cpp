@@ -153,6 +153,9 @@ int mesh_command(const MeshArguments& arguments) {
              result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
              result.seconds);
   print_metrics(result.metrics);
+  if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
+    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
+               layers.columns);
   if (!prepared.size_adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
                fmt::join(prepared.size_adapted_to, " and "));

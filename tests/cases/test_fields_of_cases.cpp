@@ -27,6 +27,29 @@ class Cases : public testing::Test {
   testing_support::TemporaryFolder folder_;
 };
 
+TEST_F(Cases, Layers) {
+  const std::string sides =
+      "loop = { rectangle = [[0, 0], [1, 1]], boundary = ['s', 'e', 'n', 'w'] }\nsize = 0.1\n";
+  const Case c = read(sides +
+                      "layer = [{ on = 's', first = 0.001, number = 3 },\n"
+                      "{ on = ['n', 'w'], first = 0.01, growth = 1.5, thickness = 0.1, fan = 70 }]");
+  ASSERT_EQ(c.layers.size(), 2u);
+  EXPECT_EQ(c.layers[0].on, std::vector<std::string>{"s"});
+  EXPECT_EQ(c.layers[0].number, 3);
+  EXPECT_EQ(c.layers[0].growth, 1.2);
+  EXPECT_EQ(c.layers[1].on, (std::vector<std::string>{"n", "w"}));
+  EXPECT_EQ(c.layers[1].thickness, 0.1);
+  EXPECT_EQ(c.layers[1].fan, 70);
+  EXPECT_EQ(make_problem(c).layers.size(), 2u);
+  const auto refused = [&](const std::string& layer, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read(sides + "layer = { " + layer + " }"); }, parts);
+  };
+  refused("on = 's', first = 0, number = 3", {"c.toml:3", "'first'"});
+  refused("on = 's', first = 0.1, number = 0", {"c.toml:3", "'number' is 0"});
+  refused("on = 's', first = 0.1", {"c.toml:3", "none of 'number' and 'thickness'"});
+  refused("on = 's', first = 0.1, number = 2, heigth = 1", {"c.toml:3", "'heigth'"});
+}
+
 TEST_F(Cases, AFileGivesTheSize) {
   testing_support::write_text(
       folder_ / "h.msh",

@@ -176,9 +176,10 @@ TEST(Layers, EndsLieOnCurvedWalls) {
   const MeshProblem problem = model.problem(0.08, {layer_on({"plate"}, 1e-3, 12)});
   const MeshResult result = mesh(problem, "DBCO");
   expect_layers(problem, result);
-  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l)
-    if (result.mesh.curves[result.mesh.line_curve[l]].names[0] == "dome")
-      for (const int v : result.mesh.lines[l]) EXPECT_NEAR(norm(result.mesh.points[v]), 1, 1e-12);
+  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l) {
+    if (result.mesh.curves[result.mesh.line_curve[l]].names[0] != "dome") continue;
+    for (const int v : result.mesh.lines[l]) EXPECT_NEAR(norm(result.mesh.points[v]), 1, 1e-12);
+  }
 }
 
 TEST(Layers, EndsStandFreeOnAStraightLine) {
@@ -278,7 +279,7 @@ TEST(Layers, GivenLines) {
 }
 
 /// The chord is 1; the far field ten of them away.
-MeshProblem naca0012(bool is_sharp) {
+MeshProblem naca0012(bool is_sharp, double first) {
   const double last = is_sharp ? 0.1036 : 0.1015;
   const auto half = [last](double s) {
     return 0.6 * (0.2969 * s - 0.1260 * s * s - 0.3516 * std::pow(s, 4) + 0.2843 * std::pow(s, 6) -
@@ -303,7 +304,7 @@ MeshProblem naca0012(bool is_sharp) {
     loop.curves = {4, 6, 5};
   }
   model.model.loops.push_back(loop);
-  LayerSpec layer = layer_on({"airfoil"}, 1e-5, 0);
+  LayerSpec layer = layer_on({"airfoil"}, first, 0);
   layer.thickness = 0.02;
   MeshProblem problem = model.problem(1, {layer});
   problem.size.sources = {{{0, 0, 0}, {1, 0, 0}, 0.015, 1, 0.1, 8},
@@ -315,13 +316,48 @@ MeshProblem naca0012(bool is_sharp) {
 TEST(Layers, Airfoils) {
   for (const bool is_sharp : {true, false}) {
     SCOPED_TRACE(is_sharp);
-    const MeshProblem problem = naca0012(is_sharp);
+    const MeshProblem problem = naca0012(is_sharp, 1e-5);
     const MeshResult result = mesh(problem, "DBCO");
     expect_layers(problem, result);
-    EXPECT_EQ(count_of(result, "fans"), 2);  // one corner of 180 degrees, or two of 90
+    EXPECT_EQ(count_of(result, "fans"), 4);  // of 45 degrees: a corner of 180, or two of 90
     EXPECT_GT(result.metrics.values.at("aspect_max"), 1000);
     for (const double h : first_heights(result.mesh, "airfoil")) EXPECT_LT(h, 1.2e-5);
   }
+}
+
+TEST(Layers, QuadsTenThousandTimesAsLongAsHigh) {
+  const MeshProblem problem = naca0012(true, 1e-6);
+  const MeshResult result = mesh(problem, "DB");
+  expect_layers(problem, result);
+  EXPECT_GT(result.metrics.values.at("aspect_max"), 10000);
+}
+
+TEST(Layers, FansOfThickLayersHaveShorterEdges) {
+  const auto fans = [](int number) {
+    const MeshProblem problem = LayeredModel()
+                                    .rectangle({-2, -2}, {2, 2}, {"far"})
+                                    .rectangle({-0.5, -0.5}, {0.5, 0.5}, {"body"})
+                                    .problem(0.04, {layer_on({"body"}, 1e-3, number, 1.25)});
+    const MeshResult result = mesh(problem, "DB");
+    expect_layers(problem, result);
+    return count_of(result, "fans");
+  };
+  EXPECT_EQ(fans(10), 4);
+  EXPECT_EQ(fans(20), 8);
+}
+
+TEST(Layers, TheSameBytesForAnyNumberOfThreads) {
+  const MeshProblem problem = naca0012(false, 1e-5);
+  const MeshResult one = mesh(problem, "DBCO", {.threads = 1}),
+                   several = mesh(problem, "DBCO", {.threads = 3});
+  EXPECT_EQ(one.mesh.points, several.mesh.points);
+  EXPECT_EQ(one.mesh.quads, several.mesh.quads);
+}
+
+TEST(Layers, TurnedDomainsHaveThem) {
+  MeshProblem problem = naca0012(false, 1e-5);
+  problem.seed = 3;
+  expect_layers(problem, mesh(problem, "DB"));
 }
 
 TEST(Layers, BadInput) {

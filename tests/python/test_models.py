@@ -16,6 +16,18 @@ def test_polygons_with_a_hole():
     assert len(r.triangles) == 0 and r.sound and r.unsound == []
 
 
+def test_layers_along_curves():
+    sides = [delquad.segment((0, 0), (2, 0), "floor"), delquad.polyline([(2, 0), (2, 1), (0, 1), (0, 0)], "rest")]
+    layer = {"on": "floor", "first": 1e-3, "number": 5}
+    r = delquad.mesh(delquad.planar([sides]), size=0.1, layers=[layer])
+    assert area(r) == pytest.approx(2) and r.sound
+    assert np.any(np.isclose(r.points[:, 1], 1e-3)) and np.any(np.isclose(r.points[:, 1], 2.2e-3))
+    with pytest.raises(delquad.InputError, match="'height'"):
+        delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{"height": 1, **layer}])
+    with pytest.raises(delquad.InputError, match="'flor'.*'floor'"):
+        delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{**layer, "on": "flor"}])
+
+
 def test_curves_and_points_inside():
     square = [delquad.polyline([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], "wall")]
     model = delquad.planar([square], embed=[delquad.segment((0.2, 0.3), (0.7, 0.6), "fault"),

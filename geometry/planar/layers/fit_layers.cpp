@@ -16,8 +16,8 @@ namespace delquad {
 namespace {
 
 /// By which layers are lower in the next round, and how many rounds there are: down to 1e-7.
-constexpr double kLower = 0.85;
-constexpr int kMostRounds = 100;
+constexpr double kLower = 0.9;
+constexpr int kMostRounds = 150;
 /// How much thickness may change along a curve, by length.
 constexpr double kSteepest = 0.3;
 /// The least part of an edge's length that is left of it at the front.
@@ -59,7 +59,8 @@ class LayerFitter {
   void fit() {
     for (int round = 0; round < kMostRounds; ++round) {
       check_cancelled();
-      smooth();
+      limit_slopes();
+      cut_peaks();
       layers_.place();
       too_high_.assign(patch_.points.size(), 0);
       for (int c = 0; c < layers_.n_chains(); ++c) check_quads(c);
@@ -81,7 +82,7 @@ class LayerFitter {
   }
 
   /// No thickness differs from its neighbours' by more than kSteepest; the lower one counts.
-  void smooth() {
+  void limit_slopes() {
     for (int c = 0; c < layers_.n_chains(); ++c) {
       const int n = layers_.chain(c).n_points();
       const auto limit = [&](int from, int to) {
@@ -92,6 +93,16 @@ class LayerFitter {
       const bool is_closed = layers_.chain(c).is_closed;
       for (int k = 1; k < (is_closed ? 2 * n : n); ++k) limit((k - 1) % n, k % n);
       for (int k = is_closed ? 2 * n - 1 : n - 1; k > 0; --k) limit(k % n, (k - 1) % n);
+    }
+  }
+
+  /// No scale is above the mean of its neighbours'. Rounds of this blur the steps of the others.
+  void cut_peaks() {
+    for (int c = 0; c < layers_.n_chains(); ++c) {
+      const std::vector<double> old = layers_.scales[c];
+      const int n = static_cast<int>(old.size()), margin = layers_.chain(c).is_closed ? 0 : 1;
+      for (int k = margin; k < n - margin; ++k)
+        layers_.scales[c][k] = std::min(old[k], (old[(k + n - 1) % n] + old[(k + 1) % n]) / 2);
     }
   }
 

@@ -10,8 +10,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 /// Ends of layers lie on walls up to this angle; beyond it they stand free.
 constexpr double kWidestWall = 150 * kDegree;
-/// What a quad at the corner of a fan spans.
-constexpr double kFanQuad = 100 * kDegree;
+/// What a quad at the corner of a fan spans, and the least that it does so that edges of the front are no
+/// more than kLongFront times as long as those of the curve.
+constexpr double kFanQuad = 100 * kDegree, kThinFanQuad = 45 * kDegree;
+constexpr double kLongFront = 1.5;
 /// The diagonal of such a quad, by its height; that of a square.
 constexpr double kLongestDiagonal = std::numbers::sqrt2;
 /// Columns beside a corner lean towards its bisector, or wall, up to so many times as far as that reaches.
@@ -75,7 +77,9 @@ void LayerColumns::set_corner(int c, int k, std::span<const LayerSpec> specs) {
   const auto [a, b] = chain.specs_at(k);
   if (-turn >= std::min(specs[a].fan, specs[b].fan) * kDegree) {
     corner.kind = ChainCorner::kFan;
-    corner.quads = std::max(1, static_cast<int>(std::lround(-turn / kFanQuad)));
+    const double edges = -turn * thickness(c, k) / (kLongFront * std::ranges::max(edges_at(c, k)));
+    const double wanted = std::clamp(edges / 2, -turn / kFanQuad, std::max(1.0, -turn / kThinFanQuad));
+    corner.quads = std::max(1, static_cast<int>(std::lround(wanted)));
   } else if (std::abs(turn) > kLayerCorner) {
     corner.kind = ChainCorner::kMitre;
   }
