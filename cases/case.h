@@ -54,6 +54,7 @@ struct Case {
   std::vector<CurveDivision> divisions;
   std::vector<PeriodicPair> periodic;
   MappedSpec mapped;
+  SymmetrySpec symmetry;
   CrossText cross;
   Options options;
   long long max_elements = MeshProblem{}.max_elements;

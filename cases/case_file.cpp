@@ -129,6 +129,23 @@ LayerSpec read_layer(const TomlTable& table) {
   return layer;
 }
 
+SymmetrySpec read_symmetry(const TomlTable& table) {
+  SymmetrySpec symmetry{.planes = {}, .automatic = false, .where = table.where("symmetry")};
+  if (table.kind("symmetry") == TomlKind::kText) {
+    if (const std::string text = table.text("symmetry"); text != "auto")
+      throw InputError(symmetry.where + ": '" + text + "': expected \"auto\" or planes");
+    symmetry.automatic = true;
+    return symmetry;
+  }
+  for (const TomlTable& plane : table.tables("symmetry")) {
+    symmetry.planes.push_back({plane.space_point("point"), plane.space_point("normal")});
+    plane.finish(symmetry_keys());
+    if (norm(symmetry.planes.back().normal) == 0)
+      throw InputError(plane.where("normal") + ": the normal has no length");
+  }
+  return symmetry;
+}
+
 SizeText read_size(const TomlTable& table) {
   SizeText size;
   size.where = table.where("size");
@@ -243,6 +260,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   for (const TomlTable& division : table.tables("divide"))
     target.divisions.push_back(read_division(division));
   if (table.has("mapped")) target.mapped = read_mapped(table);
+  if (table.has("symmetry")) target.symmetry = read_symmetry(table);
   if (table.has("periodic")) target.periodic.clear();
   for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};

@@ -205,6 +205,12 @@ const TomlKeys& periodic_keys() {
   return keys;
 }
 
+const TomlKeys& symmetry_keys() {
+  static const TomlKeys keys = {{"point", "of the plane", kSpacePoint, nullptr, false, true},
+                                {"normal", "of the plane", kSpacePoint, nullptr, false, true}};
+  return keys;
+}
+
 const TomlKeys& named_size_keys() {
   static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
                                 {"size", "at most, on them and in them", kPositive},
@@ -257,6 +263,7 @@ TomlKeys case_keys() {
                    {"size", "wanted edge length", kSize, size_keys},
                    {"divide", "numbers of edges of curves", "", division_keys, true},
                    {"periodic", "curves that get the nodes of others", "", periodic_keys, true},
+                   {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},
                    {"mapped", "regions that become grids, or \"auto\"", kTextOrTexts},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
                    {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};

@@ -151,6 +151,7 @@ MeshProblem make_problem(const Case& c) {
   problem.divisions = c.divisions;
   problem.periodic = c.periodic;
   problem.mapped = c.mapped;
+  problem.symmetry = c.symmetry;
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;
   problem.options = c.options;

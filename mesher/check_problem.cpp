@@ -151,6 +151,11 @@ void check_problem(const MeshProblem& problem) {
   if (!problem.layers.empty() && !is_planar)
     throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
   check(problem.size);
+  for (const SymmetryPlane& plane : problem.symmetry.planes)
+    if (!(std::hypot(plane.normal.x, plane.normal.y) > 0) ||
+        !std::isfinite(norm(plane.normal) + norm(plane.point)))
+      throw InputError(problem.symmetry.where +
+                       ": the normal of a plane of symmetry has no finite length in the plane");
   for (const CurveDivision& division : problem.divisions) check(division);
   check(problem.cross);
   check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);

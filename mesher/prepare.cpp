@@ -119,6 +119,7 @@ PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
   options.divisions = problem.divisions;
   options.periodic = problem.periodic;
   options.mapped = problem.mapped;
+  options.symmetry = problem.symmetry;
   const auto on_curves = problem.seed == 0 ? size : jittered(size, problem.seed, diagonal_of(model));
   return make_domain(model, as_function(on_curves), options);
 }
@@ -178,10 +179,16 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   return domain;
 }
 
-/// Refuses grids where there can be none.
+bool is_symmetric(const MeshProblem& problem) {
+  return problem.symmetry.automatic || !problem.symmetry.planes.empty();
+}
+
+/// Refuses what is for planar models of curves.
 void check_not_mapped(const MeshProblem& problem) {
   if (problem.mapped.automatic || !problem.mapped.names.empty())
     throw InputError(problem.mapped.where + ": grids are for planar models of curves");
+  if (is_symmetric(problem))
+    throw InputError(problem.symmetry.where + ": planes of symmetry are for planar models of curves");
 }
 
 /// What cannot be where lines are kept.
@@ -260,6 +267,10 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) 
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = rotated(std::move(p.size), rotation);
   if (p.given_size) p.given_size = rotated(std::move(p.given_size), rotation);
+  for (PatchImage& image : domain.images)
+    image.motion = [motion = std::move(image.motion), rotation](Vec2 x) {
+      return rotation(motion(rotation.back(x)));
+    };
 }
 
 PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
@@ -303,8 +314,11 @@ void check_planar(const MeshProblem& problem) {
                      ": sizes by curvature are for surfaces, and this is a planar domain");
 }
 
-/// Refuses layers where they would take away what grids and periodic sides rely on.
+/// Refuses what would take away what grids, periodic sides and mirror images rely on.
 void check_layers_alone(const MeshProblem& problem) {
+  if (is_symmetric(problem) && (!problem.layers.empty() || !problem.periodic.empty()))
+    throw InputError(problem.symmetry.where +
+                     ": symmetry does not go with layers or periodic sides: expected one of these");
   if (problem.layers.empty()) return;
   const bool grids = problem.mapped.automatic || !problem.mapped.names.empty();
   if (grids || !problem.periodic.empty())
@@ -344,6 +358,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
                            return Vec3{u.x, u.y, z};
                          },
                          {}});
+  for (PatchImage& image : domain.images) p.patches[image.patch].image = std::move(image);
   add_grids(problem, domain, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);

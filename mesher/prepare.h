@@ -24,6 +24,8 @@ struct PreparedPatch {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
+  /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
+  std::optional<PatchImage> image = {};
   std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, which no stage changes
 };
 

@@ -23,6 +23,7 @@
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/part_twins.h"
+#include "mesher/patch_image.h"
 #include "mesher/planar_layers.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
@@ -351,6 +352,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         std::string& reason = state.reasons[i];
         const DoingFace face = doing_patch(prepared, i);
         patches[i].inside.clear();
+        if (prepared.patches[i].image) return;
         if (const auto& grid = prepared.patches[i].grid) {
           patches[i] = grid_as(stage.to, *grid);
           return;
@@ -365,7 +367,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   check_insertion(prepared, state.log);
   std::vector<char> left_out;
   for (std::size_t i = 0; i < patches.size(); ++i)
-    left_out.push_back(!state.reasons[i].empty() || prepared.patches[i].grid);
+    left_out.push_back(!state.reasons[i].empty() || prepared.patches[i].grid || prepared.patches[i].image);
   const AllPatches all{prepared, prepared.options, patches, left_out, state.nodes};
   if (prepared.surface && repair_options(prepared.options).part_twins) {
     const Stopwatch parting;
@@ -375,6 +377,11 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
     state.log.add_time("parting", parting.time());
   }
   if (stage.finish) stage.finish(all, state.log);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (const auto& image = prepared.patches[i].image) {
+      patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);
+      state.reasons[i] = state.reasons[image->master];
+    }
   state.seconds += watch.seconds();
 }
 

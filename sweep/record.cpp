@@ -135,6 +135,9 @@ Json options_json(const Case& c) {
         {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
   for (const PeriodicPair& pair : c.periodic)
     json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
+  if (c.symmetry.automatic) json["symmetry"] = "auto";
+  for (const SymmetryPlane& plane : c.symmetry.planes)
+    json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
   if (c.mapped.automatic) json["mapped"] = "auto";
   if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));

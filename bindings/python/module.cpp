@@ -213,6 +213,13 @@ void define_size(py::class_<Problem>& c) {
           },
           py::arg("from"), py::arg("to"), py::arg("translate"), py::arg("rotate"), py::arg("centre"),
           py::arg("axis"))
+      .def("symmetry",
+           [](Problem& p, const std::vector<std::pair<py::object, py::object>>& planes, bool automatic) {
+             p.problem.symmetry = {{}, automatic, "symmetry"};
+             for (const auto& [point, normal] : planes)
+               p.problem.symmetry.planes.push_back(
+                   {read_vec3(point, "symmetry: the point"), read_vec3(normal, "symmetry: the normal")});
+           })
       .def("mapped",
            [](Problem& p, const std::vector<std::string>& names, bool automatic) {
              p.problem.mapped = {names, automatic, "mapped"};

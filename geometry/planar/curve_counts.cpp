@@ -51,12 +51,18 @@ class EvenCounts {
   /// are one node of the graph.
   void by_t_join() {
     const int rest = static_cast<int>(regions_.region.size());
-    const auto node_of = [&](int face) { return is_filled(face) ? face : rest; };
+    // Mirror images have the numbers of their masters.
+    std::vector<char> is_image(regions_.region.size(), 0);
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      for (const int side : {0, 1})
+        if (pieces_[i].image && is_filled(face_beside(i, side))) is_image[face_beside(i, side)] = 1;
+    const auto node_of = [&](int face) { return is_filled(face) && !is_image[face] ? face : rest; };
     WeightedGraph graph{rest + 1, {}};
     std::vector<std::size_t> piece_of;
     std::vector<int> sides(graph.n_nodes, 0);
     std::vector<std::set<int>> odd_beside(pieces_.size());  // of each with those that follow it
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i].image) continue;
       const auto leader = pieces_[i].master < 0 ? i : static_cast<std::size_t>(pieces_[i].master);
       for (const int side : {0, 1}) {
         const int face = node_of(face_beside(i, side));

@@ -15,6 +15,7 @@
 #include "geometry/planar/loops_apart.h"
 #include "geometry/planar/mapped_faces.h"
 #include "geometry/planar/planar_model.h"
+#include "geometry/planar/symmetry.h"
 #include "geometry/planar/whiskers.h"
 
 namespace delquad {
@@ -23,11 +24,13 @@ namespace {
 
 class CurveMesher {
  public:
-  CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options)
+  CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options,
+              const Symmetry* symmetry = nullptr)
       : model_(model),
         mapped_spec_(options.mapped),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
+    if (symmetry != nullptr) n_axes_ = symmetry->n_planes();
     measure(size, options.max_edges);
     name_curves();
     set_least();
@@ -35,6 +38,8 @@ class CurveMesher {
     for (CurvePiece& p : pieces_)
       if (!p.is_divided) p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
     pair_periodic(model_, options.periodic, chain_, pieces_);
+    if (symmetry != nullptr) drop_axes_outside();
+    if (symmetry != nullptr) pair_symmetric(model_, *symmetry, options.symmetry.where, chain_, pieces_);
     follow_masters(model_, pieces_);
     add_whiskers(size);
     make_even();
@@ -87,10 +92,74 @@ class CurveMesher {
     domain.model_curves.resize(domain.boundary.curves.size());
     add_mapped(domain);
     if (domain.has_junctions) drop_stray_lines(domain);
+    if (n_axes_ > 0) drop_axes(domain);
     return domain;
   }
 
  private:
+  /// An axis of symmetry is no curve of the model; where one lies on it, that counts.
+  bool is_axis(int model_curve) const {
+    return model_curve >= static_cast<int>(model_.curves.size()) - n_axes_;
+  }
+  /// Takes out the parts of axes that lie outside of everything.
+  void drop_axes_outside() {
+    const Mesh lines = mesh();
+    std::vector<Vec2> points;
+    for (const Vec3& x : lines.points) points.push_back({x.x, x.y});
+    const Arrangement arrangement = arrange(points, lines.lines);
+    if (arrangement.conflict) return;
+    std::vector<CurvePiece> kept;
+    std::size_t line = 0;
+    for (CurvePiece& piece : pieces_) {
+      const auto side = 2 * line;
+      line += static_cast<std::size_t>(piece.n);
+      const bool is_outside = arrangement.face_of[side] < 0 && arrangement.face_of[side + 1] < 0;
+      if (!is_outside || !std::ranges::all_of(piece.curves, [&](int c) { return is_axis(c); }))
+        kept.push_back(std::move(piece));
+    }
+    pieces_ = std::move(kept);
+    drop_unused_nodes();
+  }
+
+  void drop_unused_nodes() {
+    std::vector<int> renamed(chain_.nodes.size(), -1);
+    for (const CurvePiece& piece : pieces_)
+      for (const int v : piece.ends) renamed[v] = 0;
+    for (const int v : chain_.point_nodes) renamed[v] = 0;
+    std::vector<Vec2> nodes;
+    for (std::size_t v = 0; v < renamed.size(); ++v)
+      if (renamed[v] == 0) {
+        renamed[v] = static_cast<int>(nodes.size());
+        nodes.push_back(chain_.nodes[v]);
+      }
+    chain_.nodes = std::move(nodes);
+    for (CurvePiece& piece : pieces_)
+      for (int& v : piece.ends) v = renamed[v];
+    for (int& v : chain_.point_nodes) v = renamed[v];
+  }
+
+  void drop_axes(PlanarDomain& domain) const {
+    std::vector<char> dropped(domain.boundary.curves.size(), 0);
+    for (std::size_t c = 0; c < domain.model_curves.size(); ++c) {
+      auto& curves = domain.model_curves[c];
+      const bool had = !curves.empty();
+      std::erase_if(curves, [&](int m) { return is_axis(m); });
+      dropped[c] = had && curves.empty();
+    }
+    Mesh& mesh = domain.boundary;
+    std::size_t kept = 0;
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+      if (dropped[mesh.line_curve[l]]) continue;
+      mesh.lines[kept] = mesh.lines[l];
+      mesh.line_curve[kept++] = mesh.line_curve[l];
+    }
+    mesh.lines.resize(kept);
+    mesh.line_curve.resize(kept);
+    for (PatchBoundary& patch : domain.patches)
+      for (int& curve : patch.edge_curve)
+        if (curve >= 0 && dropped[curve]) curve = -1;
+  }
+
   /// Nodes of pieces that follow others.
   void add_periodic(Mesh& mesh) const {
     std::vector<int> first;
@@ -109,7 +178,7 @@ class CurveMesher {
     std::map<std::pair<int, int>, std::size_t> known;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const CurvePiece& piece = pieces_[i];
-      if (piece.master < 0) continue;
+      if (piece.master < 0 || piece.image) continue;
       const int curve = piece.curve, master = pieces_[piece.master].curve;
       const auto [at, is_new] = known.try_emplace({curve, master}, mesh.periodic.size());
       if (is_new) mesh.periodic.push_back({curve, master, piece.motion, {}});
@@ -341,7 +410,8 @@ class CurveMesher {
         throw InputError(fmt::format("{}{} at ({:.10g}, {:.10g}) lies outside of every region", prefix(),
                                      point_label(model_, static_cast<int>(at)), a.x, a.y));
       }
-      const auto embedded = std::ranges::find_if(piece.curves, [&](int c) { return loops[c].empty(); });
+      const auto embedded =
+          std::ranges::find_if(piece.curves, [&](int c) { return loops[c].empty() && !is_axis(c); });
       const auto bounding = std::ranges::find_if(piece.curves, [&](int c) { return !loops[c].empty(); });
       if (embedded != piece.curves.end() && !is_filled(2 * line) && !is_filled(2 * line + 1))
         throw InputError(
@@ -360,6 +430,7 @@ class CurveMesher {
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
   std::vector<MappedFace> mapped_;
+  int n_axes_ = 0;                          ///< the last curves of the model
   std::vector<Entity> curves_;              ///< of the mesh
   std::vector<std::vector<int>> of_curve_;  ///< the model's curves of each
 };
@@ -371,7 +442,15 @@ Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMes
 }
 
 PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
-  return CurveMesher(model, size, options).domain();
+  if (!options.symmetry.automatic && options.symmetry.planes.empty())
+    return CurveMesher(model, size, options).domain();
+  const Symmetry symmetry = find_symmetry(model, options.symmetry);
+  const PlanarModel whole = with_axes(model, symmetry);
+  PlanarDomain domain = CurveMesher(whole, size, options, &symmetry).domain();
+  const int n_points = static_cast<int>(model.points.size());
+  std::erase_if(domain.boundary.named_points, [&](const NamedPoint& p) { return p.entity.tag > n_points; });
+  domain.images = patch_images(domain.patches, symmetry, options.symmetry.where);
+  return domain;
 }
 
 }  // namespace delquad

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,8 +30,9 @@ struct CurvePiece {
   int curve = -1;                     ///< of the mesh; -1: a whisker
   /// Index of the piece whose nodes it has the images of; -1: none. Then these count, in its direction.
   int master = -1;
-  Motion motion = {};          ///< that takes the master here
-  bool runs_as_master = true;  ///< else the other way
+  Motion motion = {};                    ///< that takes the master here, of periodic curves
+  std::function<Vec2(Vec2)> image = {};  ///< that does, of symmetric ones
+  bool runs_as_master = true;            ///< else the other way
   std::vector<Vec2> images = {};
 
   void set_edges(int edges) {

@@ -138,6 +138,11 @@ void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces) {
     piece.n = master.n;
     piece.images.clear();
     piece.interior.clear();
+    if (piece.image) {
+      piece.interior = master.interior;
+      for (const double t : piece.interior) piece.images.push_back(piece.shape->point(t));
+      continue;
+    }
     const CurveSpan span(*piece.shape, piece.from, piece.to);
     const double tolerance = kTouch * norm(span.box().size());
     for (const double t : master.interior) {

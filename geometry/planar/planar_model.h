@@ -19,6 +19,7 @@ struct CurveMeshOptions {
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
+  SymmetrySpec symmetry = {};
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)
@@ -46,6 +47,14 @@ struct DomainPiece {
   double from = 0, to = 1;
 };
 
+/// A patch that is a mirror image of another.
+struct PatchImage {
+  int patch, master;
+  std::vector<int> point;            ///< of each point of the master's boundary the one here
+  std::function<Vec2(Vec2)> motion;  ///< that takes the master there
+  bool is_mirrored = true;           ///< else turned: mirrored twice
+};
+
 /// The regions that a line mesh bounds.
 struct PlanarDomain {
   Mesh boundary;                   ///< points, lines, curves, regions; of elements the quads of layers alone
@@ -54,6 +63,7 @@ struct PlanarDomain {
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
   /// Of those that are to be grids, by patch: the points of its boundary at which its four sides begin.
   std::vector<std::pair<int, std::array<int, 4>>> mapped;
+  std::vector<PatchImage> images;
   bool has_junctions = false;  ///< some node has other than two lines
   std::vector<int> on_crack;   ///< nodes along cracks, those that were doubled and the others
   /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second

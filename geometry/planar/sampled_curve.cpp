@@ -40,7 +40,7 @@ const ChebyshevPoints& chebyshev() {
   return points;
 }
 
-struct CurvePiece {
+struct SampledPiece {
   double begin, end;  ///< in [0, 1]
   std::array<Vec2, kDegree + 1> points;
 
@@ -61,16 +61,16 @@ struct CurvePiece {
 
 class SampledCurve final : public Curve {
  public:
-  explicit SampledCurve(std::vector<CurvePiece> pieces) : pieces_(std::move(pieces)) {}
+  explicit SampledCurve(std::vector<SampledPiece> pieces) : pieces_(std::move(pieces)) {}
   Vec2 point(double s) const override {
     const auto after =
         std::upper_bound(pieces_.begin() + 1, pieces_.end(), s,
-                         [](double value, const CurvePiece& piece) { return value < piece.begin; });
+                         [](double value, const SampledPiece& piece) { return value < piece.begin; });
     return (after - 1)->point(std::clamp(s, 0.0, 1.0));
   }
 
  private:
-  std::vector<CurvePiece> pieces_;
+  std::vector<SampledPiece> pieces_;
 };
 
 /// Calls the function for parameters of a generation of pieces at once.
@@ -97,7 +97,7 @@ class Sampler {
 };
 
 /// Places in a piece where its polynomial is compared with the function: halfway between Chebyshev's points.
-std::vector<double> test_places(const CurvePiece& piece) {
+std::vector<double> test_places(const SampledPiece& piece) {
   std::vector<double> places;
   for (int k = 0; k < kDegree; ++k)
     places.push_back(piece.begin +
@@ -105,9 +105,9 @@ std::vector<double> test_places(const CurvePiece& piece) {
   return places;
 }
 
-void sample(const Sampler& sampler, std::vector<CurvePiece>& pieces) {
+void sample(const Sampler& sampler, std::vector<SampledPiece>& pieces) {
   std::vector<double> parts;
-  for (const CurvePiece& piece : pieces)
+  for (const SampledPiece& piece : pieces)
     for (const double u : chebyshev().at)
       parts.push_back(u < 1 ? piece.begin + u * (piece.end - piece.begin) : piece.end);
   const std::vector<Vec2> points = sampler.at(parts);
@@ -117,9 +117,9 @@ void sample(const Sampler& sampler, std::vector<CurvePiece>& pieces) {
 }
 
 /// Largest extent of the points along an axis.
-double extent(const std::vector<CurvePiece>& pieces) {
+double extent(const std::vector<SampledPiece>& pieces) {
   Vec2 low = pieces[0].points[0], high = low;
-  for (const CurvePiece& piece : pieces)
+  for (const SampledPiece& piece : pieces)
     for (const Vec2 p : piece.points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -134,7 +134,7 @@ std::shared_ptr<const Curve> make_sampled_curve(const CurveFunction& function, d
     throw InputError(fmt::format(
         "the curve's parameter runs from {} to {}: expected two different, finite numbers", t0, t1));
   const Sampler sampler(function, t0, t1);
-  std::vector<CurvePiece> open, done;
+  std::vector<SampledPiece> open, done;
   for (int k = 0; k < kFirstPieces; ++k)
     open.push_back({static_cast<double>(k) / kFirstPieces, static_cast<double>(k + 1) / kFirstPieces, {}});
   double most = 0;
@@ -142,11 +142,11 @@ std::shared_ptr<const Curve> make_sampled_curve(const CurveFunction& function, d
     sample(sampler, open);
     if (halvings == 0) most = kSampledCurveError * extent(open);
     std::vector<double> places;
-    for (const CurvePiece& piece : open) std::ranges::copy(test_places(piece), std::back_inserter(places));
+    for (const SampledPiece& piece : open) std::ranges::copy(test_places(piece), std::back_inserter(places));
     const std::vector<Vec2> wanted = sampler.at(places);
-    std::vector<CurvePiece> next;
+    std::vector<SampledPiece> next;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      const CurvePiece& piece = open[i];
+      const SampledPiece& piece = open[i];
       bool is_missed = false;
       for (std::size_t k = i * kDegree; k < (i + 1) * kDegree; ++k)
         is_missed = is_missed || norm(piece.point(places[k]) - wanted[k]) > most;
@@ -161,7 +161,7 @@ std::shared_ptr<const Curve> make_sampled_curve(const CurveFunction& function, d
       throw InputError(
           fmt::format("the curve cannot be followed: {} pieces do not show its course", kMostPieces));
   }
-  std::ranges::sort(done, {}, &CurvePiece::begin);
+  std::ranges::sort(done, {}, &SampledPiece::begin);
   return std::make_shared<SampledCurve>(std::move(done));
 }
 

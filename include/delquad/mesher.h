@@ -41,9 +41,10 @@ struct MeshProblem {
   CrossSpec cross = {};
   std::vector<CurveDivision> divisions = {};  ///< sizes beside these curves follow their edges
   std::vector<PeriodicPair> periodic = {};
-  MappedSpec mapped = {};  ///< of planar models of curves
-  long long seed = 0;      ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
-  Options options = {};    ///< of the stages
+  SymmetrySpec symmetry = {};  ///< of planar models of curves
+  MappedSpec mapped = {};      ///< of planar models of curves
+  long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
+  Options options = {};        ///< of the stages
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;     ///< leave faces out that cannot be meshed, instead of refusing the model
   bool allow_unsound = false;  ///< return meshes that are not sound, instead of throwing UnsoundError

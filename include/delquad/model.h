@@ -66,6 +66,18 @@ struct PeriodicPair {
   std::string where = "periodic";  ///< who asked for it, for messages
 };
 
+/// A line of the plane, or a plane of space, at which a model is symmetric.
+struct SymmetryPlane {
+  Vec3 point, normal;  ///< the normal need not have unit length
+};
+
+/// What is meshed on the positive side of planes only, and mirrored to the others.
+struct SymmetrySpec {
+  std::vector<SymmetryPlane> planes = {};  ///< one, or two that are perpendicular
+  bool automatic = false;                  ///< those that are found
+  std::string where = "symmetry";          ///< who asked for it, for messages
+};
+
 /// Regions that become grids, as fine as their sides.
 struct MappedSpec {
   std::vector<std::string> names = {};  ///< of the regions, or numbers: "region_2"

@@ -122,6 +122,7 @@ def mesh(
     divide: Mapping[str, int | Mapping[str, float]] | None = None,
     periodic: Iterable[Mapping[str, Any]] = (),
     mapped: str | Sequence[str] = (),
+    symmetry: Literal["auto"] | Sequence[tuple[npt.ArrayLike, npt.ArrayLike]] = (),
     gradation: float | None = None,
     curvature: float | None = None,
     min_size: float | None = None,

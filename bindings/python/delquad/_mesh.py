@@ -144,6 +144,7 @@ def mesh(
     divide=None,
     periodic=(),
     mapped=(),
+    symmetry=(),
     layers=(),
     gradation=None,
     curvature=None,
@@ -183,6 +184,7 @@ def mesh(
     divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
     periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
         second curves get the images of the nodes of the first.
+    symmetry: "auto", or a point and a normal of each of one or two planes; what is behind them is a mirror image.
     mapped: names of regions that become grids, or "auto" for all where that pays.
     layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
         "number": n or "thickness": height, "fan": 60} each; see docs/meshing.md.
@@ -215,6 +217,8 @@ def mesh(
     for pair in periodic:
         motion = {"translate": (0, 0, 0), "rotate": 0, "centre": (0, 0, 0), "axis": (0, 0, 1)} | pair
         problem.periodic(motion.pop("from"), motion.pop("to"), **motion)
+    if symmetry:
+        problem.symmetry([] if symmetry == "auto" else list(symmetry), symmetry == "auto")
     if mapped:
         problem.mapped([] if mapped == "auto" else [mapped] if isinstance(mapped, str) else mapped, mapped == "auto")
     for layer in layers:

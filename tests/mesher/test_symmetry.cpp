@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "delquad/mesher.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+/// A plate with a row of holes, symmetric about x = 2 and y = 1; a region fills the hole in the middle.
+PlanarModel symmetric_plate() {
+  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
+  model.loops[0].region = "plate";
+  for (int i = 0; i < 3; ++i) {
+    model.curves.push_back({make_circle({0.8 + 1.2 * i, 1}, 0.35), "hole", {}});
+    model.loops.push_back({{static_cast<int>(model.curves.size()) - 1}, i == 1 ? "core" : "", {}});
+  }
+  return model;
+}
+
+MeshProblem symmetric_problem(PlanarModel model, double size, SymmetrySpec spec) {
+  MeshProblem problem;
+  problem.model = std::move(model);
+  problem.size.field = make_constant_size(size);
+  problem.symmetry = std::move(spec);
+  return problem;
+}
+
+/// Every point and every quad, with its region, has its mirror image.
+void expect_mirrored(const Mesh& mesh, const std::function<Vec3(Vec3)>& mirror) {
+  const auto key = [](const Vec3& x) {
+    const auto rounded = [](double v) { return static_cast<long long>(std::llround(v * 1e10)); };
+    return std::pair(rounded(x.x), rounded(x.y));
+  };
+  std::set<std::pair<long long, long long>> points;
+  for (const Vec3& x : mesh.points) points.insert(key(x));
+  for (const Vec3& x : mesh.points) EXPECT_TRUE(points.contains(key(mirror(x)))) << x.x << ' ' << x.y;
+  std::set<std::pair<int, std::pair<long long, long long>>> middles;
+  const auto middle = [&](std::size_t q) {
+    Vec3 sum;
+    for (const int v : mesh.quads[q]) sum = sum + mesh.points[v];
+    return 0.25 * sum;
+  };
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) middles.insert({mesh.quad_region[q], key(middle(q))});
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    EXPECT_TRUE(middles.contains({mesh.quad_region[q], key(mirror(middle(q)))}));
+}
+
+Vec3 about_x2(Vec3 x) { return {4 - x.x, x.y, x.z}; }
+Vec3 about_y1(Vec3 x) { return {x.x, 2 - x.y, x.z}; }
+
+TEST(Symmetry, EveryNodeHasItsMirrorImage) {
+  for (const std::string word : {"DB", "DBCO", "DLBCO"}) {
+    const MeshResult one = mesh(symmetric_problem(symmetric_plate(), 0.11, {{{{2, 0, 0}, {1, 0, 0}}}}), word);
+    EXPECT_TRUE(one.mesh.triangles.empty());
+    expect_mirrored(one.mesh, about_x2);
+    const MeshResult two =
+        mesh(symmetric_problem(symmetric_plate(), 0.09, {{{{2, 1, 0}, {-3, 0, 0}}, {{2, 1, 0}, {0, 1, 0}}}}),
+             word);
+    EXPECT_TRUE(two.mesh.triangles.empty());
+    expect_mirrored(two.mesh, about_x2);
+    expect_mirrored(two.mesh, about_y1);
+    EXPECT_EQ(two.mesh.regions.size(), 2u);
+  }
+}
+
+TEST(Symmetry, PlanesAreFound) {
+  const MeshResult r = mesh(symmetric_problem(symmetric_plate(), 0.1, {{}, true}));
+  expect_mirrored(r.mesh, about_x2);
+  expect_mirrored(r.mesh, about_y1);
+  // Of a triangle with two equal sides there is one, of a scalene one none.
+  const MeshResult t = mesh(symmetric_problem(polygons({{{-1, 0}, {1, 0}, {0, 3}}}), 0.2, {{}, true}));
+  expect_mirrored(t.mesh, [](Vec3 x) { return Vec3{-x.x, x.y, x.z}; });
+  expect_input_error(
+      [] {
+        mesh(symmetric_problem(polygons({{{-1, 0}, {1.5, 0}, {0, 3}}}), 0.2, {{}, true, "s 1"}));
+      },
+      {"s 1: no plane of symmetry was found"});
+}
+
+TEST(Symmetry, AxesAreNoCurvesUnlessTheModelHasThem) {
+  PlanarModel model = symmetric_plate();
+  const SymmetrySpec spec{{{{2, 0, 0}, {1, 0, 0}}}};
+  const MeshResult plain = mesh(symmetric_problem(model, 0.11, spec));
+  for (const auto& line : plain.mesh.lines)
+    EXPECT_FALSE(plain.mesh.points[line[0]].x == 2 && plain.mesh.points[line[1]].x == 2);
+  model.curves.push_back({make_segment({2, 0}, {2, 0.65}), "rib", {}});
+  const MeshResult ribbed = mesh(symmetric_problem(model, 0.11, spec));
+  int on_rib = 0;
+  for (std::size_t l = 0; l < ribbed.mesh.lines.size(); ++l)
+    on_rib += ribbed.mesh.curves[ribbed.mesh.line_curve[l]].names == std::vector<std::string>{"rib"};
+  EXPECT_GE(on_rib, 5);
+  expect_mirrored(ribbed.mesh, about_x2);
+}
+
+TEST(Symmetry, SeedsTurnThePlanes) {
+  MeshProblem problem = symmetric_problem(symmetric_plate(), 0.11, {{{{2, 0, 0}, {1, 0, 0}}}});
+  problem.seed = 5;
+  const MeshResult r = mesh(problem);
+  EXPECT_TRUE(r.soundness.sound());
+  EXPECT_TRUE(r.mesh.triangles.empty());
+}
+
+TEST(Symmetry, ModelsThatAreNotSymmetricAreRefused) {
+  const auto refused = [](PlanarModel model, SymmetrySpec spec, std::initializer_list<const char*> says) {
+    spec.where = "s 1";
+    expect_input_error([&] { mesh(symmetric_problem(std::move(model), 0.2, spec)); }, says);
+  };
+  refused(symmetric_plate(), {{{{1.9, 0, 0}, {1, 0, 0}}}},
+          {"s 1: the model is not symmetric", "has no mirror image"});
+  PlanarModel hole = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {{1, 0.5}, {1.5, 0.5}, {1.5, 1}}});
+  refused(hole, {{{{2, 0, 0}, {1, 0, 0}}}}, {"s 1: the model is not symmetric"});
+  refused(symmetric_plate(), {{{{2, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {1, 1, 0}}}},
+          {"s 1: expected one plane", "perpendicular"});
+}
+
+}  // namespace
+}  // namespace delquad
