@@ -125,6 +125,12 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   ReplacedLines replaced;
   std::vector<PatchBoundary> rests;
   for (std::size_t i = 0; i < domain.patches.size(); ++i) {
+    const std::vector<int>& curves = domain.patches[i].edge_curve;
+    if (std::ranges::none_of(curves, [&](int c) { return c >= 0 && of_curve[c] >= 0; })) {
+      domain.outlines.push_back(domain.patches[i]);
+      rests.push_back(domain.patches[i]);
+      continue;
+    }
     LayerColumns layers(domain.patches[i], find_layer_chains(domain, i, specs, of_curve, heights), specs,
                         heights);
     check_number(layers, specs, max_quads);

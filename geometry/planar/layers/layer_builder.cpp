@@ -10,7 +10,9 @@ LayerBuilder::LayerBuilder(PlanarDomain& domain, std::size_t patch, const LayerC
       patch_(domain.patches[patch]),
       region_(domain.patch_region[patch]),
       layers_(layers),
+      curve_(patch_.points.size()),
       columns_(layers.n_chains()) {
+  for (std::size_t e = 0; e < patch_.edges.size(); ++e) curve_[patch_.edges[e][0]] = patch_.edge_curve[e];
   const int n_walls = static_cast<int>(layers_.found().walls.size());
   for (int c = 0; c < layers_.n_chains(); ++c) add_columns(c);
   for (int w = 0; w < n_walls; ++w) add_wall(w);
@@ -139,8 +141,7 @@ std::vector<std::vector<int>> LayerBuilder::loops() const {
 }
 
 PatchBoundary LayerBuilder::boundary(bool with_layers) const {
-  std::vector<int> chain_at(patch_.points.size(), -1), wall_at = chain_at, curve = chain_at;
-  for (std::size_t e = 0; e < patch_.edges.size(); ++e) curve[patch_.edges[e][0]] = patch_.edge_curve[e];
+  std::vector<int> chain_at(patch_.points.size(), -1), wall_at = chain_at;
   const LayerChains& found = layers_.found();
   for (std::size_t c = 0; c < found.chains.size(); ++c)
     chain_at[found.chains[c].points[0]] = static_cast<int>(c);
@@ -155,7 +156,7 @@ PatchBoundary LayerBuilder::boundary(bool with_layers) const {
       } else if (wall_at[p] >= 0) {
         add_wall_points(wall_at[p], with_layers, loop);
       } else {
-        loop.push_back({patch_.points[p], patch_.point_node[p], curve[p]});
+        loop.push_back({patch_.points[p], patch_.point_node[p], curve_[p]});
       }
     }
     const int n = static_cast<int>(loop.size()), base = static_cast<int>(result.points.size());
@@ -180,8 +181,7 @@ void LayerBuilder::add_chain(int c, bool with_layers, std::vector<LoopPoint>& lo
   const LayerChain& chain = layers_.chain(c);
   for (int k = 0; k + (chain.is_closed ? 0 : 1) < chain.n_points(); ++k) {
     const int p = chain.points[k];
-    const auto edge = std::ranges::find(patch_.edges, p, [](const auto& e) { return e[0]; });
-    loop.push_back({patch_.points[p], patch_.point_node[p], patch_.edge_curve[edge - patch_.edges.begin()]});
+    loop.push_back({patch_.points[p], patch_.point_node[p], curve_[p]});
   }
 }
 

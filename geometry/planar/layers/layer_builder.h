@@ -59,6 +59,7 @@ class LayerBuilder {
   const PatchBoundary patch_;
   int region_;
   const LayerColumns& layers_;
+  std::vector<int> curve_;                              ///< of the edge from each point
   std::vector<std::vector<std::vector<int>>> columns_;  ///< nodes, by chain and column, from the foot up
   std::vector<WallNodes> walls_;
 };
