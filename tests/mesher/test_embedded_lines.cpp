@@ -40,7 +40,7 @@ bool is_near(const Vec3& x, const std::vector<Vec3>& all, double distance) {
 
 MeshProblem sphere_problem() {
   MeshProblem problem;
-  problem.model = TriangleModel{round_sphere(12).fine};
+  problem.model = TriangleModel{round_sphere(24).fine};
   problem.size.field = make_constant_size(0.15);
   return problem;
 }
