@@ -241,8 +241,8 @@ bool has_planar_model(const TomlTable& table) {
 std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table) {
   std::vector<EmbeddedLine> lines;
   for (const TomlTable& embedded : table.tables("embed")) {
-    const std::string key = only_key(embedded, {"polyline", "point"});
     EmbeddedLine line{{}, group_name(embedded, "name", embedded.text("name", "")), embedded.where()};
+    const std::string key = only_key(embedded, {"polyline", "point"});
     if (key == "point")
       line.points = {embedded.space_point(key)};
     else if (line.points = embedded.space_points(key); line.points.size() < 2)

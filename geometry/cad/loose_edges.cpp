@@ -4,6 +4,8 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepLib.hxx>
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_TangentialDeflection.hxx>
 #include <Geom_Curve.hxx>
@@ -11,6 +13,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
 
 #include "geometry/cad/sub_shapes.h"
 
@@ -21,13 +24,16 @@ namespace {
 /// Radians between neighbouring chords.
 constexpr double kTurnOfChords = 0.1;
 
+bool bounds(const TopoDS_Shape& edge) {
+  return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+}
+
 /// Edges that bound faces; those inside of faces are INTERNAL.
 TopTools_MapOfShape bounding_edges(const TopoDS_Shape& shape) {
   TopTools_MapOfShape bounding;
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
     for (TopExp_Explorer edge(face.Current().Oriented(TopAbs_FORWARD), TopAbs_EDGE); edge.More(); edge.Next())
-      if (const auto side = edge.Current().Orientation(); side == TopAbs_FORWARD || side == TopAbs_REVERSED)
-        bounding.Add(edge.Current());
+      if (bounds(edge.Current())) bounding.Add(edge.Current());
   return bounding;
 }
 
@@ -48,7 +54,57 @@ bool is_finite_curve(const TopoDS_Edge& edge) {
          !Precision::IsInfinite(last);
 }
 
+/// The edges of a wire that bound its face; null: none.
+TopoDS_Shape bounding_part(const TopoDS_Shape& wire) {
+  bool has_others = false, is_empty = true;
+  TopoDS_Shape part = wire.EmptyCopied();
+  const TopAbs_Orientation side = wire.Orientation();
+  part.Orientation(TopAbs_FORWARD);
+  for (TopoDS_Iterator edge(wire.Oriented(TopAbs_FORWARD)); edge.More(); edge.Next()) {
+    if (!bounds(edge.Value())) {
+      has_others = true;
+      continue;
+    }
+    BRep_Builder().Add(part, edge.Value());
+    is_empty = false;
+  }
+  if (is_empty || (side != TopAbs_FORWARD && side != TopAbs_REVERSED)) return {};
+  part.Closed(wire.Closed());
+  return has_others ? part.Oriented(side) : wire;
+}
+
+/// The face with its bounding edges only.
+TopoDS_Shape without_inner_edges(const TopoDS_Shape& face) {
+  const TopoDS_Shape outwards = face.Oriented(TopAbs_FORWARD);
+  TopoDS_Shape other = outwards.EmptyCopied();
+  bool changed = false;
+  for (TopoDS_Iterator child(outwards); child.More(); child.Next()) {
+    const TopoDS_Shape part =
+        child.Value().ShapeType() == TopAbs_WIRE ? bounding_part(child.Value()) : TopoDS_Shape();
+    changed = changed || part.IsNull() || !part.IsSame(child.Value());
+    if (!part.IsNull()) BRep_Builder().Add(other, part);
+  }
+  return changed ? other.Oriented(face.Orientation()) : face;
+}
+
 }  // namespace
+
+void drop_inner_edges(CadShape& cad) {
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
+  BRepTools_ReShape reshape;
+  FaceNames names;
+  bool any = false;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const TopoDS_Shape other = without_inner_edges(faces(f));
+    for (const std::string& name : cad.names.of(faces(f))) names.add(other, name);
+    if (other.IsSame(faces(f))) continue;
+    reshape.Replace(faces(f), other);
+    any = true;
+  }
+  if (!any) return;
+  cad.shape = reshape.Apply(cad.shape);
+  cad.names = names;
+}
 
 std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection) {
   std::vector<LooseLine> loose;

@@ -3,7 +3,7 @@
 #include <TopoDS_Shape.hxx>
 #include <vector>
 
-#include "geometry/surface/surface_model.h"
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 
@@ -11,5 +11,9 @@ namespace delquad::cad {
 /// `deflection` (a length) from them, and the vertices that no edge has. Edges without a curve and infinite
 /// ones are left to others.
 std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection);
+
+/// Takes edges and vertices inside of faces out of them: the kernel fails to triangulate some faces with
+/// them.
+void drop_inner_edges(CadShape& cad);
 
 }  // namespace delquad::cad

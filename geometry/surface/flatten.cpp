@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -267,7 +268,7 @@ class Flattener {
 
   void flatten_open(int round) {
     const std::vector<CutEnd> ends = cut_ends();
-    std::vector<Planned> planned;
+    std::vector<Planned> mapped, planned;
     std::vector<Chart> charts = extract_charts(mesh_, open_, standing_lines());
     std::vector<Outcome> outcomes(charts.size());
     parallel_for(
@@ -293,10 +294,11 @@ class Flattener {
       }
       for (int t : chart.fine_triangle) open_[t] = 0;
       if (outcome.map)
-        add_patches(chart, std::move(*outcome.map));
+        mapped.push_back({std::move(chart), std::move(outcome)});
       else
         failed_[chart.face] = 1;
     }
+    add_patches(std::move(mapped), planned);
     if (!planned.empty()) cut(planned);
   }
 
@@ -315,23 +317,45 @@ class Flattener {
     return is_embedded(mesh_.line_curve[line]) && !on_cut_.contains(std::minmax(a, b));
   }
 
-  /// One patch, or where embedded curves stand in the chart, those that they part it into, cut open along
-  /// them.
-  void add_patches(const Chart& chart, Map map) {
+  /// A patch a chart, or where embedded curves stand in it, those that they part it into, cut open along
+  /// them. Charts for which that cannot be are parted otherwise.
+  void add_patches(std::vector<Planned> mapped, std::vector<Planned>& planned) {
     if (model_.embedded.empty()) {
-      patches_.push_back(to_patch(chart, std::move(map)));
+      for (Planned& p : mapped) patches_.push_back(to_patch(p.chart, *std::move(p.outcome.map)));
       return;
     }
     std::vector<char> wanted(mesh_.triangles.size(), 0);
-    for (const int t : chart.fine_triangle) wanted[t] = 1;
+    std::vector<std::size_t> chart_of(mesh_.triangles.size());
+    for (std::size_t i = 0; i < mapped.size(); ++i)
+      for (const int t : mapped[i].chart.fine_triangle) {
+        wanted[t] = 1;
+        chart_of[t] = i;
+      }
+    std::vector<std::vector<FlatPatch>> opened(mapped.size());
+    std::vector<char> is_stuck(mapped.size(), 0);
     for (const Chart& part : extract_charts(mesh_, wanted)) {
-      auto flat = opened_map(chart, map.flat, part);
-      if (!flat) {
+      const std::size_t i = chart_of[part.fine_triangle.front()];
+      const Map& map = *mapped[i].outcome.map;
+      if (auto flat = opened_map(mapped[i].chart, map.flat, part)) {
+        const FlatQuality quality = measure_flat(part, *flat);
+        opened[i].push_back(to_patch(part, {*std::move(flat), quality, map.method}));
+      } else {
+        is_stuck[i] = 1;
+      }
+    }
+    for (std::size_t i = 0; i < mapped.size(); ++i) {
+      if (!is_stuck[i]) {
+        std::ranges::move(opened[i], std::back_inserter(patches_));
+        continue;
+      }
+      Chart& chart = mapped[i].chart;
+      std::vector<char> parts = plan_parting(chart);
+      if (parts.empty()) {
         failed_[chart.face] = 1;
         continue;
       }
-      const FlatQuality quality = measure_flat(part, *flat);
-      patches_.push_back(to_patch(part, {std::move(*flat), quality, map.method}));
+      for (const int t : chart.fine_triangle) open_[t] = 1;
+      planned.push_back({std::move(chart), {std::nullopt, std::nullopt, true, std::move(parts)}});
     }
   }
 

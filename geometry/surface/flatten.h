@@ -9,7 +9,8 @@
 
 namespace delquad {
 
-/// A piece of a face laid flat, one-to-one and positively oriented; its area is that of the piece.
+/// A piece of a face laid flat, one-to-one and positively oriented. Its area is that of the piece; those that
+/// embedded curves divide have it together. Along embedded curves it is open by a millionth of the lines.
 struct FlatPatch {
   int face = -1;                   ///< index into Mesh::regions
   TriPatch flat;                   ///< boundary points first; two of them may be one point of the fine mesh
@@ -40,10 +41,11 @@ struct FlattenOptions {
   double max_sigma = 1.3;      ///< the same for sigma_95
 };
 
-/// Flattens all faces conformally. Faces that cannot be flattened as they are, or only with much distortion,
-/// are cut: cuts are added to the model as curves, which refines the fine triangulation along them, and their
-/// ends as corners. The fine triangulation should have been improved before. Cuts and failures are reported
-/// in the model's warnings. Throws InputError where sides of triangles are on no curve but should be.
+/// Flattens all faces conformally, as if there were no embedded curves. Faces that cannot be flattened as
+/// they are, or only with much distortion, are cut: cuts are added to the model as curves, which refines the
+/// fine triangulation along them, and their ends as corners. The fine triangulation should have been improved
+/// before. Cuts and failures are reported in the model's warnings. Throws InputError where sides of triangles
+/// are on no curve but should be.
 Flattening flatten(SurfaceModel& model, const FlattenOptions& options = {});
 
 }  // namespace delquad

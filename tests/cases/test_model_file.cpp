@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "cases/case_file.h"
 #include "cases/model_file.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -61,6 +62,26 @@ TEST_F(ModelFiles, PatternRepeatsItsShape) {
   EXPECT_FALSE(model.loops[0].is_hole);
   for (int k = 1; k < 7; ++k) EXPECT_TRUE(model.loops[k].is_hole) << k;
   EXPECT_EQ(model.curves[model.loops[2].curves[0]].shape->point(0), (Vec2{1.75, 0.5}));
+}
+
+TEST_F(ModelFiles, LinesEmbeddedInSurfaces) {
+  const auto read_surface = [&](const std::string& text) {
+    testing_support::write_text(folder_ / "s.toml", text);
+    return read_model_case(folder_ / "s.toml");
+  };
+  const std::string sphere = "example = \"sphere\"\n";
+  const Case c = read_surface(sphere +
+                              "embed = [{ polyline = [[10, 0, 0], [0, 10, 0]], name = \"way\" },\n"
+                              "         { point = [0, 0, 10] }]\n[surface]\ncompound = \"all\"\n");
+  ASSERT_EQ(c.surface.embed.size(), 2u);
+  EXPECT_EQ(c.surface.embed[0].points, (std::vector<Vec3>{{10, 0, 0}, {0, 10, 0}}));
+  EXPECT_EQ(c.surface.embed[0].name, "way");
+  EXPECT_EQ(c.surface.embed[1].points, (std::vector<Vec3>{{0, 0, 10}}));
+  EXPECT_EQ(c.surface.compounds, Compounds::kAll);
+  expect_input_error([&] { read_surface(sphere + "embed = { polyline = [[1, 2, 3]] }"); },
+                     {"s.toml:2", "two points or more"});
+  expect_input_error([&] { read_surface(sphere + "embed = { name = \"a\" }"); },
+                     {"s.toml:2", "expected one of polyline, point"});
 }
 
 TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {

@@ -121,14 +121,16 @@ TEST(TriangulatedModel, KeptFeaturesStayWhereverTheyLead) {
   EXPECT_EQ(n_lines({{{0, 0, 0}, 0.3}}), 32U);
 }
 
-TEST(TriangulatedModel, CutsThatEndInsideAFaceAreDropped) {
+TEST(TriangulatedModel, GivenLinesThatEndInsideAFaceBoundNothing) {
   Mesh mesh = triangle_grid(4, 4);
   mesh.lines = {{10, 11}, {11, 12}};  // from the left part of the middle row to its middle
   mesh.line_curve = {0, 0};
   mesh.curves = {{1, {"scratch"}}};
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 1, 4, 4);
-  EXPECT_TRUE(has_warning(model, "left out 2 lines that only led into a face"));
+  ASSERT_EQ(model.loose.size(), 1u);
+  EXPECT_EQ(model.loose[0].names, std::vector<std::string>{"scratch"});
+  EXPECT_EQ(model.loose[0].points, (std::vector<Vec3>{mesh.points[10], mesh.points[11], mesh.points[12]}));
   // One that crosses all of the face stays.
   mesh.lines = {{10, 11}, {11, 12}, {12, 13}, {13, 14}};
   mesh.line_curve.assign(4, 0);
