@@ -41,6 +41,12 @@ void check(const TriangleModel& model, const std::string&) {
     throw InputError(model.source + ": holds neither triangles nor quads");
 }
 
+void check(const GivenMesh& model, const std::string&) {
+  require_readable(model.mesh, model.source);
+  if (model.mesh.triangles.empty() && model.mesh.quads.empty())
+    throw InputError(model.source + ": holds neither triangles nor quads");
+}
+
 void check(const CadModel& model, const std::string& where) {
   if (model.file.empty() && model.bytes.empty())
     throw InputError(where + ": a CAD model needs a file or bytes, and has neither");

@@ -23,6 +23,7 @@ struct PreparedPatch {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
+  QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
 };
 
 /// What the patches of a surface were made from.

@@ -14,12 +14,14 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/activity.h"
+#include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/part_twins.h"
 #include "mesher/recombination_options.h"
@@ -129,12 +131,21 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
     refuse("triangles without neighbours");
 }
 
+/// What a word begins from with this stage.
+PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
+  if (patch.given.points.empty())
+    throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
+                                 prepared.where, stage.letter));
+  return located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+}
+
 /// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
 std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
   const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
   const auto run = [&] {
+    if (mesh.form != stage.from) mesh = given_to(stage, prepared, patch);
     stage.run(input, mesh, log);
     check_stage_result(stage, patch.boundary, mesh);
   };

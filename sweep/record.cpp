@@ -104,6 +104,7 @@ Json options_json(const Case& c) {
                {"cross", c.cross.text},
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
+  if (c.start) json["start"] = true;
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }
