@@ -178,8 +178,12 @@ struct Side {
 /// Elements that hang together without crossing a fence, with one point for each corner of their outline.
 class PatchMaker {
  public:
-  PatchMaker(const Mesh& mesh, const Polygons& polygons, const Fences& fences)
-      : mesh_(mesh), polygons_(polygons), fences_(fences), patch_(polygons.corners.size(), -1) {
+  PatchMaker(const GivenMesh& given, const Polygons& polygons, const Fences& fences)
+      : source_(given.source),
+        mesh_(given.mesh),
+        polygons_(polygons),
+        fences_(fences),
+        patch_(polygons.corners.size(), -1) {
     std::map<std::pair<int, int>, Side> side_at;
     for (std::size_t e = 0; e < polygons.corners.size(); ++e)
       for (std::size_t k = 0; k < polygons.corners[e].size(); ++k) {
@@ -207,6 +211,7 @@ class PatchMaker {
       QuadPatch& quads = result.elements.emplace_back();
       std::map<std::pair<int, int>, int> point;  // of corners on the outline: element, corner
       add_outline(elements, curve_of, node_of, boundary, point);
+      if (boundary.points.empty()) refuse_overlap(polygons_.at(static_cast<int>(e), 0));
       quads.points = boundary.points;
       quads.n_boundary = static_cast<int>(boundary.points.size());
       add_elements(elements, point, quads);
@@ -214,6 +219,12 @@ class PatchMaker {
   }
 
  private:
+  /// The elements around a point hang together more than once.
+  [[noreturn]] void refuse_overlap(int v) const {
+    const Vec3& p = mesh_.points[v];
+    throw InputError(fmt::format("{}: elements around ({:.10g}, {:.10g}, {:.10g}) cover each other", source_,
+                                 p.x, p.y, p.z));
+  }
   int start(const Side& s) const { return polygons_.at(s.element, s.corner); }
   int end(const Side& s) const { return start(next(s)); }
   Side next(const Side& s) const { return {s.element, polygons_.next(s.element, s.corner)}; }
@@ -300,12 +311,22 @@ class PatchMaker {
 
   void add_elements(const std::vector<int>& elements, const std::map<std::pair<int, int>, int>& on_outline,
                     QuadPatch& patch) const {
-    std::set<int> inside;
+    std::map<int, std::vector<Side>> inside;  // corners by point
     for (const int e : elements)
-      for (const int v : polygons_.corners[e])
-        if (!fences_.pass(v)) inside.insert(v);
+      for (int k = 0; k < static_cast<int>(polygons_.corners[e].size()); ++k)
+        if (const int v = polygons_.at(e, k); !fences_.pass(v))
+          inside[v].push_back({e, k});
+        else if (!on_outline.contains({e, k}))
+          refuse_overlap(v);
     std::map<int, int> point;
-    for (const int v : inside) {
+    for (const auto& [v, corners] : inside) {
+      std::size_t around = 0;
+      Side side = corners[0];
+      do {
+        side = twin(before(side));
+        ++around;
+      } while (side.element >= 0 && side != corners[0] && around <= corners.size());
+      if (around != corners.size()) refuse_overlap(v);
       point[v] = static_cast<int>(patch.points.size());
       patch.points.push_back(at(v));
     }
@@ -321,6 +342,7 @@ class PatchMaker {
     }
   }
 
+  const std::string& source_;
   const Mesh& mesh_;
   const Polygons& polygons_;
   const Fences& fences_;
@@ -429,7 +451,7 @@ GivenDomain make_given_domain(const GivenMesh& given) {
   std::map<std::pair<int, int>, int> curve_of;
   const std::vector<int> node_of = make_boundary(given, sides, fences, curve_of, result);
   result.domain.has_junctions = true;
-  PatchMaker(given.mesh, polygons, fences).add_patches(curve_of, node_of, result);
+  PatchMaker(given, polygons, fences).add_patches(curve_of, node_of, result);
   return result;
 }
 

@@ -337,6 +337,37 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
+bool is_worse(const RunResult& after, const RunResult& before) {
+  if (before.soundness.sound() != after.soundness.sound()) return before.soundness.sound();
+  bool worse = false;
+  for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
+    constexpr double kRounding = 1e-9;
+    const double change = after.metrics.values.at(key) - before.metrics.values.at(key);
+    if (change > kRounding) return false;
+    worse = worse || change < -kRounding;
+  }
+  return worse;
+}
+
+/// What was given takes the place of what is worse.
+void keep_better(const PreparedProblem& prepared, const std::string& label,
+                 const std::vector<PatchMesh>& given, const std::vector<char>& left_out, RunResult& result) {
+  RunResult before;
+  before.mesh = assemble(prepared, prepared.boundary.points, given, left_out);
+  measure(prepared, left_out, before);
+  if (!is_worse(result, before)) return;
+  const auto text = [](const RunResult& run) {
+    const auto& values = run.metrics.values;
+    return fmt::format("eta mean {:.4g}, worst {:.4g}, d4 {:.4g} %{}", values.at("eta_mean"),
+                       values.at("eta_worst"), values.at("d4"), run.soundness.sound() ? "" : ", not sound");
+  };
+  result.warnings.push_back(fmt::format("{}: the given mesh ({}) is kept: what was made of it is worse ({})",
+                                        label, text(before), text(result)));
+  result.mesh = std::move(before.mesh);
+  result.metrics = std::move(before.metrics);
+  result.soundness = std::move(before.soundness);
+}
+
 }  // namespace
 
 MeshingState begin_meshing(const PreparedProblem& prepared) {
@@ -352,6 +383,9 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   const Stopwatch watch;
   const DoingStage running(stage.name.c_str());
   std::vector<PatchMesh>& patches = state.patches;
+  if (stage.from == PatchForm::kQuads && patches[0].form == PatchForm::kBoundary)
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      state.given.push_back(given_to(stage, prepared, prepared.patches[i]));
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
@@ -393,6 +427,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
+  if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
   return result;

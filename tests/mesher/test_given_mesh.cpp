@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "delquad/extend.h"
 #include "delquad/mesher.h"
 #include "tests/support/expect_input_error.h"
 
@@ -224,6 +225,27 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
   const MeshResult alone = mesh(problem, "CO");
   EXPECT_NEAR(alone.metrics.values.at("d4"), whole.at("d4"), 2);
   EXPECT_NEAR(alone.expected_quads, double(start.quads.size()), 0.05 * double(start.quads.size()));
+}
+
+/// Stages from outside may do anything.
+TEST(GivenMeshes, AreKeptWhereTheResultWouldBeWorse) {
+  static const bool added = [] {
+    add_stage({'y', "shear", PatchForm::kQuads, PatchForm::kQuads,
+               [](const StageInput&, PatchMesh& patch, StageLog&) {
+                 QuadPatch& quads = patch.quads;
+                 for (std::size_t v = quads.n_boundary; v < quads.points.size(); ++v)
+                   quads.points[v].x += 0.02;
+               }});
+    return true;
+  }();
+  ASSERT_TRUE(added);
+  const Mesh grid = given_grid(10);
+  const MeshResult result = improve_given(grid, "y");
+  expect_kept(grid, result);
+  EXPECT_EQ(result.metrics.values.at("eta_worst"), 1);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].text.find("given mesh (eta mean 1, worst 1, d4 100 %) is kept"),
+            std::string::npos);
 }
 
 TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
