@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "boundaries/patch_boundaries.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
 #include "mesh/half_edges.h"
@@ -384,6 +385,24 @@ void check_free_edges(const GivenMesh& given, std::span<const HalfEdge> sides) {
                   given.source, text(i), text(j)));
 }
 
+/// Whether one loop runs counterclockwise, and all others, around holes, clockwise. Loops stand one after the
+/// other.
+bool runs_round_one_piece(const PatchBoundary& patch) {
+  const auto place = [&](std::size_t i) { return std::pair{patch.points[i].x, patch.points[i].y}; };
+  int outlines = 0;
+  for (std::size_t first = 0, end = 0; first < patch.edges.size(); first = end) {
+    while (patch.edges[end][1] != static_cast<int>(first)) ++end;
+    ++end;
+    std::size_t least = first;  // there the loop is convex
+    for (std::size_t i = first; i < end; ++i)
+      if (place(i) < place(least)) least = i;
+    const std::size_t before = least == first ? end - 1 : least - 1,
+                      after = least + 1 == end ? first : least + 1;
+    outlines += orient2d(patch.points[before], patch.points[least], patch.points[after]) > 0;
+  }
+  return outlines == 1;
+}
+
 /// Lines of the mesh that are edges, their points and those of other fences; returns the node of each point.
 std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge> sides, const Fences& fences,
                                std::map<std::pair<int, int>, int>& curve_of, GivenDomain& result) {
@@ -452,6 +471,12 @@ GivenDomain make_given_domain(const GivenMesh& given) {
   const std::vector<int> node_of = make_boundary(given, sides, fences, curve_of, result);
   result.domain.has_junctions = true;
   PatchMaker(given, polygons, fences).add_patches(curve_of, node_of, result);
+  for (const PatchBoundary& patch : result.domain.patches)
+    if (!runs_round_one_piece(patch) || !meshable(patch))
+      throw InputError(
+          fmt::format("{}: the outline through ({:.10g}, {:.10g}) crosses itself or is turned inside "
+                      "out: elements cover each other",
+                      given.source, patch.points[0].x, patch.points[0].y));
   return result;
 }
 

@@ -267,6 +267,24 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   branching.triangle_region = {0};
   expect_input_error([&] { improve_given(branching, "CO"); }, {"in 3 elements", "(0.25, 0.25, 3)"});
 
+  // Two cones of elements that touch in their tip, one of them on top of others.
+  Mesh pinched = grid;
+  for (const Vec3& at : {Vec3{0.4, 0.4, 3}, Vec3{0.6, 0.4, 3}, Vec3{0.5, 0.6, 3}})
+    pinched.points.push_back(at);
+  pinched.triangles = {{12, 25, 26}, {12, 26, 27}, {12, 27, 25}};
+  pinched.triangle_region = {0, 0, 0};
+  expect_input_error([&] { improve_given(pinched, "CO"); }, {"cover each other"});
+
+  // A hole of which one corner was drawn over the opposite side.
+  Mesh inside_out = halved(given_grid(6));
+  const auto hole = std::ranges::find(inside_out.triangles, std::array{16, 17, 23});
+  ASSERT_NE(hole, inside_out.triangles.end());
+  inside_out.triangle_region.erase(inside_out.triangle_region.begin() +
+                                   (hole - inside_out.triangles.begin()));
+  inside_out.triangles.erase(hole);
+  inside_out.points[16] = {0.47, 0.47, 3};
+  expect_input_error([&] { improve_given(inside_out, "BCO"); }, {"turned inside out"});
+
   Mesh twice = grid;
   twice.quads[5] = {6, 7, 12, 12};
   expect_input_error([&] { improve_given(twice, "CO"); }, {"corner twice"});
