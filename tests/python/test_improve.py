@@ -8,7 +8,7 @@ from shapes import SQUARE
 
 
 def test_the_word_in_two_halves():
-    model = delquad.polygons([SQUARE, 0.3 + 0.3 * np.array(SQUARE)])
+    model = delquad.polygons([SQUARE, [(0.3, 0.35), (0.7, 0.3), (0.55, 0.7)]])
     start = delquad.mesh(model, size=0.05, word="DB")
     better = delquad.improve(start)
     assert better.sound and len(better.triangles) == 0
