@@ -53,6 +53,7 @@ TEST(ImproveCommand, ModelsAndExperimentsBeginFromMeshes) {
   write_mesh(folder / "a.vtu", bad_grid());
   const auto model = write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n");
   EXPECT_EQ(delquad({"mesh", model, "--pipeline", "O", "-o", folder / "out.msh"}).exit_code, 0);
+  EXPECT_EQ(delquad({"info", model}).exit_code, 0);
   const std::string cases = "[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\nstart = true\n";
   const auto file = write_text(folder / "e.toml", "pipelines = [\"CO\", \"O\", \"DB\"]\n" + cases);
   const ProgramResult result = delquad({"run", file, "-o", folder / "results", "--pictures", "none"});
