@@ -63,6 +63,7 @@ struct MergeArguments {
 int merge_command(const MergeArguments& arguments);
 
 struct MeshArguments {
+  bool improve = false;  ///< the model is a mesh that words begin from
   std::filesystem::path model, output, json;
   std::optional<std::string> size;    ///< else as the model says
   std::string cross, compound, unit;  ///< empty: as the model says

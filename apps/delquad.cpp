@@ -214,15 +214,43 @@ void add_surface(CLI::App& mesh, MeshArguments& arguments) {
                   "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
 }
 
+void add_sizes(CLI::App& mesh, MeshArguments& arguments) {
+  mesh.add_option("--size-max", arguments.max, "largest size")->check(kLength);
+  mesh.add_option("--gradation", arguments.gradation,
+                  "the most by which sizes grow per unit length; 0.3 with --curvature")
+      ->check(kLength);
+  mesh.add_option("--cross", arguments.cross,
+                  "directions: 'boundary', 'size-aware', 'gradient' or an angle expression (radians)");
+}
+
+/// What comes out, and how.
+void add_mesh_output(CLI::App& mesh, MeshArguments& arguments, CommonArguments& common) {
+  mesh.add_option("-o,--output", arguments.output,
+                  "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
+      ->required();
+  mesh.add_option("--json", arguments.json, "record to write");
+  mesh.add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
+      ->capture_default_str()
+      ->transform(kCount);
+  mesh.add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
+  mesh.add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
+  mesh.add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  static const std::map<std::string, MshCurves> curves = {
+      {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
+  mesh.add_option("--curves", arguments.msh.curves,
+                  "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
+                  "(the default), or 'all'; deal.II takes none inside")
+      ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
+  mesh.add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
+  add_time_limit(mesh, common);
+}
+
 void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option(
           "model", arguments.model,
           "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off, .ply, .3mf) or CAD "
           "(.step, .stp, .iges, .igs, .brep)")
-      ->required();
-  mesh->add_option("-o,--output", arguments.output,
-                   "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
       ->required();
   add_size(*mesh, arguments.size, kSizeHelp);
   mesh->add_option("--size-on", arguments.size_on,
@@ -236,12 +264,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
       ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));
   mesh->add_option("--size-min", arguments.min, "least size by curvature; default: 1/20 of --size")
       ->check(kLength);
-  mesh->add_option("--size-max", arguments.max, "largest size")->check(kLength);
-  mesh->add_option("--gradation", arguments.gradation,
-                   "the most by which sizes grow per unit length; 0.3 with --curvature")
-      ->check(kLength);
-  mesh->add_option("--cross", arguments.cross,
-                   "directions: 'boundary', 'size-aware', 'gradient' or an angle expression (radians)");
+  add_sizes(*mesh, arguments);
   add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
@@ -253,24 +276,25 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
   mesh->add_option("--pipeline", arguments.pipeline,
                    "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C and O")
       ->excludes(quality);
-  mesh->add_option("--json", arguments.json, "record to write");
-  mesh->add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
-      ->capture_default_str()
-      ->transform(kCount);
-  mesh->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
   mesh->add_flag("--keep-going", arguments.keep_going,
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
-  mesh->add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
-  mesh->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
-  static const std::map<std::string, MshCurves> curves = {
-      {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
-  mesh->add_option(
-          "--curves", arguments.msh.curves,
-          "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
-          "(the default), or 'all'; deal.II takes none inside")
-      ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
-  mesh->add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
-  add_time_limit(*mesh, common);
+  add_mesh_output(*mesh, arguments, common);
+}
+
+void add_improve(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
+  arguments.improve = true;
+  CLI::App* improve =
+      app.add_subcommand("improve", "Make a planar mesh better that is there already, on its own boundary");
+  improve
+      ->add_option("mesh", arguments.model,
+                   "triangles, quads or both (.msh, .vtu, .inp, .mesh, .obj, .off, .stl, .ply, .3mf)")
+      ->required();
+  add_size(*improve, arguments.size, kSizeHelp)->default_str("what the mesh has");
+  add_sizes(*improve, arguments);
+  improve->add_option("--pipeline", arguments.pipeline,
+                      "letters of stages: L, then B, G or T, of triangles; C and O of quads; default: CO, or "
+                      "BCO of triangles alone");
+  add_mesh_output(*improve, arguments, common);
 }
 
 void add_metrics(CLI::App& app, MetricsArguments& arguments, CommonArguments& common) {
@@ -380,7 +404,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   CommonArguments common;
   RunArguments run;
-  MeshArguments mesh;
+  MeshArguments mesh, improve;
   MetricsArguments metrics;
   CompareArguments compare;
   InfoArguments info;
@@ -396,6 +420,7 @@ int run_command_line(int argc, char** argv) {
   bool only_options = false;
   add_schema(app, only_options);
   add_mesh(app, mesh, common);
+  add_improve(app, improve, common);
   add_metrics(app, metrics, common);
   add_compare(app, compare);
   add_info(app, info, common);
@@ -428,6 +453,7 @@ int run_command_line(int argc, char** argv) {
   if (app.got_subcommand("schema")) return schema_command(only_options);
   if (const auto code = run_on_records(app, records)) return *code;
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
+  if (app.got_subcommand("improve")) return mesh_command(improve);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("example")) return example_command(example);

@@ -98,15 +98,44 @@ int tell_what_is_missing(const RunResult& result, bool quads_wanted) {
   return kTrianglesLeft;
 }
 
+/// The text of the word that is asked for; `given`: of what is to be improved.
+std::string word_of(const MeshArguments& arguments, const std::optional<Mesh>& given) {
+  if (arguments.pipeline) return *arguments.pipeline;
+  if (given) return given->quads.empty() ? "BCO" : "CO";
+  return quality_named(arguments.quality).word;
+}
+
+Case read_case(const MeshArguments& arguments) {
+  if (arguments.improve) {
+    Case c;
+    c.name = arguments.model.stem().string();
+    c.where = c.mesh_file = arguments.model;
+    c.start = true;
+    return c;
+  }
+  Case c = read_model_case(arguments.model);
+  if (!arguments.pipeline && c.cross.where.empty())
+    c.cross.text = text_of(quality_named(arguments.quality).cross);
+  return c;
+}
+
+void print_before(const std::string& file, const Mesh& mesh, const PreparedProblem& prepared) {
+  fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
+             mesh.points.size());
+  print_metrics(evaluate_metrics(mesh, prepared.size.get(), prepared.given_size.get(), prepared.options));
+}
+
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
   const RunScope run({.threads = arguments.threads});
   check_mesh_format(arguments.output, arguments.msh);
-  const Quality& quality = quality_named(arguments.quality);
-  const Word word = parse_word(arguments.pipeline.value_or(quality.word));
-  Case c = read_model_case(arguments.model);
-  if (!arguments.pipeline && c.cross.where.empty()) c.cross.text = text_of(quality.cross);
+  std::optional<Mesh> given;
+  if (arguments.improve) given = read_mesh(arguments.model);
+  const std::string text = word_of(arguments, given);
+  parse_word(text, WordStart::kGivenMesh);  // before anything is read
+  Case c = read_case(arguments);
+  const Word word = parse_word(text, word_start(c));
   c.max_elements = arguments.max_elements;
   c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
@@ -149,6 +178,7 @@ int mesh_command(const MeshArguments& arguments) {
                             [&](std::ostream& out) { out << run_record(c, prepared, word, result); });
   }
   progress.finish();
+  if (given) print_before(arguments.model.string(), *given, prepared);
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
              result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
              result.seconds);

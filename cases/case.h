@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "mesher/stages.h"
 
 namespace delquad {
 
@@ -44,6 +45,7 @@ struct Case {
   long long seed = 0;  ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   std::optional<PlanarModel> model;    ///< analytic curves, or else
   std::filesystem::path mesh_file;     ///< a mesh of lines or of triangles in space, or else
+  bool start = false;                  ///< words may begin from the elements of mesh_file, of any format
   std::filesystem::path surface_file;  ///< CAD or triangles, or else
   std::string example;                 ///< a model that the program makes itself
   std::filesystem::path model_file;    ///< the .toml file that one of these comes from; empty: none
@@ -64,6 +66,8 @@ struct Case {
 };
 
 bool has_model(const Case& c);
+/// Where words on a case may begin.
+inline WordStart word_start(const Case& c) { return c.start ? WordStart::kGivenMesh : WordStart::kBoundary; }
 /// The file that the case's model is read from; empty: none.
 const std::filesystem::path& model_path(const Case& c);
 

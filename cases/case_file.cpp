@@ -170,6 +170,7 @@ SizeText read_size(const TomlTable& table) {
 void drop_model(Case& target) {
   target.model.reset();
   target.mesh_file.clear();
+  target.start = false;
   target.surface_file.clear();
   target.example.clear();
   target.model_file.clear();
@@ -200,6 +201,8 @@ void read_model_keys(const TomlTable& table, Case& target) {
   const bool drawn = has_planar_model(table);
   if (table.has("mesh") && drawn)
     throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
+  if (table.has("start") && !table.has("mesh"))
+    throw InputError(table.where("start") + ": 'start' is for a mesh: expected 'mesh', too");
   int models = (drawn || table.has("mesh")) ? 1 : 0;
   for (const char* key : {"model", "data", "example"})
     if (table.has(key) && ++models > 1)
@@ -219,7 +222,8 @@ void read_model_keys(const TomlTable& table, Case& target) {
   } else if (table.has("mesh")) {
     drop_model(target);
     target.mesh_file = folder / table.text("mesh");
-    if (kind_of_file(target.mesh_file) != ".msh")
+    target.start = table.flag("start", false);
+    if (kind_of_file(target.mesh_file) != ".msh" && !target.start)
       throw InputError(table.where("mesh") + ": '" + target.mesh_file.string() + "' is not a .msh file");
   } else if (drawn) {
     PlanarModel model = read_planar_model(table);

@@ -11,6 +11,7 @@
 #include "delquad/error.h"
 #include "geometry/surface/curve_chains.h"
 #include "mesh/constrained_delaunay.h"
+#include "mesher/given_domain.h"
 #include "mesher/named_domain.h"
 #include "mesher/surface_input.h"
 
@@ -72,6 +73,8 @@ SurfaceModel load(const MeshProblem& problem) {
   }
   if (const auto* lines = std::get_if<LineModel>(&problem.model))
     return as_model(make_named_domain(lines->mesh, lines->surfaces, lines->source), lines->source);
+  if (const auto* given = std::get_if<GivenMesh>(&problem.model))
+    return as_model(make_given_domain(*given).domain, given->source);
   return make_surface(problem);
 }
 

@@ -107,8 +107,17 @@ Model read_msh_model(const Case& c) {
   return lines;
 }
 
+GivenMesh read_given_mesh(const Case& c) {
+  return located(c.where, [&] {
+    GivenMesh given{{}, c.mesh_file.string()};
+    given.mesh = read_mesh(c.mesh_file, &given.notes);
+    return given;
+  });
+}
+
 Model read_model(const Case& c) {
   const DoingStage stage("reading");
+  if (c.start) return read_given_mesh(c);
   if (!c.example.empty()) return ExampleModel{c.example};
   if (kCadFiles.count(kind_of_file(c.surface_file)) > 0) return CadModel{c.surface_file};
   if (!c.surface_file.empty()) return read_triangles(c);

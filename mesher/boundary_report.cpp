@@ -37,7 +37,7 @@ std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, 
   std::vector<std::string> names;
   for (const int e : loop) {
     const int curve = patch.edge_curve[e];
-    const std::string name = curve < 0 ? "a layer" : entity_name(boundary.curves[curve], "curve");
+    const std::string name = curve < 0 ? "edges without lines" : entity_name(boundary.curves[curve], "curve");
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   const Vec2 at = patch.points[patch.edges[loop.front()][0]];
@@ -60,6 +60,16 @@ std::vector<std::string> odd_boundaries(const PlanarDomain& domain) {
                                 patch.edges.size(), fmt::join(odd, "; ")));
   }
   return lines;
+}
+
+Mesh edges_of_patches(const PlanarDomain& domain) {
+  Mesh edges;
+  edges.points = domain.boundary.points;
+  edges.curves = {{1, {}}};
+  for (const PatchBoundary& patch : domain.patches)
+    for (const auto& [i, j] : patch.edges) edges.lines.push_back({patch.point_node[i], patch.point_node[j]});
+  edges.line_curve.assign(edges.lines.size(), 0);
+  return edges;
 }
 
 Mesh outline(const Mesh& mesh) {

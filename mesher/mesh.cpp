@@ -46,7 +46,7 @@ MeshResult result_of(const PreparedProblem& prepared, RunResult run) {
 }  // namespace
 
 MeshResult mesh(const MeshProblem& problem, const std::string& word, const Context& context) {
-  const Word stages = parse_word(word);
+  const Word stages = parse_word(word, word_start(problem.model));
   const RunScope running(
       {.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit});
   Steps steps(context, stages.stages.size() + 2);

@@ -14,6 +14,7 @@
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
+#include "mesher/given_domain.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
@@ -227,6 +228,26 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
   return domain;
 }
 
+/// `given`: receives what the patches hold.
+PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, PreparedProblem& p,
+                           std::vector<QuadPatch>& given) {
+  p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
+  GivenDomain domain = make_given_domain(model);
+  p.warnings.insert(p.warnings.end(), domain.warnings.begin(), domain.warnings.end());
+  p.background = std::make_shared<BackgroundMesh>(domain.domain.patches);
+  p.size = make_size(problem.size, {Box<Vec3>::around(domain.domain.boundary.points)}, p.warnings,
+                     [&]() -> std::shared_ptr<const SizeField> {
+                       if (problem.size.from_boundary)
+                         return make_boundary_size(p.background, edges_of_patches(domain.domain));
+                       return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
+                     });
+  if (problem.size.gradation > 0) p.size = limit_gradation(p.size, p.background, problem.size.gradation);
+  for (const std::string& line : odd_boundaries(domain.domain))
+    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+  given = std::move(domain.elements);
+  return std::move(domain.domain);
+}
+
 /// Says so when the indices of a cross field do not add up to the Euler characteristic.
 void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
   const auto [sum, expected] = *p.index_sum_and_expected;
@@ -260,10 +281,13 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
   return field;
 }
 
-/// Turns domain and size by the problem's seed.
-void turn(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
+/// Turns domain, elements and size by the problem's seed.
+void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatch>& given,
+          PreparedProblem& p) {
   const Rotation rotation = Rotation::by_seed(problem.seed);
   rotate(rotation, domain);
+  for (QuadPatch& patch : given)
+    for (Vec2& point : patch.points) point = rotation(point);
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = rotated(std::move(p.size), rotation);
   if (p.given_size) p.given_size = rotated(std::move(p.given_size), rotation);
@@ -342,11 +366,11 @@ void add_grids(const MeshProblem& problem, const PlanarDomain& domain, PreparedP
 }
 
 /// Cross field and patches.
-void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const CrossField>& given,
-                     PlanarDomain&& domain, PreparedProblem& p) {
+void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const CrossField>& given_cross,
+                     PlanarDomain&& domain, std::vector<QuadPatch>&& given, PreparedProblem& p) {
   const Stopwatch fields;
   const DoingStage making_fields("fields");
-  const auto cross = make_cross(problem, given, p);
+  const auto cross = make_cross(problem, given_cross, p);
   const double z = p.boundary.points[0].z;
   const auto size = std::make_shared<PlanarSize>(p.size, z);
   for (std::size_t i = 0; i < domain.patches.size(); ++i)
@@ -358,11 +382,25 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
                            return Vec3{u.x, u.y, z};
                          },
                          {}});
+  for (std::size_t i = 0; i < given.size(); ++i) p.patches[i].given = std::move(given[i]);
   for (PatchImage& image : domain.images) p.patches[image.patch].image = std::move(image);
   add_grids(problem, domain, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);
   p.times.emplace_back("fields", fields.time());
+}
+
+PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinement,
+                           std::vector<QuadPatch>& given, PreparedProblem& p) {
+  if (const auto* model = std::get_if<PlanarModel>(&problem.model))
+    return prepare_model(problem, *model, refinement.spots, p);
+  const auto* start = std::get_if<GivenMesh>(&problem.model);
+  if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
+  check_lines_are_free(problem, start->source);
+  check_not_mapped(problem);
+  if (!problem.layers.empty())
+    throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
+  return prepare_given(problem, *start, p, given);
 }
 
 PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& refinement) {
@@ -372,8 +410,8 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   PreparedProblem p = with_settings_of(problem);
   const Stopwatch watch;
   const DoingStage meshing_curves("boundary");
-  PlanarDomain domain = model != nullptr ? prepare_model(problem, *model, refinement.spots, p)
-                                         : prepare_lines(problem, std::get<LineModel>(problem.model), p);
+  std::vector<QuadPatch> given;
+  PlanarDomain domain = planar_domain(problem, refinement, given, p);
   if (!problem.layers.empty()) {
     put_layers(problem, domain, p);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
@@ -386,11 +424,11 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   warn_of_large_size(*p.size, domain.boundary, p.warnings);
   if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);
   const auto cross = given_cross(problem.cross, domain.boundary, p);
-  if (problem.seed != 0) turn(problem, domain, p);
+  if (problem.seed != 0) turn(problem, domain, given, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);
   p.times.emplace_back("curves", watch.time());
-  prepare_patches(problem, cross, std::move(domain), p);
+  prepare_patches(problem, cross, std::move(domain), std::move(given), p);
   return p;
 }
 
@@ -408,8 +446,9 @@ PreparedProblem with_settings_of(const MeshProblem& problem) {
 
 PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
-  const bool is_planar =
-      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
+  const bool is_planar = std::holds_alternative<PlanarModel>(problem.model) ||
+                         std::holds_alternative<LineModel>(problem.model) ||
+                         std::holds_alternative<GivenMesh>(problem.model);
   return is_planar ? prepare_planar(problem, refinement) : prepare_surface_problem(problem, refinement);
 }
 

@@ -27,6 +27,7 @@ struct PreparedPatch {
   /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
   std::optional<PatchImage> image = {};
   std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, which no stage changes
+  QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
 };
 
 /// What the patches of a surface were made from.

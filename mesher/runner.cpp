@@ -14,12 +14,14 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/activity.h"
+#include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/part_twins.h"
@@ -132,12 +134,21 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
     refuse("triangles without neighbours");
 }
 
+/// What a word begins from with this stage.
+PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
+  if (patch.given.points.empty())
+    throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
+                                 prepared.where, stage.letter));
+  return located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+}
+
 /// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
 std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
   const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
   const auto run = [&] {
+    if (mesh.form != stage.from) mesh = given_to(stage, prepared, patch);
     stage.run(input, mesh, log);
     check_stage_result(stage, patch.boundary, mesh);
   };
@@ -329,6 +340,37 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
+bool is_worse(const RunResult& after, const RunResult& before) {
+  if (before.soundness.sound() != after.soundness.sound()) return before.soundness.sound();
+  bool worse = false;
+  for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
+    constexpr double kRounding = 1e-9;
+    const double change = after.metrics.values.at(key) - before.metrics.values.at(key);
+    if (change > kRounding) return false;
+    worse = worse || change < -kRounding;
+  }
+  return worse;
+}
+
+/// What was given takes the place of what is worse.
+void keep_better(const PreparedProblem& prepared, const std::string& label,
+                 const std::vector<PatchMesh>& given, const std::vector<char>& left_out, RunResult& result) {
+  RunResult before;
+  before.mesh = assemble(prepared, prepared.boundary.points, given, left_out);
+  measure(prepared, left_out, before);
+  if (!is_worse(result, before)) return;
+  const auto text = [](const RunResult& run) {
+    const auto& values = run.metrics.values;
+    return fmt::format("eta mean {:.4g}, worst {:.4g}, d4 {:.4g} %{}", values.at("eta_mean"),
+                       values.at("eta_worst"), values.at("d4"), run.soundness.sound() ? "" : ", not sound");
+  };
+  result.warnings.push_back(fmt::format("{}: the given mesh ({}) is kept: what was made of it is worse ({})",
+                                        label, text(before), text(result)));
+  result.mesh = std::move(before.mesh);
+  result.metrics = std::move(before.metrics);
+  result.soundness = std::move(before.soundness);
+}
+
 }  // namespace
 
 MeshingState begin_meshing(const PreparedProblem& prepared) {
@@ -345,6 +387,9 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   const Stopwatch watch;
   const DoingStage running(stage.name.c_str());
   std::vector<PatchMesh>& patches = state.patches;
+  if (stage.from == PatchForm::kQuads && patches[0].form == PatchForm::kBoundary)
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      state.given.push_back(given_to(stage, prepared, prepared.patches[i]));
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),
@@ -397,6 +442,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
+  if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
   return result;

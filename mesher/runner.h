@@ -30,6 +30,7 @@ struct RunResult {
 /// A pipeline on its way: what the stages so far have made of each patch.
 struct MeshingState {
   std::vector<PatchMesh> patches;
+  std::vector<PatchMesh> given;      ///< what the word began from, where it began from quads
   std::vector<std::string> reasons;  ///< of each patch, to leave its face out; empty: none
   SurfaceNodes nodes;                ///< those on curves
   StageLog log;
@@ -39,7 +40,8 @@ MeshingState begin_meshing(const PreparedProblem& prepared);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
 /// Puts the patches together, measures the mesh and says whether it is sound. `label` names the case and
-/// pipeline in warnings.
+/// pipeline in warnings. Given quads are kept, with a warning, where what was made of them is worse: not
+/// sound where they were, or none of eta mean, eta worst and d4 better and one of them worse.
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
 
 /// Throws UnsoundError when the mesh is not sound, naming the case and pipeline by `label`.

@@ -301,7 +301,11 @@ bool Word::quads_only() const {
          std::ranges::none_of(stages, [](const Stage* stage) { return stage->leaves_triangles; });
 }
 
-Word parse_word(const std::string& text) {
+WordStart word_start(const Model& model) {
+  return std::holds_alternative<GivenMesh>(model) ? WordStart::kGivenMesh : WordStart::kBoundary;
+}
+
+Word parse_word(const std::string& text, WordStart start) {
   const std::string label = "pipeline '" + text + "': ";
   if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
   Word word{text, {}, PatchForm::kBoundary};
@@ -310,7 +314,8 @@ Word parse_word(const std::string& text) {
     if (stage == stages().end())
       throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters() +
                        capitals_suggestion(text));
-    if (stage->from != word.result)
+    const bool begins = word.stages.empty() && start == WordStart::kGivenMesh;
+    if (stage->from != word.result && !begins)
       throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
                        (word.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +
                        form_name(word.result));

@@ -7,6 +7,7 @@
 #include "base/counters.h"
 #include "boundaries/curve_nodes.h"
 #include "delquad/extend.h"
+#include "delquad/model.h"
 #include "geometry/planar/layers/add_layers.h"
 
 namespace delquad {
@@ -112,8 +113,13 @@ struct Word {
   bool quads_only() const;
 };
 
+/// Where a word may begin.
+enum class WordStart { kBoundary, kGivenMesh };
+
 /// Throws InputError for an empty word, an unknown letter (naming it and those known) and for letters that do
-/// not follow each other.
-Word parse_word(const std::string& text);
+/// not follow each other. `start`: with a given mesh a word may begin with any letter.
+Word parse_word(const std::string& text, WordStart start = WordStart::kBoundary);
+/// Where words of a model may begin.
+WordStart word_start(const Model& model);
 
 }  // namespace delquad

@@ -249,7 +249,7 @@ Word Experiment::find_pipeline(const std::string& text) const {
   std::vector<std::string> names;
   for (const Peer& peer : peers) names.push_back(peer.name);
   try {
-    return parse_word(text);
+    return parse_word(text, word_start_);
   } catch (const InputError& error) {
     throw InputError(error.what() + suggestion(text, names));
   }
@@ -289,6 +289,10 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   const TomlTable table = TomlTable::read(file);
   Experiment experiment;
   experiment.file = file;
+  experiment.cases_ = table.tables("case");
+  if (table.has("start") ||
+      std::ranges::any_of(experiment.cases_, [](const auto& c) { return c.has("start"); }))
+    experiment.word_start_ = WordStart::kGivenMesh;
   experiment.title = table.text("title", file.stem().string());
   const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
   experiment.read_peers(table, words);
@@ -316,7 +320,6 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.where = file.string();
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
-  experiment.cases_ = table.tables("case");
   table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
     throw InputError(file.string() +
@@ -328,7 +331,12 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     const std::string name = experiment.cases_[i].text("name");
     check_folder_name(experiment.cases_[i], name, names);
     names.push_back(name);
-    for (std::size_t v = 0; v < experiment.n_variants(); ++v) check_case(experiment.read_variant(i, v));
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
+      const Case c = experiment.read_variant(i, v);
+      check_case(c);
+      for (const Word& word : experiment.words)
+        if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c)); });
+    }
   }
   return experiment;
 }

@@ -118,7 +118,8 @@ class Experiment {
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
-  Case defaults_;  ///< what the file says for every case
+  Case defaults_;                                ///< what the file says for every case
+  WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
   std::vector<TomlTable> cases_;
   std::optional<TomlTable> matrix_;
   std::vector<std::string> leaves_;  ///< of the matrix, as in axes

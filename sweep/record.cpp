@@ -141,6 +141,7 @@ Json options_json(const Case& c) {
   if (c.mapped.automatic) json["mapped"] = "auto";
   if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
+  if (c.start) json["start"] = true;
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }

@@ -197,6 +197,8 @@ void define_models(py::module_& m) {
   m.def("triangles", &make_triangles, arg("points"), arg("triangles"), arg("triangle_region") = py::none());
   m.def("from_mesh", &from_mesh, arg("mesh"));
   m.def(
+      "given_mesh", [](const Mesh& mesh) { return handle_of(GivenMesh{mesh}, "mesh"); }, arg("mesh"));
+  m.def(
       "example", [](const std::string& name) { return handle_of(ExampleModel{name}, "example"); },
       arg("name"));
   m.def(

@@ -97,8 +97,9 @@ class UnsoundError : public std::runtime_error {
   std::shared_ptr<const MeshResult> result;  ///< with the mesh; null where it was not made by mesh()
 };
 
-/// Meshes a problem by a word of stages, such as "DB" or "DBCO" (see stage_registry()). The same problem and
-/// word give the same mesh, to the last bit, whatever the context. May be called in several threads at once.
+/// Meshes a problem by a word of stages, such as "DB" or "DBCO" (see stage_registry()); of a GivenMesh also
+/// by words that begin from its elements, such as "CO". The same problem and word give the same mesh, to the
+/// last bit, whatever the context. May be called in several threads at once.
 ///
 /// Throws InputError for models, sizes, options and words that cannot be used, naming file, entity or place;
 /// UnsoundError; Cancelled and TimeIsUp, which say at what it was.

@@ -158,6 +158,16 @@ struct TriangleModel {
   std::vector<std::string> notes = {};  ///< of its reader, for warnings
 };
 
+/// A mesh to improve: words may begin from its triangles (B, G, T, L) or quads (C, O). Its nodes on the
+/// outline, on lines and between regions stay, and so do all names. Quads are halved where a word begins from
+/// triangles; triangles among quads stay where it begins from quads. Where nothing is said, the size is that
+/// of the elements.
+struct GivenMesh {
+  Mesh mesh;                            ///< conforming, in a plane of constant z
+  std::string source = "mesh";          ///< for messages
+  std::vector<std::string> notes = {};  ///< of its reader, for warnings
+};
+
 /// A STEP, IGES or BREP file, or one's bytes.
 struct CadModel {
   std::filesystem::path file;
@@ -174,7 +184,7 @@ struct ExampleModel {
   std::string name;
 };
 
-using Model = std::variant<PlanarModel, LineModel, TriangleModel, CadModel, ExampleModel>;
+using Model = std::variant<PlanarModel, LineModel, TriangleModel, GivenMesh, CadModel, ExampleModel>;
 
 /// The examples' names and what they are.
 struct Example {

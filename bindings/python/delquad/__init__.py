@@ -34,7 +34,7 @@ from ._core import (
     triangles,
 )
 from ._exchange import from_meshio, read_mesh
-from ._mesh import UnsoundError, cad, mesh, planar, polygons
+from ._mesh import UnsoundError, cad, improve, mesh, planar, polygons
 
 __all__ = [name for name in dir() if not name.startswith("_")]
 

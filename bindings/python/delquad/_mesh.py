@@ -246,3 +246,22 @@ def mesh(
     if not result.sound and not allow_unsound:
         raise UnsoundError("the mesh is not sound: " + "; ".join(result.unsound), result)
     return result
+
+
+def improve(given, size=None, *, word=None, **settings):
+    """Makes a planar mesh better that is there already, and returns a Result.
+
+    given: a Mesh, or the path of a file; its points on the outline, on lines and between regions stay.
+    size: as for mesh(); else what the mesh has.
+    word: from quads stages such as "CO" (as if nothing is said), from triangles "BCO" (where there are no quads).
+    settings: cross, gradation, options, threads and others of mesh() that are for planar domains.
+
+    Where given quads would become worse, they are kept, and the warnings say so. Raises what mesh() raises.
+    """
+    if isinstance(given, (str, os.PathLike)):
+        given = _core.read_mesh(os.fspath(given))
+    elif not isinstance(given, _core.Mesh):
+        raise TypeError(f"given: expected a delquad.Mesh or the path of a file, got {type(given).__name__}")
+    if word is None:
+        word = "CO" if len(given.quads) else "BCO"
+    return mesh(_core.given_mesh(given), size, word=word, **settings)

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "delquad/extend.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// A planar mesh as a domain, and what its patches hold.
+struct GivenDomain {
+  PlanarDomain domain;
+  std::vector<QuadPatch> elements;  ///< of each patch, counterclockwise
+  std::vector<Warning> warnings;
+};
+
+/// Lines, edges of one element and edges between regions bound the patches, so that they stay; so do two
+/// edges at a named point inside. Throws InputError, naming places, for what is not conforming: edges in more
+/// than two elements, hanging nodes, elements with a corner twice, outlines that cross.
+GivenDomain make_given_domain(const GivenMesh& given);
+
+/// Edge lengths of squares with the areas of the elements (triangles are half a square), meaned over two
+/// rings around each point.
+std::vector<double> sizes_of_elements(const Mesh& mesh, const std::string& source);
+
+/// What a word begins from: the elements in this form, quads halved where it is triangles. Throws InputError
+/// that names places: `triangles` need positive areas, `quads` are needed where they are the form.
+PatchMesh start_from(const QuadPatch& elements, PatchForm form);
+
+}  // namespace delquad
