@@ -61,6 +61,12 @@ NamedSize named_size(const std::string& text) {
   return {.name = text.substr(0, at), .size = *size, .where = "--size-on " + text};
 }
 
+void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
+  if (arguments.mapped.empty()) return;
+  mapped = {arguments.mapped, false, "--mapped"};
+  mapped.automatic = std::erase(mapped.names, "auto") > 0;
+}
+
 /// The model's sizes, with what the command line says in their place.
 SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
   if (arguments.size) {
@@ -125,6 +131,20 @@ void print_before(const std::string& file, const Mesh& mesh, const PreparedProbl
   print_metrics(evaluate_metrics(mesh, prepared.size.get(), prepared.given_size.get(), prepared.options));
 }
 
+void print_after(const std::string& file, const PreparedProblem& prepared, const RunResult& result) {
+  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
+             result.mesh.triangles.size(), result.mesh.points.size(), result.seconds);
+  print_metrics(result.metrics);
+  if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
+    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
+               layers.columns);
+  if (!prepared.size_adapted_to.empty())
+    fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
+               fmt::join(prepared.size_adapted_to, " and "));
+  print_seconds(prepared, result.log);
+  if (result.surface) print_surface_report(prepared, *result.surface);
+}
+
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
@@ -139,10 +159,7 @@ int mesh_command(const MeshArguments& arguments) {
   c.max_elements = arguments.max_elements;
   c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
-  if (!arguments.mapped.empty()) {
-    c.mapped = {arguments.mapped, false, "--mapped"};
-    c.mapped.automatic = std::erase(c.mapped.names, "auto") > 0;
-  }
+  set_mapped(arguments, c.mapped);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
@@ -179,18 +196,7 @@ int mesh_command(const MeshArguments& arguments) {
   }
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, prepared);
-  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
-             result.mesh.quads.size(), result.mesh.triangles.size(), result.mesh.points.size(),
-             result.seconds);
-  print_metrics(result.metrics);
-  if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
-    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
-               layers.columns);
-  if (!prepared.size_adapted_to.empty())
-    fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
-               fmt::join(prepared.size_adapted_to, " and "));
-  print_seconds(prepared, result.log);
-  if (result.surface) print_surface_report(prepared, *result.surface);
+  print_after(arguments.output.string(), prepared, result);
   return tell_what_is_missing(result, word.quads_only() && !arguments.allow_triangles);
 }
 
