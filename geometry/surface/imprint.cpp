@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "base/cancel.h"
@@ -71,6 +72,43 @@ class PartedTriangles {
   std::size_t n_splits_ = 0;
 };
 
+/// Normals of a triangulation as it was: linear between those at the points, each the mean of one face's
+/// triangles there, weighted by their angles. On a sphere they point to its centre however it is divided.
+class SmoothNormals {
+ public:
+  explicit SmoothNormals(const Mesh& mesh)
+      : nearest_(mesh.points, mesh.triangles), region_(mesh.triangle_region) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 &x = mesh.points[mesh.triangles[t][k]], &y = mesh.points[mesh.triangles[t][(k + 1) % 3]],
+                   &z = mesh.points[mesh.triangles[t][(k + 2) % 3]];
+        const Vec3 area = cross(y - x, z - x);
+        const double length = norm(area), angle = std::atan2(length, dot(y - x, z - x));
+        if (!(length > 0)) continue;
+        Vec3& sum = at_point_[key(mesh.triangles[t][k], region_[t])];
+        sum = sum + (angle / length) * area;
+      }
+  }
+
+  Vec3 at(const Vec3& x) const {
+    const NearestTriangle::Found found = nearest_.find(x);
+    Vec3 sum;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = at_point_.find(key(nearest_.triangle(found.triangle)[k], region_[found.triangle]));
+      if (at != at_point_.end() && norm(at->second) > 0)
+        sum = sum + (found.weights[k] / norm(at->second)) * at->second;
+    }
+    return sum;
+  }
+
+ private:
+  static long long key(int point, int region) { return static_cast<long long>(point) << 32 | region; }
+
+  NearestTriangle nearest_;
+  std::vector<int> region_;                       ///< of each triangle
+  std::unordered_map<long long, Vec3> at_point_;  // only looked up, never iterated
+};
+
 /// Embedded curves lie anywhere in their faces.
 class ImprintProjector final : public SurfaceProjector {
  public:
@@ -100,7 +138,8 @@ class Imprinter {
         diagonal_(delquad::diagonal(mesh_.points)),
         first_curve_(static_cast<int>(mesh_.curves.size())),
         editor_(model),
-        places_(mesh_) {}
+        places_(mesh_),
+        normals_(mesh_) {}
 
   void run() {
     std::vector<Placed> placed;
@@ -239,7 +278,8 @@ class Imprinter {
 
   /// Becomes a chain of edges.
   void draw(const LooseLine& line, int a, int b) {
-    const SectionPlane plane = section_plane(mesh_, editor_, a, b);
+    const SectionPlane plane =
+        section_plane(mesh_, a, b, normals_.at(mesh_.points[a]) + normals_.at(mesh_.points[b]));
     std::vector<int> chain;
     for (const auto& [v, w] : section_path(mesh_, editor_, plane, a, b, kSnap * diagonal_))
       chain.push_back(w < 0 ? v : split(v, w, position(mesh_, plane, {v, w}), &plane));
@@ -380,6 +420,7 @@ class Imprinter {
   int first_curve_;
   SurfaceEditor editor_;
   PartedTriangles places_;
+  SmoothNormals normals_;
   std::vector<Piece> pieces_;
   const LooseLine whisker_{{}, {}, "the edge at a single point", true};
 };

@@ -1,7 +1,6 @@
 #include "geometry/surface/section_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -14,23 +13,6 @@ namespace {
 
 /// Below this part of its length, the cross product of a direction and a normal says nothing.
 constexpr double kParallel = 1e-3;
-
-/// Weighted by the angles at the vertex, so that it does not matter how the triangles are divided.
-Vec3 normal_at(const Mesh& mesh, const SurfaceEditor& editor, int v) {
-  Vec3 sum;
-  for (const int t : editor.triangles_at(v)) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3 area = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-    const Vec3 x = mesh.points[v];
-    std::array<Vec3, 2> to;  // the other vertices
-    for (int k = 0, n = 0; k < 3; ++k)
-      if (mesh.triangles[t][k] != v) to[n++] = mesh.points[mesh.triangles[t][k]] - x;
-    const double angle = std::atan2(norm(cross(to[0], to[1])), dot(to[0], to[1]));
-    if (norm(area) > 0) sum = sum + (angle / norm(area)) * area;
-  }
-  const double length = norm(sum);
-  return length > 0 ? (1 / length) * sum : sum;
-}
 
 /// Goes through the section from place to place, the nearest to the start first.
 class SectionSearch {
@@ -110,9 +92,9 @@ class SectionSearch {
 
 }  // namespace
 
-SectionPlane section_plane(const Mesh& mesh, const SurfaceEditor& editor, int a, int b) {
+SectionPlane section_plane(const Mesh& mesh, int a, int b, const Vec3& normal) {
   const Vec3 d = mesh.points[b] - mesh.points[a];
-  Vec3 across = cross(d, normal_at(mesh, editor, a) + normal_at(mesh, editor, b));
+  Vec3 across = cross(d, normal);
   if (norm(across) < kParallel * norm(d)) {  // such as opposite points of a sphere: any plane will do
     const bool along_x = std::abs(d.x) > std::abs(d.y);
     across = cross(d, along_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0});

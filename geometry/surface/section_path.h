@@ -11,12 +11,12 @@ namespace delquad {
 /// between two.
 using SectionPlace = std::pair<int, int>;
 
-/// The plane through two vertices, along the mean normal of their triangles.
+/// The plane through two vertices, along a normal.
 struct SectionPlane {
   Vec3 at, normal;  ///< unit length
   double height(const Vec3& x) const { return dot(x - at, normal); }
 };
-SectionPlane section_plane(const Mesh& mesh, const SurfaceEditor& editor, int a, int b);
+SectionPlane section_plane(const Mesh& mesh, int a, int b, const Vec3& normal);
 
 /// The place in space.
 Vec3 position(const Mesh& mesh, const SectionPlane& plane, const SectionPlace& place);

@@ -92,7 +92,7 @@ TEST(Imprint, OnASphereSegmentsAreInOnePlaneAndGreatCirclesNearly) {
   for (const auto& line : mesh.lines)
     for (const int v : line) {
       EXPECT_NEAR(dot(across, mesh.points[v] - first), 0, 1e-6 * norm(across));
-      EXPECT_NEAR(mesh.points[v].y, 0, 2e-3);
+      EXPECT_NEAR(mesh.points[v].y, 0, 5e-4);
     }
   EXPECT_NEAR(length_of(mesh, "arc"), std::acos(0.6), 1e-2);
 }
