@@ -416,7 +416,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
     put_layers(problem, domain, p);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
-  if (model == nullptr)
+  if (std::holds_alternative<LineModel>(problem.model))
     for (const std::string& line : odd_boundaries(domain))
       p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   p.expected_quads = expected_quads(*p.background, *p.size) + p.layers.count.quads;

@@ -78,7 +78,7 @@ std::set<std::pair<std::string, Segment>> lines_by_name(const Mesh& mesh) {
   std::set<std::pair<std::string, Segment>> lines;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const Vec3 a = mesh.points[mesh.lines[l][0]], b = mesh.points[mesh.lines[l][1]];
-    const auto ends = std::minmax(std::pair{a.x, a.y}, std::pair{b.x, b.y});
+    const auto ends = std::minmax({std::pair{a.x, a.y}, std::pair{b.x, b.y}});
     const auto& names = mesh.curves[mesh.line_curve[l]].names;
     lines.insert({names.empty() ? "" : names[0],
                   {ends.first.first, ends.first.second, ends.second.first, ends.second.second}});
