@@ -105,6 +105,8 @@ PeriodicPair read_periodic(const TomlTable& table) {
 
 MappedSpec read_mapped(const TomlTable& table) {
   MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped")};
+  if (table.kind("mapped") == TomlKind::kFlag)
+    throw InputError(mapped.where + ": 'mapped' must be names of regions, or \"auto\"");
   if (table.kind("mapped") != TomlKind::kText) {
     mapped.names = table.texts("mapped");
   } else if (const std::string text = table.text("mapped"); text == "auto") {
@@ -131,6 +133,8 @@ LayerSpec read_layer(const TomlTable& table) {
 
 SymmetrySpec read_symmetry(const TomlTable& table) {
   SymmetrySpec symmetry{.planes = {}, .automatic = false, .where = table.where("symmetry")};
+  if (table.kind("symmetry") == TomlKind::kFlag)
+    throw InputError(symmetry.where + ": 'symmetry' must be planes, or \"auto\"");
   if (table.kind("symmetry") == TomlKind::kText) {
     if (const std::string text = table.text("symmetry"); text != "auto")
       throw InputError(symmetry.where + ": '" + text + "': expected \"auto\" or planes");

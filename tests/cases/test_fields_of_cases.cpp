@@ -145,6 +145,12 @@ TEST_F(Cases, CurvesAreDivided) {
       {"'domain' with an odd number", "'bottom'", "'right'"});
 }
 
+TEST_F(Cases, FlagsForGridsAndSymmetryAreToldOfAuto) {
+  for (const char* key : {"mapped", "symmetry"})
+    expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\n" + key + " = true\n")); },
+                       {"c.toml:3", key, "\"auto\""});
+}
+
 TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
   // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
   const PreparedProblem p =
