@@ -161,11 +161,12 @@ void check_problem(const MeshProblem& problem) {
   if (!problem.layers.empty() && !is_planar)
     throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
   check(problem.size);
+  const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
-    if (!(std::hypot(plane.normal.x, plane.normal.y) > 0) ||
+    if (!((is_flat ? std::hypot(plane.normal.x, plane.normal.y) : norm(plane.normal)) > 0) ||
         !std::isfinite(norm(plane.normal) + norm(plane.point)))
-      throw InputError(problem.symmetry.where +
-                       ": the normal of a plane of symmetry has no finite length in the plane");
+      throw InputError(fmt::format("{}: the normal of a plane of symmetry has no finite length{}",
+                                   problem.symmetry.where, is_flat ? " in the plane" : ""));
   for (const CurveDivision& division : problem.divisions) check(division);
   check(problem.cross);
   check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);

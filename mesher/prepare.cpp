@@ -188,8 +188,14 @@ bool is_symmetric(const MeshProblem& problem) {
 void check_not_mapped(const MeshProblem& problem) {
   if (problem.mapped.automatic || !problem.mapped.names.empty())
     throw InputError(problem.mapped.where + ": grids are for planar models of curves");
+}
+
+/// Refuses what is not for meshes whose lines are kept.
+void check_not_symmetric(const MeshProblem& problem) {
+  check_not_mapped(problem);
   if (is_symmetric(problem))
-    throw InputError(problem.symmetry.where + ": planes of symmetry are for planar models of curves");
+    throw InputError(problem.symmetry.where +
+                     ": planes of symmetry are for planar models of curves and for surfaces");
 }
 
 /// What cannot be where lines are kept.
@@ -206,7 +212,7 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
   const Mesh& mesh = model.mesh;
   check_lines_are_free(problem, model.source);
-  check_not_mapped(problem);
+  check_not_symmetric(problem);
   if (mesh.lines.empty())
     throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
   if (!mesh.triangles.empty() || !mesh.quads.empty())
@@ -397,7 +403,7 @@ PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinem
   const auto* start = std::get_if<GivenMesh>(&problem.model);
   if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
   check_lines_are_free(problem, start->source);
-  check_not_mapped(problem);
+  check_not_symmetric(problem);
   if (!problem.layers.empty())
     throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
   return prepare_given(problem, *start, p, given);

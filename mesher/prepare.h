@@ -14,6 +14,7 @@
 #include "fields/fields.h"
 #include "geometry/planar/layers/add_layers.h"
 #include "geometry/planar/planar_model.h"
+#include "geometry/surface/symmetric_half.h"
 
 namespace delquad {
 
@@ -30,12 +31,29 @@ struct PreparedPatch {
   QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
 };
 
+/// A surface of which one part is meshed, and the rest is its mirror image.
+struct MirroredSurface {
+  SurfaceModel whole;            ///< its curves end with the images of the cuts
+  int first_cut;                 ///< the first of these
+  std::vector<SurfaceCut> cuts;  ///< of the whole
+  SymmetryPlanes planes;
+  std::vector<MirrorMatch> matches;  ///< of each plane
+  std::vector<int> whole_curve;      ///< of each curve of the part; -1: a section, which is none of the whole
+  std::vector<int> curve_planes, face_planes;  ///< as in SymmetricHalf, with cuts
+  std::vector<int>
+      node_planes;  ///< of the nodes on curves, the bits of the planes where they are their images
+};
+
 /// What the patches of a surface were made from.
 struct PreparedSurface {
   SurfaceModel model;
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
+  std::optional<MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+
+  const SurfaceModel& whole() const { return mirrored ? mirrored->whole : model; }
+  const std::vector<SurfaceCut>& all_cuts() const { return mirrored ? mirrored->cuts : cuts; }
 };
 
 /// The maps of all patches.

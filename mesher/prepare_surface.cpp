@@ -14,6 +14,7 @@
 #include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/fine_spots.h"
+#include "mesher/mirrored_surface.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
@@ -23,16 +24,21 @@
 namespace delquad {
 namespace {
 
-/// Integral of dA/delta^2 over the fine triangles, by their centroids.
-double expected_quads(const Mesh& fine, const SurfaceSize& size) {
+/// Integral of dA/delta^2 over the fine triangles, by their centroids. `part`: of what, if the triangles are
+/// a part of a symmetric model; null: they are all.
+double expected_quads(const Mesh& fine, const SurfaceSize& size, const CutSurface* part = nullptr) {
   constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   double sum = 0;
   int hint = -1;
-  for (const auto& triangle : fine.triangles) {
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
+    const auto& triangle = fine.triangles[t];
     const auto& [a, b, c] = triangle;
     const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
     const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
-    sum += norm(cross(q - p, r - p)) / 2 / (delta * delta);
+    double quads = norm(cross(q - p, r - p)) / 2 / (delta * delta);
+    for (int k = 0; part != nullptr && k < part->planes.count(); ++k)
+      if (!(part->half.face_planes[fine.triangle_region[t]] >> k & 1)) quads *= 2;
+    sum += quads;
   }
   return sum;
 }
@@ -67,12 +73,13 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
-                             const SizeField* asked, const MeshProblem& problem, Failures& failures) {
+                             const SizeField* asked, const MeshProblem& problem,
+                             const std::vector<CurveDivision>& divisions, Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, problem.divisions, problem.periodic);
+                                 *solver, asked, divisions, problem.periodic);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -165,10 +172,20 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
+  std::optional<CutSurface> cut = located(problem.where, [&] {
+    return cut_at_planes(problem, model,
+                         [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
+  });
+  std::vector<CurveDivision> divisions = problem.divisions;
+  if (cut) {
+    divisions = divisions_of_part(divisions, *cut);
+    model = std::move(cut->half.model);
+  }
+  const CutSurface* part = cut ? &*cut : nullptr;
   const Stopwatch sizes;
   const DoingStage measuring("sizes");
   const std::shared_ptr<const SizeField> given = size;
-  if (!problem.divisions.empty()) size = as_near(size, edges_of(model, problem.divisions));
+  if (!divisions.empty()) size = as_near(size, edges_of(model, divisions));
   const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots);
   const TimeSpent size_time = sizes.time();
 
@@ -193,7 +210,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
   if (!problem.divisions.empty()) p.size_adapted_to.push_back("given edges");
   if (!p.size_adapted_to.empty()) p.given_size = given;
-  p.expected_quads = expected_quads(model.fine, *surface->size);
+  p.expected_quads = expected_quads(model.fine, *surface->size, part);
   check_count(p.expected_quads);
   auto on_curves = surface->size;
   if (problem.seed != 0) {
@@ -201,8 +218,9 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
     other.base = jittered(wanted.base, problem.seed, diagonal(model.fine));
     on_curves = std::make_shared<SurfaceSize>(model, other);
   }
-  surface->domain = mesh_curves_of(model, std::move(flattening), *on_curves,
-                                   wanted.curvature ? nullptr : wanted.base.get(), problem, failures);
+  surface->domain =
+      mesh_curves_of(model, std::move(flattening), *on_curves, wanted.curvature ? nullptr : wanted.base.get(),
+                     problem, divisions, failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;
@@ -219,6 +237,11 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const DoingStage making_fields("fields");
   prepare_patches(surface, p);
   if (size_aware) make_crosses_size_aware(p);
+  if (cut) {
+    p.size = folded_size(p.size, cut->planes);
+    if (p.given_size) p.given_size = folded_size(p.given_size, cut->planes);
+    surface->mirrored = mirrored_surface(std::move(*cut), *surface);
+  }
   p.times.emplace_back("fields", size_time + fields.time());
   return p;
 }

@@ -29,6 +29,14 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
                                       [&](const SizeSpot& s) { return norm(s.at - place.at) < s.size; });
     if (is_known || spots.size() == kMostSpots) continue;
     const double size = kPart * prepared.size->at(place.at, hint);
+    if (prepared.surface && prepared.surface->mirrored) {
+      // All images, too, so that what is kept for a part is kept for the whole.
+      const SymmetryPlanes& planes = prepared.surface->mirrored->planes;
+      const Vec3 x = planes.fold(place.at);
+      for (int mask = 0; mask < 1 << planes.count(); ++mask)
+        spots.push_back({planes.reflect_all(mask, x), kReach * size, size});
+      continue;
+    }
     spots.push_back({place.at, kReach * size, size});
   }
 }

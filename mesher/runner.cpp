@@ -24,6 +24,7 @@
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
+#include "mesher/mirror_mesh.h"
 #include "mesher/part_twins.h"
 #include "mesher/patch_image.h"
 #include "mesher/planar_layers.h"
@@ -80,7 +81,6 @@ void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches
       }
     }
   }
-  if (!domain.caps.empty()) drop_unused_points(mesh);
 }
 
 /// Takes out lines that are on no element, and points that nothing uses then.
@@ -180,6 +180,8 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
   result.failures = prepared.failures;
   for (std::size_t i = 0; i < reasons.size(); ++i)
     if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
+  if (prepared.surface && prepared.surface->mirrored)
+    add_failures_of_images(*prepared.surface->mirrored, result.failures);
   std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
@@ -199,8 +201,14 @@ void count_bad_quads(const std::string& label, const PreparedProblem& prepared, 
   using Corner = std::tuple<int, double, double, double>;
   const auto corner = [](int face, const Vec3& p) { return Corner{face, p.x, p.y, p.z}; };
   std::map<Corner, double> bounds;
-  for (const SharpCorner& c : prepared.sharp_corners)
-    bounds.emplace(corner(c.face, prepared.boundary.points[c.node]), c.eta_bound);
+  for (const SharpCorner& c : prepared.sharp_corners) {
+    const Vec3 at = prepared.boundary.points[c.node];
+    bounds.emplace(corner(c.face, at), c.eta_bound);
+    if (prepared.surface == nullptr || !prepared.surface->mirrored) continue;
+    const MirroredSurface& mirrored = *prepared.surface->mirrored;
+    for (const auto& [face, image] : images_of_node(mirrored, c.face, c.node, at))
+      bounds.emplace(corner(face, image), c.eta_bound);
+  }
   const std::vector<double> etas = quad_etas(mesh);
   for (std::size_t q = 0; q < etas.size(); ++q) {
     if (etas[q] >= kBadEta) continue;
@@ -216,12 +224,12 @@ void count_bad_quads(const std::string& label, const PreparedProblem& prepared, 
       std::min_element(prepared.sharp_corners.begin(), prepared.sharp_corners.end(),
                        [](const SharpCorner& a, const SharpCorner& b) { return a.eta_bound < b.eta_bound; });
   const Vec3 at = prepared.boundary.points[worst->node];
-  result.warnings.push_back(
-      fmt::format("{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
-                  "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
-                  label, result.bad_in_corners, kBadEta, mesh.regions[worst->face].tag, at.x, at.y, at.z,
-                  mesh.curves[worst->curves[0]].tag, mesh.curves[worst->curves[1]].tag,
-                  worst->angle * 180 / std::numbers::pi, worst->eta_bound));
+  result.warnings.push_back(fmt::format(
+      "{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
+      "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
+      label, result.bad_in_corners, kBadEta, mesh.regions[worst->face].tag, at.x, at.y, at.z,
+      prepared.boundary.curves[worst->curves[0]].tag, prepared.boundary.curves[worst->curves[1]].tag,
+      worst->angle * 180 / std::numbers::pi, worst->eta_bound));
 }
 
 /// `left_out`: by region.
@@ -274,7 +282,11 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
   }
-  if (prepared.surface) add_caps(prepared.surface->domain, patches, left_out, mesh);
+  if (prepared.surface) {
+    add_caps(prepared.surface->domain, patches, left_out, mesh);
+    if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
+    if (!prepared.surface->domain.caps.empty()) drop_unused_points(mesh);
+  }
   if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
   if (log != nullptr) log->add_time("projection", projection.time());
   return mesh;
@@ -326,7 +338,9 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
         if (has_report) {
           const PreparedSurface& surface = *prepared.surface;
           result.surface =
-              report_surface(surface.model, surface.cuts, left_out, result.mesh, sides, surface.size.get());
+              report_surface(surface.whole(), surface.all_cuts(),
+                             surface.mirrored ? with_images(*surface.mirrored, left_out) : left_out,
+                             result.mesh, sides, surface.mirrored ? prepared.size.get() : surface.size.get());
           report_time = watch.time();
         }
         const Stopwatch checking;

@@ -197,7 +197,7 @@ Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {
 Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
                           std::span<const HalfEdge> sides) {
   std::vector<char> irregular;
-  if (prepared.surface) irregular = irregular_curves(prepared.surface->model.fine);
+  if (prepared.surface) irregular = irregular_curves(prepared.surface->whole().fine);
   const std::vector<std::string> violations = check_invariants(mesh, irregular, sides);
   Soundness result = check_elements(prepared, mesh);
   int wrong_edges = 0;

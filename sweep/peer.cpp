@@ -144,7 +144,7 @@ void check_planar(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh)
 
 void check_surface(const PreparedProblem& prepared, const Mesh& mesh) {
   constexpr double kCovered = 0.1;  // chords of curved faces take some of the area
-  const Mesh& model = prepared.surface->model.fine;
+  const Mesh& model = prepared.surface->whole().fine;
   const double covered = area_in_space(mesh) / area_in_space(model);
   if (!(std::abs(covered - 1) <= kCovered))
     throw PeerError(fmt::format("its mesh covers {:.4g} % of the model's area", 100 * covered));

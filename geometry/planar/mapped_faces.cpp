@@ -146,6 +146,41 @@ void check_names(const MappedSpec& spec, const FaceRegions& regions) {
   }
 }
 
+/// Whether the faces of a region that hang together with this one leave something out inside: more than one
+/// loop bounds them. Axes of symmetry make faces with one outline each of such a region.
+bool leaves_something_out(int face, const Arrangement& arrangement, const FaceRegions& regions,
+                          const std::vector<CurvePiece>& pieces) {
+  std::vector<int> piece_of;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    piece_of.insert(piece_of.end(), static_cast<std::size_t>(pieces[i].n), static_cast<int>(i));
+  std::vector<int> together{face};
+  std::set<int> seen{face}, border;
+  for (std::size_t i = 0; i < together.size(); ++i)
+    for (const auto& cycle : arrangement.faces[together[i]].cycles)
+      for (const int side : cycle) {
+        const int other = arrangement.face_of[side ^ 1];
+        if (other < 0 || regions.region[other] != regions.region[face])
+          border.insert(piece_of[side / 2]);
+        else if (seen.insert(other).second)
+          together.push_back(other);
+      }
+  int loops = 0;
+  while (!border.empty()) {
+    ++loops;
+    std::set<int> nodes(pieces[*border.begin()].ends.begin(), pieces[*border.begin()].ends.end());
+    for (bool grows = true; grows;) {
+      const std::size_t before = border.size();
+      std::erase_if(border, [&](int p) {
+        if (!nodes.contains(pieces[p].ends[0]) && !nodes.contains(pieces[p].ends[1])) return false;
+        nodes.insert(pieces[p].ends.begin(), pieces[p].ends.end());
+        return true;
+      });
+      grows = border.size() < before;
+    }
+  }
+  return loops > 1;
+}
+
 }  // namespace
 
 std::vector<MappedFace> find_mapped_faces(const MappedSpec& spec, const Mesh& lines,
@@ -200,6 +235,10 @@ void balance_mapped(const PlanarModel& model, std::span<const MappedFace> mapped
     }
   if (const auto bad = balance_counts(curves, faces)) {
     const std::string name = region_label(regions.regions[regions.region[*bad]]);
+    if (faces[*bad].is_mapped && leaves_something_out(*bad, arrangement, regions, pieces))
+      throw InputError(
+          fmt::format("{}'{}' cannot be a grid: something lies inside of it: expected one outline",
+                      message_prefix(model), name));
     throw InputError(fmt::format(
         "{}the numbers of edges that are given leave '{}' {}: change or leave out that of one of its curves",
         message_prefix(model), name,

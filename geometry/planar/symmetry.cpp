@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "delquad/error.h"
+#include "geometry/planar/curve_divisions.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/loops_apart.h"
 
@@ -280,6 +281,60 @@ class SymmetricPairs {
   std::vector<int> valence_;
 };
 
+/// The number of edges nearest to n, below or above it, that divides a curve as symmetrically as its pieces
+/// are; 0: none is near.
+int symmetric_number(const std::vector<CurvePiece>& pieces, const std::vector<int>& own, int n, int step) {
+  std::vector<double> lengths;
+  for (const int i : own) {
+    double length = 0;
+    Vec2 last = pieces[i].shape->point(pieces[i].from);
+    for (int k = 1; k <= kSamplesOfCurve; ++k) {
+      const double part = static_cast<double>(k) / kSamplesOfCurve;
+      const Vec2 next = pieces[i].shape->point((1 - part) * pieces[i].from + part * pieces[i].to);
+      length += norm(next - last);
+      last = next;
+    }
+    lengths.push_back(length);
+  }
+  constexpr int kFarthest = 64;
+  for (int tries = 0; tries < kFarthest; ++tries) {
+    n += step;
+    if (n < static_cast<int>(own.size())) return 0;
+    const auto places = division_places({.name = {}, .edges = n}, lengths, {});
+    bool is_symmetric = true;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (const auto master = std::ranges::find(own, pieces[own[i]].master); master != own.end())
+        is_symmetric &= places[i].size() == places[master - own.begin()].size();
+    if (is_symmetric) return n;
+  }
+  return 0;
+}
+
+/// Divided as its image is not.
+InputError unlike_division(const PlanarModel& model, const std::string& where,
+                           const std::vector<CurvePiece>& pieces, const CurvePiece& piece) {
+  const CurvePiece& master = pieces[piece.master];
+  const std::string label = curve_label(model, piece.curves.front());
+  if (piece.curves.front() != master.curves.front())
+    return InputError(fmt::format("{}: {} is divided, and not as {}, of which it is the mirror image", where,
+                                  label, curve_label(model, master.curves.front())));
+  std::vector<int> own;
+  int n = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (std::ranges::find(pieces[i].curves, piece.curves.front()) != pieces[i].curves.end()) {
+      own.push_back(static_cast<int>(i));
+      n += pieces[i].n;
+    }
+  std::string expected;
+  for (const int step : {-1, 1})
+    if (const int good = symmetric_number(pieces, own, n, step); good > 0)
+      expected += (expected.empty() ? ": expected " : " or ") + std::to_string(good);
+  return InputError(
+      fmt::format("{}: {} edges cannot divide {} symmetrically, which is cut into {} pieces at planes of "
+                  "symmetry and images of its nodes{}",
+                  where, n, label, own.size(), expected));
+}
+
 }  // namespace
 
 void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
@@ -297,13 +352,13 @@ void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const st
           fmt::format("{}: the model is not symmetric: {} has no mirror image at ({:.10g}, {:.10g})", where,
                       curve_label(model, piece.curves.front()), symmetry.reflect(folds, middle).x,
                       symmetry.reflect(folds, middle).y));
-    const CurvePiece& master = pieces[piece.master];
-    if (piece.is_divided && (!master.is_divided || master.n != piece.n))
-      throw InputError(fmt::format("{}: {} is divided, and not as {}, of which it is the mirror image", where,
-                                   curve_label(model, piece.curves.front()),
-                                   curve_label(model, master.curves.front())));
-    piece.is_divided = false;
   }
+  for (const CurvePiece& piece : pieces)
+    if (piece.master >= 0 && piece.is_divided &&
+        (!pieces[piece.master].is_divided || pieces[piece.master].n != piece.n))
+      throw unlike_division(model, where, pieces, piece);
+  for (CurvePiece& piece : pieces)
+    if (piece.master >= 0) piece.is_divided = false;
 }
 
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,

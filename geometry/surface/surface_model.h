@@ -46,8 +46,9 @@ struct LooseLine {
 
 /// A curve that stands in a face, with the face on both sides, and need not reach the face's boundary.
 struct EmbeddedCurve {
-  int curve;  ///< index into SurfaceModel::fine.curves
-  int face;   ///< index into SurfaceModel::fine.regions
+  int curve;                ///< index into SurfaceModel::fine.curves
+  int face;                 ///< index into SurfaceModel::fine.regions
+  bool is_whisker = false;  ///< a short one, any way, from a single point
 };
 
 /// A model made of faces that share curves, as a fine conforming triangulation.

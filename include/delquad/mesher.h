@@ -41,7 +41,7 @@ struct MeshProblem {
   CrossSpec cross = {};
   std::vector<CurveDivision> divisions = {};  ///< sizes beside these curves follow their edges
   std::vector<PeriodicPair> periodic = {};
-  SymmetrySpec symmetry = {};  ///< of planar models of curves
+  SymmetrySpec symmetry = {};  ///< of planar models of curves, and of surfaces
   MappedSpec mapped = {};      ///< of planar models of curves
   long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   Options options = {};        ///< of the stages

@@ -73,7 +73,7 @@ struct SymmetryPlane {
 
 /// What is meshed on the positive side of planes only, and mirrored to the others.
 struct SymmetrySpec {
-  std::vector<SymmetryPlane> planes = {};  ///< one, or two that are perpendicular
+  std::vector<SymmetryPlane> planes = {};  ///< one, or two that are perpendicular; of surfaces up to three
   bool automatic = false;                  ///< those that are found
   std::string where = "symmetry";          ///< who asked for it, for messages
 };

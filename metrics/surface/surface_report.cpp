@@ -188,7 +188,7 @@ class Comparison {
     for_each_edge(std::span<const HalfEdge>(sides_), [&](std::span<const HalfEdge> edge) {
       const auto& [lo, hi, element, forward] = edge[0];
       const int curve = lines_.curve_of(lo, hi);
-      const int wanted = curve < 0 ? 2 : elements_on_curve[curve];
+      const int wanted = curve < 0 || is_cut_[curve] ? 2 : elements_on_curve[curve];
       if (static_cast<int>(edge.size()) != wanted)
         report_.nonconforming_edges.add(
             {0.5 * (mesh_.points[lo] + mesh_.points[hi]), region_of(mesh_, element)});

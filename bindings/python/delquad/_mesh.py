@@ -184,7 +184,8 @@ def mesh(
     divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
     periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
         second curves get the images of the nodes of the first.
-    symmetry: "auto", or a point and a normal of each of one or two planes; what is behind them is a mirror image.
+    symmetry: "auto", or a point and a normal of each of one or two planes (of surfaces up to three); what is behind
+        them is a mirror image.
     mapped: names of regions that become grids, or "auto" for all where that pays.
     layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
         "number": n or "thickness": height, "fan": 60} each; see docs/meshing.md.

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/surface/surface_model.h"
+#include "geometry/surface/symmetry_planes.h"
+
+namespace delquad {
+
+/// A symmetric model's places have their images on it to this part of the model's diagonal; on a
+/// triangulation by so much besides as its triangles may lie off the surface that they stand for.
+inline constexpr double kSymmetric = 1e-4;
+
+/// What of a model is the image of what, at one plane.
+struct MirrorMatch {
+  std::string failure;       ///< why the model is not symmetric; empty: it is
+  std::vector<int> face;     ///< of each face, its image
+  std::vector<char> turned;  ///< of each face: its image looks to the other side
+  /// Of each curve, those that its image lies on, ascending. None of those that need no image: whiskers, and
+  /// nameless seams, which have the same face on both sides.
+  std::vector<std::vector<int>> curves;
+  std::vector<char> is_loose_seam;  ///< of each curve: such a seam, without an image
+};
+
+/// Compares a model with its images.
+class MirrorMatcher {
+ public:
+  explicit MirrorMatcher(const SurfaceModel& model);
+  ~MirrorMatcher();
+
+  MirrorMatch match(const SymmetryPlanes& planes, int plane) const;
+  /// Whether a few places have images, ten times as far off as they may be in the end.
+  bool may_be(const SymmetryPlanes& planes, int plane) const;
+  /// The plane that fits the model best, near one that nearly does.
+  SymmetryPlane adjusted(const SymmetryPlane& plane) const;
+
+ private:
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
+};
+
+}  // namespace delquad

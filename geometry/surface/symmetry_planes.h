@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+
+namespace delquad {
+
+/// Planes of space that are perpendicular to each other, one to three. What lies on the positive side of all
+/// is the fundamental part of a symmetric model.
+class SymmetryPlanes {
+ public:
+  explicit SymmetryPlanes(const std::vector<SymmetryPlane>& planes);
+
+  int count() const { return static_cast<int>(planes_.size()); }
+  const Vec3& normal(int plane) const { return planes_[plane].normal; }
+  double height(int plane, const Vec3& x) const { return dot(x - planes_[plane].at, planes_[plane].normal); }
+  Vec3 put_on(int plane, const Vec3& x) const;
+  /// On all planes whose bits are set.
+  Vec3 put_on_all(int mask, Vec3 x) const;
+  Vec3 reflect(int plane, const Vec3& x) const;
+  /// At all planes whose bits are set.
+  Vec3 reflect_all(int mask, Vec3 x) const;
+  /// The bits of the planes that x lies behind by more than `tolerance`.
+  int folds_of(const Vec3& x, double tolerance = 0) const;
+  /// The image of x on the positive side of all.
+  Vec3 fold(const Vec3& x) const { return reflect_all(folds_of(x), x); }
+
+ private:
+  struct Plane {
+    Vec3 at, normal;  // unit length
+  };
+  std::vector<Plane> planes_;
+};
+
+/// The planes that are given. Throws InputError, beginning with `where`, for more than three and for those
+/// that are not perpendicular.
+SymmetryPlanes given_planes(const std::vector<SymmetryPlane>& planes, const std::string& where);
+
+}  // namespace delquad
