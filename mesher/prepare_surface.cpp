@@ -172,10 +172,8 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
-  std::optional<CutSurface> cut = located(problem.where, [&] {
-    return cut_at_planes(problem, model,
-                         [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
-  });
+  std::optional<CutSurface> cut =
+      cut_at_planes(problem, model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
   std::vector<CurveDivision> divisions = problem.divisions;
   if (cut) {
     divisions = divisions_of_part(divisions, *cut);

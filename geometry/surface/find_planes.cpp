@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostNormals = 256;
 /// Normals whose cosine is nearer to 1 than this are the same.
 constexpr double kSame = 1e-9;
-/// Planes that differ by less, in radians and parts of the model, are the same.
-constexpr double kExact = 1e-6;
+/// Images that differ by less, in parts of the diagonal, fit as well.
+constexpr double kExact = 1e-7;
 /// Moments that differ by less, of the largest, leave their axes open.
 constexpr double kSameMoment = 1e-2;
 
@@ -159,24 +159,28 @@ class PlaneFinder {
       low = std::min(low, dot(p, normal));
       high = std::max(high, dot(p, normal));
     }
+    // Round numbers come first, and are kept where they fit as well.
     const double centre = dot(moments_.centroid, normal), middle = (low + high) / 2;
-    std::vector<double> offsets;
-    if (std::min(std::abs(centre), std::abs(middle)) <= kExact * (high - low)) offsets.push_back(0);
-    offsets.push_back(middle);
-    if (std::abs(centre - middle) > kExact * (high - low)) offsets.push_back(centre);
-    for (const double offset : offsets) {
-      check_cancelled();
-      const SymmetryPlane plane{moments_.centroid + (offset - centre) * normal, normal};
-      if (!matcher_.may_be(SymmetryPlanes({plane}), 0)) continue;
-      SymmetryPlane better = matcher_.adjusted(plane);
-      for (const SymmetryPlane& other : found_)
-        better.normal = better.normal - dot(better.normal, other.normal) * other.normal;
-      // Round numbers are kept where they fit as well.
-      const bool is_same = norm(better.normal - normal) <= kExact &&
-                           std::abs(dot(better.point - plane.point, normal)) <= kExact * (high - low);
-      if (!is_same && is_good(better)) return better;
-      if (is_good(plane)) return plane;
-    }
+    const auto at = [&](double offset) {
+      return SymmetryPlane{moments_.centroid + (offset - centre) * normal, normal};
+    };
+    SymmetryPlane better = at(centre);
+    if (!matcher_.may_be(SymmetryPlanes({better}), 0)) better = at(middle);
+    if (!matcher_.may_be(SymmetryPlanes({better}), 0)) return std::nullopt;
+    check_cancelled();
+    better = matcher_.adjusted(better);
+    for (const SymmetryPlane& other : found_)
+      better.normal = better.normal - dot(better.normal, other.normal) * other.normal;
+    std::vector<SymmetryPlane> tried;
+    constexpr double kNearOrigin = 1e-2;
+    if (std::min(std::abs(centre), std::abs(middle)) <= kNearOrigin * (high - low)) tried.push_back(at(0));
+    tried.insert(tried.end(), {at(middle), at(centre), at(dot(better.point, normal)), better});
+    std::vector<double> misfits;
+    for (const SymmetryPlane& plane : tried) misfits.push_back(matcher_.misfit(plane));
+    constexpr double kAsWell = 1.01;
+    const double most = kAsWell * std::ranges::min(misfits) + kExact * diagonal(model_.fine);
+    for (std::size_t i = 0; i < tried.size(); ++i)
+      if (misfits[i] <= most && is_good(tried[i])) return tried[i];
     return std::nullopt;
   }
 

@@ -393,6 +393,22 @@ bool MirrorMatcher::may_be(const SymmetryPlanes& planes, int plane) const {
   return true;
 }
 
+double MirrorMatcher::misfit(const SymmetryPlane& plane) const {
+  constexpr std::size_t kPlaces = 500;
+  const Tables& t = *tables_;
+  const SymmetryPlanes planes({plane});
+  const std::size_t step = 1 + t.mesh.points.size() / kPlaces;
+  double sum = 0;
+  int places = 0;
+  for (std::size_t i = 0; i < t.mesh.points.size(); i += step, ++places) {
+    const Vec3 x = planes.reflect(0, t.mesh.points[i]);
+    const NearestTriangle::Found found = t.all.find(x);
+    const int face = t.mesh.triangle_region[found.triangle];
+    sum += t.model.projector ? norm(t.model.projector->to_face(face, x) - x) : found.distance;
+  }
+  return sum / places;
+}
+
 SymmetryPlane MirrorMatcher::adjusted(const SymmetryPlane& plane) const {
   constexpr int kSteps = 5;
   constexpr std::size_t kPlaces = 2000;

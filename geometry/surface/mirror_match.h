@@ -35,6 +35,8 @@ class MirrorMatcher {
   bool may_be(const SymmetryPlanes& planes, int plane) const;
   /// The plane that fits the model best, near one that nearly does.
   SymmetryPlane adjusted(const SymmetryPlane& plane) const;
+  /// The mean distance of images from the model, over some places.
+  double misfit(const SymmetryPlane& plane) const;
 
  private:
   struct Tables;
