@@ -21,6 +21,7 @@
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/face_images.h"
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
@@ -80,7 +81,6 @@ void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches
       }
     }
   }
-  if (!domain.caps.empty()) drop_unused_points(mesh);
 }
 
 /// Takes out lines that are on no element, and points that nothing uses then.
@@ -180,6 +180,12 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
   result.failures = prepared.failures;
   for (std::size_t i = 0; i < reasons.size(); ++i)
     if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
+  for (const PeriodicFaces& pair : prepared.boundary.periodic_faces)
+    if (std::ranges::count(result.failures, pair.master, &FaceFailure::face) > 0)
+      result.failures.push_back(
+          {pair.face, fmt::format("face {}: it has the mesh of face {}, which is left out",
+                                  prepared.boundary.regions[pair.face].tag,
+                                  prepared.boundary.regions[pair.master].tag)});
   std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
@@ -274,7 +280,12 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
       add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
     }
   }
-  if (prepared.surface) add_caps(prepared.surface->domain, patches, left_out, mesh);
+  if (prepared.surface) {
+    const SurfaceDomain& domain = prepared.surface->domain;
+    add_caps(domain, patches, left_out, mesh);
+    add_face_images(left_out, mesh);
+    if (!domain.caps.empty()) drop_unused_points(mesh);
+  }
   if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
   if (log != nullptr) log->add_time("projection", projection.time());
   return mesh;
