@@ -71,15 +71,15 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
                                  const SurfaceSize& size, const MatchingSolver& solver) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
-  placed.counts = even_counts(joined_demands(wanted.demands, curves.pairs), static_cast<int>(maps.size()),
-                              solver, placed.odd_patches);
-  for (const ChainPair& pair : curves.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
+  placed.counts = even_counts(joined_demands(wanted.demands, curves.images.pairs),
+                              static_cast<int>(maps.size()), solver, placed.odd_patches);
+  for (const ChainPair& pair : curves.images.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
                                   wanted.group, size_on_lines(size));
   for (std::size_t c = 0; c < wanted.divided.size(); ++c)
     for (std::size_t k = 0; k < wanted.divided[c].size(); ++k)
       places[c][k] = placed.counts[c] * wanted.integrals[c].part_at(wanted.divided[c][k]);
-  for (const ChainPair& pair : curves.pairs) {
+  for (const ChainPair& pair : curves.images.pairs) {
     const SizeIntegral &own = wanted.integrals[pair.chain], &of = wanted.integrals[pair.master];
     const double n = placed.counts[pair.chain];
     std::vector<double> at;
@@ -88,7 +88,7 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
     for (double& place : places[pair.chain]) place = n * own.part_at(place);
   }
   placed.nodes = place_nodes(model, curves.chains, curves.cut_face, wanted.integrals, places);
-  place_images(model.fine, curves.chains, curves.pairs, placed.nodes);
+  place_images(model, curves.chains, curves.images.pairs, placed.nodes);
   placed.boundaries.resize(maps.size());
   placed.at_fault.resize(maps.size());
   for_each_patch(model.fine, maps, [&](size_t p) {

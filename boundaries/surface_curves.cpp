@@ -112,7 +112,7 @@ void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
 }
 
 SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                          const std::vector<PeriodicPair>& periodic) {
+                          const PeriodicSides& periodic) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves;
   curves.maps = std::move(flattening.patches);
@@ -121,7 +121,7 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   curves.is_embedded.assign(fine.curves.size(), 0);
   for (const EmbeddedCurve& embedded : model.embedded) curves.is_embedded[embedded.curve] = 1;
   curves.chains = curve_chains(model);
-  curves.pairs = pair_chains(fine, curves.chains, periodic);
+  curves.images = pair_chains(model, curves.chains, curves.cut_face, periodic);
   const LineIndex lines(curves.chains);
   for (const FlatPatch& map : curves.maps)
     curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
@@ -160,7 +160,7 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
   for (std::size_t c = 0; c < chains.size(); ++c)
     wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
   wanted.divided = divide_chains(fine, chains, divisions);
-  for (const ChainPair& pair : curves.pairs)
+  for (const ChainPair& pair : curves.images.pairs)
     if (!wanted.divided[pair.chain].empty())
       throw InputError(
           fmt::format("curve {} is divided and gets the nodes of curve {}: expected the latter to be "

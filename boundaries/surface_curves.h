@@ -25,14 +25,14 @@ struct SurfaceCurves {
   std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
   std::vector<char> is_embedded;  ///< of each curve of the model
   std::vector<CurveChain> chains;
-  std::vector<ChainPair> pairs;        ///< of them
+  ChainPairs images;                   ///< of them
   std::vector<PatchOutline> outlines;  ///< of each map
   std::vector<FaceCorner> corners;
   std::vector<std::vector<double>> tube_sizes;  ///< at the vertices of each map
 };
 
 SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                          const std::vector<PeriodicPair>& periodic);
+                          const PeriodicSides& periodic);
 
 /// How many edges curves want and must have, by chain.
 struct CurveDemands {

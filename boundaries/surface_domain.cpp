@@ -80,14 +80,15 @@ class Capping {
           SurfaceDomain& domain)
       : model_(model), curves_(curves), demands_(demands), domain_(domain) {}
 
-  /// Caps that leave no area, as where two boundaries are nearer than an edge, are not made.
+  /// Caps that leave no area, as where two boundaries are nearer than an edge, are not made, nor those that
+  /// take nodes of periodic curves away.
   void cap(int p) {
     SurfacePatch& patch = domain_.patches[p];
     const PatchBoundary before = patch.boundary;
     const std::size_t n_points = domain_.nodes.points.size();
     for (const bool tips : {true, false}) {
       const std::vector<BoundaryCap> caps = find(p, patch, tips);
-      if (!caps.empty() && !meshable(patch.boundary)) {
+      if (!caps.empty() && (drop_paired(caps) || !meshable(patch.boundary))) {
         patch.boundary = before;
         domain_.nodes.points.resize(n_points);
         continue;
@@ -117,6 +118,19 @@ class Capping {
                              [&](Vec2 u) { return fine_normal(patch, model_.fine, u, hint); }, add};
     for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
     return caps;
+  }
+
+  /// Whether caps take nodes away that are images or have them.
+  bool drop_paired(const std::vector<BoundaryCap>& caps) const {
+    const auto is_dropped = [&](const CurveNode& n) {
+      return std::ranges::any_of(caps, [&](const BoundaryCap& cap) {
+        return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
+      });
+    };
+    return std::ranges::any_of(curves_.images.pairs, [&](const ChainPair& pair) {
+      return std::ranges::any_of(domain_.nodes.on_curve[pair.chain], is_dropped) ||
+             std::ranges::any_of(domain_.nodes.on_curve[pair.master], is_dropped);
+    });
   }
 
   void accept(int p, const BoundaryCap& cap) {
@@ -157,12 +171,33 @@ Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, cons
   return boundary;
 }
 
+/// Images of faces have the sharp corners of these.
+void add_image_corners(const SurfaceCurves& curves, const std::vector<PeriodicFaces>& faces,
+                       std::vector<SharpCorner>& corners) {
+  const std::size_t n_corners = corners.size();
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < n_corners; ++i) {
+      SharpCorner corner = corners[i];
+      if (corner.face != faces[f].master) continue;
+      corner.face = faces[f].face;
+      for (const auto& [node, of] : faces[f].nodes)
+        if (of == corners[i].node) corner.node = node;
+      for (int& curve : corner.curves)
+        for (const ChainPair& pair : curves.images.faces[f].chains)
+          if (curves.chains[pair.master].curve == curve) {
+            curve = curves.chains[pair.chain].curve;
+            break;
+          }
+      corners.push_back(corner);
+    }
+}
+
 }  // namespace
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions,
-                                  const std::vector<PeriodicPair>& periodic) {
+                                  const PeriodicSides& periodic) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size, periodic);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
@@ -198,10 +233,12 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     }
   }
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
-  domain.boundary.periodic = periodic_nodes(curves.chains, curves.pairs, domain.nodes);
+  domain.boundary.periodic = periodic_nodes(curves.chains, curves.images.pairs, domain.nodes);
+  domain.boundary.periodic_faces = periodic_faces(curves.images.faces, domain.nodes);
+  add_image_corners(curves, domain.boundary.periodic_faces, domain.sharp_corners);
   domain.chains = std::move(curves.chains);
   for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
-  for (const ChainPair& pair : curves.pairs)
+  for (const ChainPair& pair : curves.images.pairs)
     domain.chain_stays[pair.chain] = domain.chain_stays[pair.master] = 1;
   domain.cut_face = std::move(curves.cut_face);
   return domain;

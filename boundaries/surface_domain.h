@@ -11,6 +11,7 @@
 #include "fields/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/surface/flatten.h"
+#include "geometry/surface/periodic_faces.h"
 #include "geometry/surface/surface_model.h"
 #include "matching/matching.h"
 
@@ -50,13 +51,14 @@ struct SurfaceDomain {
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
-/// Curves of `divisions` get these edges, and the second curves of `periodic` the images of the nodes of the
-/// first. Throws FaceError when no refinement gives a valid boundary, naming
-/// the face, and InputError where divisions leave a patch with an odd number of edges.
+/// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
+/// first: faces that are images have no patches, see `boundary.periodic_faces`. Throws FaceError when no
+/// refinement gives a valid boundary, naming the face, and InputError where divisions leave a patch with an
+/// odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
-                                  const std::vector<PeriodicPair>& periodic = {});
+                                  const PeriodicSides& periodic = {});
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print

@@ -196,7 +196,7 @@ const TomlKeys& division_keys() {
 }
 
 const TomlKeys& periodic_keys() {
-  static const TomlKeys keys = {{"from", "name of curves", kText, nullptr, false, true},
+  static const TomlKeys keys = {{"from", "name of curves or faces", kText, nullptr, false, true},
                                 {"to", "name of their images", kText, nullptr, false, true},
                                 {"translate", "[x, y] or [x, y, z]", kSpacePoint},
                                 {"rotate", "degrees, counterclockwise", kNumber},
@@ -263,7 +263,7 @@ TomlKeys case_keys() {
                    {"layer", "thin quads along curves", "", layer_keys, true},
                    {"size", "wanted edge length", kSize, size_keys},
                    {"divide", "numbers of edges of curves", "", division_keys, true},
-                   {"periodic", "curves that get the nodes of others", "", periodic_keys, true},
+                   {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},
                    {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},
                    {"mapped", "regions that become grids, or \"auto\"", kTextOrTexts},
                    {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},

@@ -204,12 +204,19 @@ class InpWriter {
     }
   }
 
-  /// Two node sets for each pair of curves, in the same order, as equations between sets take them.
+  /// Two node sets for each pair of curves and of faces, in the same order, as equations between sets take
+  /// them.
   void write_periodic() {
-    for (std::size_t i = 0; i < mesh_.periodic.size(); ++i)
+    write_pairs("PERIODIC_", mesh_.periodic);
+    write_pairs("PERIODIC_FACE_", mesh_.periodic_faces);
+  }
+
+  template <class Pair>
+  void write_pairs(const char* name, const std::vector<Pair>& pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
       for (const int side : {0, 1}) {
-        out_ << "*NSET, UNSORTED, NSET=PERIODIC_" << i + 1 << (side == 0 ? "" : "_MASTER") << '\n';
-        const auto& nodes = mesh_.periodic[i].nodes;
+        out_ << "*NSET, UNSORTED, NSET=" << name << i + 1 << (side == 0 ? "" : "_MASTER") << '\n';
+        const auto& nodes = pairs[i].nodes;
         for (std::size_t k = 0; k < nodes.size(); ++k)
           out_ << nodes[k][side] + 1
                << (k + 1 == nodes.size() || (k + 1) % kNumbersPerLine == 0 ? "\n" : ", ");

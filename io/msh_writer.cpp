@@ -278,25 +278,50 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   out.end_section("$EndElements");
 }
 
-/// Links whose curves are written.
+/// An entity whose nodes are images of those of another.
+struct PeriodicLink {
+  int dim, tag, master;
+  const Motion* motion;
+  std::vector<std::array<int, 2>> nodes;
+};
+
+/// Named points that are images of others, by the first pair that says so.
+void add_point_links(const Mesh& mesh, std::vector<PeriodicLink>& links) {
+  std::map<int, int> tag_of;  // of nodes
+  for (const NamedPoint& named : mesh.named_points) tag_of.try_emplace(named.point, named.entity.tag);
+  std::set<int> linked;
+  for (const PeriodicFaces& pair : mesh.periodic_faces)
+    for (const auto& [node, of] : pair.nodes)
+      if (node != of && tag_of.contains(node) && tag_of.contains(of) && linked.insert(node).second)
+        links.push_back({0, tag_of.at(node), tag_of.at(of), &pair.motion, {{node, of}}});
+}
+
+/// Links whose entities are written.
 void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
-  const auto is_written = [&](int curve) {
-    return std::ranges::any_of(blocks,
-                               [&](const Block& b) { return b.dim == 1 && b.entity == &mesh.curves[curve]; });
+  const auto is_written = [&](int dim, const Entity& entity) {
+    return std::ranges::any_of(blocks, [&](const Block& b) { return b.dim == dim && b.entity == &entity; });
   };
-  std::vector<const PeriodicNodes*> links;
+  std::vector<PeriodicLink> links;
+  add_point_links(mesh, links);
+  const auto add = [&](int dim, const Entity& image, const Entity& master, const Motion& motion,
+                       const std::vector<std::array<int, 2>>& nodes) {
+    if (is_written(dim, image) && is_written(dim, master))
+      links.push_back({dim, image.tag, master.tag, &motion, nodes});
+  };
   for (const PeriodicNodes& link : mesh.periodic)
-    if (is_written(link.curve) && is_written(link.master)) links.push_back(&link);
+    add(1, mesh.curves[link.curve], mesh.curves[link.master], link.motion, link.nodes);
+  for (const PeriodicFaces& link : mesh.periodic_faces)
+    add(2, mesh.regions[link.face], mesh.regions[link.master], link.motion, link.nodes);
   if (links.empty()) return;
   out.line("$Periodic");
   out.size(links.size()).end_line();
-  for (const PeriodicNodes* link : links) {
-    out.integer(1).integer(mesh.curves[link->curve].tag).integer(mesh.curves[link->master].tag).end_line();
+  for (const PeriodicLink& link : links) {
+    out.integer(link.dim).integer(link.tag).integer(link.master).end_line();
     out.size(16);
-    for (const double x : link->motion.matrix()) out.real(x);
+    for (const double x : link.motion->matrix()) out.real(x);
     out.end_line();
-    out.size(link->nodes.size()).end_line();
-    for (const auto& [node, of] : link->nodes) out.size(node + 1).size(of + 1).end_line();
+    out.size(link.nodes.size()).end_line();
+    for (const auto& [node, of] : link.nodes) out.size(node + 1).size(of + 1).end_line();
   }
   out.end_section("$EndPeriodic");
 }

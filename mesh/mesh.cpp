@@ -24,6 +24,11 @@ Vec3 Motion::operator()(const Vec3& x) const {
   return centre + c * d + s * cross(u, d) + ((1 - c) * dot(u, d)) * u + shift;
 }
 
+Motion Motion::inverse() const {
+  const Motion turn_back{{}, -angle, centre, axis};
+  return {turn_back(centre) - turn_back(centre + shift), -angle, centre, axis};
+}
+
 std::array<double, 16> Motion::matrix() const {
   const Vec3 zero = (*this)({0, 0, 0});
   const Vec3 x = (*this)({1, 0, 0}) - zero, y = (*this)({0, 1, 0}) - zero, z = (*this)({0, 0, 1}) - zero;

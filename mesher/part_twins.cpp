@@ -33,9 +33,38 @@ void add_sides(const std::vector<std::array<int, N>>& elements, int n_boundary,
     }
 }
 
-void add_edges(const AllPatches& in, int p, std::vector<PartEdge>& edges) {
+/// A patch, with its nodes or with those of its image.
+struct PatchNodes {
+  int patch;
+  std::vector<int> node;  ///< of the points of its boundary
+};
+
+/// Those that take part, and then their images. Nodes of curves inside of faces, which have none, are less
+/// than 0 there.
+std::vector<PatchNodes> patches_and_images(const AllPatches& in) {
+  std::vector<PatchNodes> all;
+  for (std::size_t p = 0; p < in.patches.size(); ++p)
+    if (!in.left_out[p]) all.push_back({static_cast<int>(p), in.prepared.patches[p].boundary.point_node});
+  const std::size_t n_patches = all.size();
+  for (const PeriodicFaces& pair : in.prepared.boundary.periodic_faces) {
+    std::map<int, int> image;
+    for (const auto& [node, of] : pair.nodes) image[of] = node;
+    for (std::size_t i = 0; i < n_patches; ++i) {
+      if (in.prepared.patches[all[i].patch].region != pair.master) continue;
+      PatchNodes copy = all[i];
+      for (int& v : copy.node) {
+        const auto at = image.find(v);
+        v = at != image.end() ? at->second : -1 - v;
+      }
+      all.push_back(std::move(copy));
+    }
+  }
+  return all;
+}
+
+void add_edges(const AllPatches& in, const PatchNodes& nodes, std::vector<PartEdge>& edges) {
+  const auto& [p, node] = nodes;
   const PatchMesh& patch = in.patches[p];
-  const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
   const int n_boundary = static_cast<int>(node.size());
   std::vector<std::array<int, 2>> sides, rim;
   for (const auto& [a, b] : in.prepared.patches[p].boundary.edges)
@@ -57,13 +86,13 @@ void add_edges(const AllPatches& in, int p, std::vector<PartEdge>& edges) {
 /// By patch, the ends of the chords that have to go.
 std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in) {
   std::vector<PartEdge> edges;
-  for (std::size_t p = 0; p < in.patches.size(); ++p)
-    if (!in.left_out[p]) add_edges(in, static_cast<int>(p), edges);
+  for (const PatchNodes& patch : patches_and_images(in)) add_edges(in, patch, edges);
   std::ranges::sort(edges);
   std::map<int, std::vector<std::array<int, 2>>> chords;
   for (std::size_t i = 1; i < edges.size(); ++i)
     if (edges[i].is_chord && edges[i - 1].nodes == edges[i].nodes)
-      chords[edges[i].patch].push_back(edges[i].ends);
+      if (auto& of = chords[edges[i].patch]; std::ranges::find(of, edges[i].ends) == of.end())
+        of.push_back(edges[i].ends);
   return chords;
 }
 
@@ -143,18 +172,16 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
   };
   std::vector<Corner> corners;
   std::vector<TwinCorner> twins;
-  for (std::size_t p = 0; p < in.patches.size(); ++p) {
-    if (in.left_out[p] || in.patches[p].form != PatchForm::kQuads) continue;
-    const std::vector<int>& node = in.prepared.patches[p].boundary.point_node;
+  for (const auto& [p, node] : patches_and_images(in)) {
+    if (in.patches[p].form != PatchForm::kQuads) continue;
     const auto is_inside = [&](int v) { return v >= static_cast<int>(node.size()); };
     for (const auto& quad : in.patches[p].quads.quads)
       for (int k = 0; k < 4; ++k) {
         const int before = quad[(k + 3) % 4], v = quad[k], after = quad[(k + 1) % 4];
         if (is_inside(before) || is_inside(v) || is_inside(after)) continue;
-        const int at = static_cast<int>(p);
-        if (node[before] == node[after]) twins.push_back({{at, at}, {v, v}});
+        if (node[before] == node[after]) twins.push_back({{p, p}, {v, v}});
         const auto [low, high] = std::minmax(node[before], node[after]);
-        corners.push_back({node[v], {low, high}, at, v});
+        corners.push_back({node[v], {low, high}, p, v});
       }
   }
   std::ranges::sort(corners);
@@ -249,18 +276,19 @@ int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
 /// The patches that are one quad each on nodes on which a patch before is one quad.
 std::vector<int> twin_quads(const AllPatches& in) {
   std::vector<std::pair<std::array<int, 4>, int>> quads;
-  for (std::size_t p = 0; p < in.patches.size(); ++p) {
+  for (const auto& [p, node] : patches_and_images(in)) {
     const QuadPatch& mesh = in.patches[p].quads;
-    if (in.left_out[p] || mesh.quads.size() != 1 || !mesh.triangles.empty()) continue;
+    if (mesh.quads.size() != 1 || !mesh.triangles.empty()) continue;
     std::array<int, 4> nodes = mesh.quads[0];
-    for (int& v : nodes) v = in.prepared.patches[p].boundary.point_node[v];
+    for (int& v : nodes) v = node[v];
     std::ranges::sort(nodes);
-    quads.emplace_back(nodes, static_cast<int>(p));
+    quads.emplace_back(nodes, p);
   }
   std::ranges::sort(quads);
   std::vector<int> twins;
   for (std::size_t i = 1; i < quads.size(); ++i)
-    if (quads[i].first == quads[i - 1].first) twins.push_back(quads[i].second);
+    if (quads[i].first == quads[i - 1].first && std::ranges::count(twins, quads[i].second) == 0)
+      twins.push_back(quads[i].second);
   return twins;
 }
 

@@ -13,9 +13,11 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "geometry/surface/periodic_lines.h"
 #include "mesher/fine_spots.h"
 #include "mesher/mirrored_surface.h"
 #include "mesher/named_parts.h"
+#include "mesher/periodic_sides.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
 #include "mesher/size_aware.h"
@@ -24,10 +26,13 @@
 namespace delquad {
 namespace {
 
-/// Integral of dA/delta^2 over the fine triangles, by their centroids. `part`: of what, if the triangles are
-/// a part of a symmetric model; null: they are all.
-double expected_quads(const Mesh& fine, const SurfaceSize& size, const CutSurface* part = nullptr) {
+/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have that of
+/// their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they are all.
+double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
+                      const CutSurface* part = nullptr) {
   constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  std::vector<int> times(fine.regions.size(), 1);
+  for (const FacePair& pair : images) times[pair.face] = 0, times[pair.master] = 2;
   double sum = 0;
   int hint = -1;
   for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
@@ -35,7 +40,7 @@ double expected_quads(const Mesh& fine, const SurfaceSize& size, const CutSurfac
     const auto& [a, b, c] = triangle;
     const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
     const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
-    double quads = norm(cross(q - p, r - p)) / 2 / (delta * delta);
+    double quads = times[fine.triangle_region[t]] * (norm(cross(q - p, r - p)) / 2 / (delta * delta));
     for (int k = 0; part != nullptr && k < part->planes.count(); ++k)
       if (!(part->half.face_planes[fine.triangle_region[t]] >> k & 1)) quads *= 2;
     sum += quads;
@@ -71,15 +76,28 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
   for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
 }
 
+/// All faces but those that are images of others.
+Flattening flatten_all(SurfaceModel& model, const PeriodicSides& periodic) {
+  if (periodic.empty()) return flatten(model);
+  FlattenOptions options;
+  options.left_out.assign(model.fine.regions.size(), 0);
+  for (const FacePair& pair : periodic.faces) options.left_out[pair.face] = 1;
+  const std::size_t n_curves = model.fine.curves.size();
+  options.after_cuts = [&] { return match_corners(model, periodic, n_curves); };
+  match_corners(model, periodic, n_curves);
+  return flatten(model, options);
+}
+
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
-                             const std::vector<CurveDivision>& divisions, Failures& failures) {
+                             const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
+                             Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, divisions, problem.periodic);
+                                 *solver, asked, divisions, periodic);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -191,7 +209,9 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const DoingStage flattening_faces("maps");
   improve_triangulation(model);
   refine_for_size(model, wanted);
-  Flattening flattening = located(problem.where, [&] { return flatten(model); });
+  std::vector<Warning> warnings;
+  const PeriodicSides periodic = find_periodic_sides(model, problem.periodic, warnings);
+  Flattening flattening = located(problem.where, [&] { return flatten_all(model, periodic); });
   Failures failures(problem);
   for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
   add_unflattened(flattening, model, failures);
@@ -208,7 +228,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
   if (!problem.divisions.empty()) p.size_adapted_to.push_back("given edges");
   if (!p.size_adapted_to.empty()) p.given_size = given;
-  p.expected_quads = expected_quads(model.fine, *surface->size, part);
+  p.expected_quads = expected_quads(model.fine, *surface->size, periodic.faces, part);
   check_count(p.expected_quads);
   auto on_curves = surface->size;
   if (problem.seed != 0) {
@@ -218,11 +238,12 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   }
   surface->domain =
       mesh_curves_of(model, std::move(flattening), *on_curves, wanted.curvature ? nullptr : wanted.base.get(),
-                     problem, divisions, failures);
+                     problem, divisions, periodic, failures);
   surface->model = std::move(model);
   p.failures = failures.take();
   p.surface = surface;
   p.warnings = surface->model.warnings;
+  p.warnings.insert(p.warnings.end(), warnings.begin(), warnings.end());
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
   warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
   warn_of_coarse_turns(wanted, *surface, p.warnings);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/box.h"
 #include "delquad/error.h"
 #include "mesher/repair_options.h"
 
@@ -20,25 +22,47 @@ constexpr double kPart = 0.5, kReach = 3;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
+/// Places within so many sizes of a face that is an image count where its mesh comes from, too.
+constexpr double kBeside = 3;
+
+/// Where meshes of faces are made whose images are at these places.
+std::vector<Vec3> places_of_masters(const PreparedProblem& prepared, const std::vector<Place>& places) {
+  std::vector<Vec3> found;
+  for (const PeriodicFaces& pair : prepared.boundary.periodic_faces) {
+    const Mesh& fine = prepared.surface->model.fine;
+    Box<Vec3> box;
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+      if (fine.triangle_region[t] == pair.face)
+        for (const int v : fine.triangles[t]) box.add(fine.points[v]);
+    int hint = -1;
+    for (const Place& place : places)
+      if (std::sqrt(box.distance2(place.at)) <= kBeside * prepared.size->at(place.at, hint))
+        found.push_back(pair.motion.inverse()(place.at));
+  }
+  return found;
+}
+
 /// Adds a ball around each place where the mesh is not sound, but for those inside of another new one.
 void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std::vector<SizeSpot>& spots) {
   const std::size_t first_new = spots.size();
   int hint = -1;
-  for (const Place& place : soundness.places) {
+  const auto add = [&](const Vec3& at) {
     const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
-                                      [&](const SizeSpot& s) { return norm(s.at - place.at) < s.size; });
-    if (is_known || spots.size() == kMostSpots) continue;
-    const double size = kPart * prepared.size->at(place.at, hint);
+                                      [&](const SizeSpot& s) { return norm(s.at - at) < s.size; });
+    if (is_known || spots.size() == kMostSpots) return;
+    const double size = kPart * prepared.size->at(at, hint);
     if (prepared.surface && prepared.surface->mirrored) {
       // All images, too, so that what is kept for a part is kept for the whole.
       const SymmetryPlanes& planes = prepared.surface->mirrored->planes;
-      const Vec3 x = planes.fold(place.at);
+      const Vec3 x = planes.fold(at);
       for (int mask = 0; mask < 1 << planes.count(); ++mask)
         spots.push_back({planes.reflect_all(mask, x), kReach * size, size});
-      continue;
+      return;
     }
-    spots.push_back({place.at, kReach * size, size});
-  }
+    spots.push_back({at, kReach * size, size});
+  };
+  for (const Place& place : soundness.places) add(place.at);
+  for (const Vec3& at : places_of_masters(prepared, soundness.places)) add(at);
 }
 
 void add_times(const StepTimes& times, StageLog& log) {

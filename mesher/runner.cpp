@@ -21,6 +21,7 @@
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/face_images.h"
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
@@ -182,6 +183,12 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
     if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
   if (prepared.surface && prepared.surface->mirrored)
     add_failures_of_images(*prepared.surface->mirrored, result.failures);
+  for (const PeriodicFaces& pair : prepared.boundary.periodic_faces)
+    if (std::ranges::count(result.failures, pair.master, &FaceFailure::face) > 0)
+      result.failures.push_back(
+          {pair.face, fmt::format("face {}: it has the mesh of face {}, which is left out",
+                                  prepared.boundary.regions[pair.face].tag,
+                                  prepared.boundary.regions[pair.master].tag)});
   std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
@@ -283,9 +290,11 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
     }
   }
   if (prepared.surface) {
-    add_caps(prepared.surface->domain, patches, left_out, mesh);
+    const SurfaceDomain& domain = prepared.surface->domain;
+    add_caps(domain, patches, left_out, mesh);
+    add_face_images(left_out, mesh);
     if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
-    if (!prepared.surface->domain.caps.empty()) drop_unused_points(mesh);
+    if (!domain.caps.empty()) drop_unused_points(mesh);
   }
   if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
   if (log != nullptr) log->add_time("projection", projection.time());

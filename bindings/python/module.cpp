@@ -64,6 +64,28 @@ Mesh read(const std::string& path) {
   return read_mesh(path);
 }
 
+/// (image, master, (n, 2) nodes), each beside that of which it is the image.
+py::tuple pair_of(int image, int master, const std::vector<std::array<int, 2>>& nodes) {
+  const auto n = static_cast<py::ssize_t>(nodes.size());
+  py::array_t<int> array({n, py::ssize_t{2}});
+  for (py::ssize_t i = 0; i < n; ++i)
+    for (const py::ssize_t k : {0, 1}) array.mutable_at(i, k) = nodes[i][k];
+  return py::make_tuple(image, master, array);
+}
+
+py::list periodic_of(const Mesh& mesh) {
+  py::list pairs;
+  for (const PeriodicNodes& pair : mesh.periodic) pairs.append(pair_of(pair.curve, pair.master, pair.nodes));
+  return pairs;
+}
+
+py::list periodic_faces_of(const Mesh& mesh) {
+  py::list pairs;
+  for (const PeriodicFaces& pair : mesh.periodic_faces)
+    pairs.append(pair_of(pair.face, pair.master, pair.nodes));
+  return pairs;
+}
+
 void define_mesh(py::module_& m) {
   py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh", "Points and elements; indices count from 0.")
       .def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
@@ -79,6 +101,9 @@ void define_mesh(py::module_& m) {
           "curves", [](const Mesh& mesh) { return list_of(mesh.curves); }, "(tag, names)")
       .def_property_readonly(
           "regions", [](const Mesh& mesh) { return list_of(mesh.regions); }, "(tag, names)")
+      .def_property_readonly("periodic", &periodic_of, "(index into curves, that of the master, (n, 2) nodes)")
+      .def_property_readonly("periodic_faces", &periodic_faces_of,
+                             "(index into regions, that of the master, (n, 2) nodes)")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
       .def("write_file", &write, arg("path"), arg("binary") = false);
   m.def("read_mesh", &read, arg("path"));

@@ -77,6 +77,12 @@ class Pairing {
       for (const int c : pieces_[i].curves) known.push_back(model_.curves[c].name);
       if (std::ranges::any_of(pieces_[i].curves, is_meant)) found.push_back(static_cast<int>(i));
     }
+    const bool is_region = name.starts_with("region_") ||
+                           std::ranges::find(model_.loops, name, &ModelLoop::region) != model_.loops.end();
+    if (found.empty() && is_region)
+      throw InputError(fmt::format(
+          "{}: '{}' is a region of a planar model, whose sides are curves: expected a curve's name",
+          pair.where, name));
     if (found.empty())
       throw InputError(
           fmt::format("{}: no curve is called '{}'{}", pair.where, name, suggestion(name, known)));

@@ -244,6 +244,9 @@ class Flattener {
         failed_(mesh_.regions.size(), 0),
         is_embedded_(mesh_.curves.size(), 0) {
     for (const EmbeddedCurve& c : model.embedded) is_embedded_[c.curve] = 1;
+    if (options.left_out.empty()) return;
+    for (std::size_t t = 0; t < open_.size(); ++t)
+      if (options.left_out[mesh_.triangle_region[t]]) open_[t] = 0;
   }
 
   Flattening run() {
@@ -378,12 +381,20 @@ class Flattener {
         for (const int t : chart.fine_triangle) ++tries_[t];
     }
     editor.finish();
+    open_stale(editor.splits());
+    std::ranges::sort(model_.corners);
+    const auto [first, last] = std::ranges::unique(model_.corners);
+    model_.corners.erase(first, last);
+    if (options_.after_cuts) open_stale(options_.after_cuts());
+  }
+
+  /// Triangles that cuts of neighbours split are no longer those of their patch.
+  void open_stale(const std::vector<std::pair<int, int>>& splits) {
     stuck_.resize(mesh_.triangles.size(), 0);
     tries_.resize(mesh_.triangles.size(), 0);
-    // Triangles that cuts of neighbours split are no longer those of their patch.
     open_.resize(mesh_.triangles.size(), 0);
     std::set<int> stale;
-    for (const auto& [t, half] : editor.splits()) {
+    for (const auto& [t, half] : splits) {
       open_[half] = open_[t];
       stale.insert(t);
     }
@@ -392,10 +403,7 @@ class Flattener {
       for (int t : p.fine_triangle) open_[t] = 1;
       return true;
     });
-    for (const auto& [t, half] : editor.splits()) open_[half] = open_[t];
-    std::ranges::sort(model_.corners);
-    const auto [first, last] = std::ranges::unique(model_.corners);
-    model_.corners.erase(first, last);
+    for (const auto& [t, half] : splits) open_[half] = open_[t];
   }
 
   /// Whether it could be made.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -37,8 +39,12 @@ struct Flattening {
 };
 
 struct FlattenOptions {
-  double max_area_ratio = 10;  ///< patches with a larger FlatQuality::area_ratio are divided
-  double max_sigma = 1.3;      ///< the same for sigma_95
+  double max_area_ratio = 10;       ///< patches with a larger FlatQuality::area_ratio are divided
+  double max_sigma = 1.3;           ///< the same for sigma_95
+  std::vector<char> left_out = {};  ///< faces that get no patches, by region; empty: none
+  /// Called once cuts were made: may split lines, and returns pairs (triangle that was split, half that was
+  /// added).
+  std::function<std::vector<std::pair<int, int>>()> after_cuts = {};
 };
 
 /// Flattens all faces conformally, as if there were no embedded curves. Faces that cannot be flattened as

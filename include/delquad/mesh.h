@@ -67,6 +67,8 @@ struct Motion {
   Vec3 operator()(const Vec3& x) const;
   /// As a matrix of four rows for points (x, y, z, 1).
   std::array<double, 16> matrix() const;
+  /// That takes everything back.
+  Motion inverse() const;
 };
 
 /// Nodes of a curve that are images of those of another.
@@ -74,6 +76,15 @@ struct PeriodicNodes {
   int curve, master;                      ///< indices into Mesh::curves
   Motion motion;                          ///< that takes the master there
   std::vector<std::array<int, 2>> nodes;  ///< each beside that of which it is the image
+};
+
+/// A face that is the image of another: its elements are those of the master, in the same order.
+struct PeriodicFaces {
+  int face, master;  ///< indices into Mesh::regions
+  Motion motion;     ///< that takes the master there
+  bool is_reversed;  ///< its elements run the other way round, as on opposite faces of a body
+  std::vector<std::array<int, 2>>
+      nodes;  ///< each beside that of which it is the image; those on curves first
 };
 
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
@@ -90,6 +101,7 @@ struct Mesh {
   std::vector<Entity> regions;
   std::vector<NamedPoint> named_points;
   std::vector<PeriodicNodes> periodic;
+  std::vector<PeriodicFaces> periodic_faces;
   std::string unit;  ///< of lengths, such as "mm"; empty: not known
 };
 

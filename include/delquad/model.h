@@ -59,10 +59,10 @@ struct CurveDivision {
   std::string where = "division";  ///< who asked for it, for messages
 };
 
-/// Curves that get the images of the nodes of others.
+/// Curves that get the images of the nodes of others, or faces of a surface that get their meshes.
 struct PeriodicPair {
-  std::string from, to;            ///< names of the curves, or numbers: "curve_7"
-  Motion motion;                   ///< that takes those of `from` to those of `to`
+  std::string from, to;  ///< names, or numbers: "curve_7", "region_2"; both of faces: those are meant
+  Motion motion;         ///< that takes those of `from` to those of `to`
   std::string where = "periodic";  ///< who asked for it, for messages
 };
 

@@ -18,6 +18,16 @@ def octahedron():
     return points, np.array(triangles)
 
 
+def prism():
+    """Points, triangles and their regions, of which 0 and 1 are the square ends z = 0 and 2."""
+    points = np.array([(x, y, z) for z in (0, 2) for x, y in SQUARE], dtype=float)
+    triangles = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7)]
+    for i in range(4):
+        j = (i + 1) % 4
+        triangles += [(i, j, j + 4), (i, j + 4, i + 4)]
+    return points, np.array(triangles), np.array([0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5])
+
+
 def area(mesh):
     """Of the quads, by their diagonals."""
     a, b, c, d = (mesh.points[mesh.quads[:, k]] for k in range(4))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import delquad
-from shapes import SQUARE, octahedron, square
+from shapes import SQUARE, octahedron, prism, square
 
 
 def two_regions():
@@ -25,6 +25,17 @@ def test_arrays_and_their_types():
     assert r.quad_region.shape == (len(r.quads),) and r.line_curve.shape == (len(r.lines),)
     assert set(np.unique(r.quad_region)) == set(range(len(r.regions)))
     assert r.triangles.shape == (0, 3) and r.triangle_region.shape == (0,)
+
+
+def test_periodic_nodes_are_images():
+    ends = delquad.triangles(*prism())
+    pair = {"from": "region_1", "to": "region_2", "translate": (0, 0, 2)}
+    r = delquad.mesh(ends, size=0.2, periodic=[pair])
+    ((face, master, nodes),) = r.periodic_faces
+    assert [r.regions[i][0] for i in (face, master)] == [2, 1]
+    assert np.allclose(r.points[nodes[:, 0]] - r.points[nodes[:, 1]], (0, 0, 2), atol=1e-13)
+    assert set(nodes[:, 0]) == set(r.quads[r.quad_region == face].ravel())
+    assert len(r.periodic) > 0 and all(nodes.shape[1] == 2 for _, _, nodes in r.periodic)
 
 
 def test_arrays_are_views_that_keep_the_mesh():

@@ -183,7 +183,7 @@ def mesh(
         or {name: {"curvature": 24}}; the smallest size counts.
     divide: {name: number of edges} of curves, or {name: {"edges": 20, "progression": 1.2, "bump": 0.1}}.
     periodic: {"from": name, "to": name, "translate": (x, y, z)} each, or with "rotate" in degrees, "centre" and "axis": the
-        second curves get the images of the nodes of the first.
+        second curves get the images of the nodes of the first; on surfaces faces may be named, which get whole meshes.
     symmetry: "auto", or a point and a normal of each of one or two planes (of surfaces up to three); what is behind
         them is a mirror image.
     mapped: names of regions that become grids, or "auto" for all where that pays.
