@@ -10,6 +10,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,64 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
-using Mesher = CGAL::Delaunay_mesher_2<Cdt, Criteria>;
+
+// Both sides of a slit are some 1e-6 of its edges apart, and refinement leaves some of these shorter.
+constexpr double kSlit = 3e-5;
+
+/// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. What lies
+/// across a slit does not count: where slits turn or cross, vertices on one side are in the circles of the
+/// other's edges, and both would be split down to the slit's width in turn.
+struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
+  using Gabriel = CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>;
+  using Gabriel::operator();
+
+  bool operator()(const Cdt& cdt, const Cdt::Face_handle& f, int i) const {
+    return conforms(cdt, f, i) && conforms(cdt, f->neighbor(i), cdt.mirror_index(f, i));
+  }
+  bool operator()(const Cdt& cdt, const Cdt::Vertex_handle& a, const Cdt::Vertex_handle& b) const {
+    Cdt::Face_handle f;
+    int i = 0;
+    cdt.is_edge(a, b, f, i);
+    return (*this)(cdt, f, i);
+  }
+
+ private:
+  bool conforms(const Cdt& cdt, const Cdt::Face_handle& f, int i) const {
+    const Cdt::Vertex_handle apex = f->vertex(i), a = f->vertex(Cdt::cw(i)), b = f->vertex(Cdt::ccw(i));
+    if (cdt.is_infinite(apex) || Gabriel::operator()(cdt, a, b, apex->point())) return true;
+    const auto side = b->point() - a->point(), to = apex->point() - a->point();
+    const double height = std::abs(side.x() * to.y() - side.y() * to.x());  // times the side
+    return !f->is_in_domain() && height <= kSlit * side.squared_length();
+  }
+};
+
+/// CGAL::Delaunay_mesher_2 of a marked domain, with that test.
+class Refiner {
+ public:
+  explicit Refiner(Cdt& cdt)
+      : clusters_(cdt),
+        edges_(cdt, clusters_, nothing_),
+        faces_(cdt, criteria_, edges_),
+        visitor_(faces_, edges_, no_visitor_) {
+    clusters_.create_clusters();
+    edges_.scan_triangulation();
+    faces_.scan_triangulation();
+  }
+  /// False where nothing is left to do.
+  bool step() { return faces_.try_to_insert_one_point(visitor_); }
+
+ private:
+  using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, GabrielBesideSlits>;
+  using Faces = CGAL::Mesh_2::Refine_faces<Cdt, Criteria, Edges>;
+
+  Criteria criteria_{kShape};
+  CGAL::Null_mesher_level nothing_;
+  CGAL::Null_mesh_visitor no_visitor_;
+  CGAL::Mesh_2::Clusters<Cdt> clusters_;
+  Edges edges_;
+  Faces faces_;
+  CGAL::Mesh_2::Refine_edges_visitor_from_faces<Faces> visitor_;
+};
 
 std::vector<Cdt::Vertex_handle> insert_boundary(Cdt& cdt, const PatchBoundary& patch) {
   std::vector<std::pair<Kernel::Point_2, VertexIndex>> tagged;
@@ -139,10 +197,9 @@ TriPatch refine_patch(const PatchBoundary& patch) {
   Cdt cdt;
   const auto handle = insert_boundary(cdt, patch);
   mark_domain(cdt, patch, handle);
-  Mesher mesher(cdt, Criteria(kShape));
-  mesher.init(true);
+  Refiner refiner(cdt);
   const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
-  while (cdt.number_of_vertices() < most && mesher.step_by_step_refine_mesh()) check_cancelled();
+  while (cdt.number_of_vertices() < most && refiner.step()) check_cancelled();
   return extract(cdt, patch);
 }
 

@@ -40,16 +40,23 @@ class SpotSize final : public SizeField {
       const Vec3 margin{s.reach, s.reach, s.reach};
       const Vec3 c = s.c.value_or(s.b);
       boxes.push_back({lower(lower(s.a, s.b), c) - margin, upper(upper(s.a, s.b), c) + margin});
-      least_ = std::min(least_, s.size);
       least_growth_ = std::min(least_growth_, s.growth);
     }
     tree_ = BoxTree<Vec3>(boxes);
+    for (const auto& node : tree_.nodes()) {
+      double& least = least_.emplace_back(std::numeric_limits<double>::infinity());
+      for (const int i : tree_.items(node)) least = std::min(least, spots_[static_cast<std::size_t>(i)].size);
+    }
   }
 
   double at(const Vec3& x, int& hint) const override {
     double delta = base_->at(x, hint);
     tree_.search(
-        delta, [&](const auto& node) { return least_ + least_growth_ * std::sqrt(node.box.distance2(x)); },
+        delta,
+        [&](const auto& node) {
+          return least_[static_cast<std::size_t>(&node - tree_.nodes().data())] +
+                 least_growth_ * std::sqrt(node.box.distance2(x));
+        },
         [&](int i) { delta = std::min(delta, by(spots_[static_cast<std::size_t>(i)], x)); });
     return delta;
   }
@@ -61,7 +68,7 @@ class SpotSize final : public SizeField {
 
   std::shared_ptr<const SizeField> base_;
   std::vector<FineSpot> spots_;
-  double least_ = std::numeric_limits<double>::infinity();
+  std::vector<double> least_;  ///< size, by node of the tree
   double least_growth_ = std::numeric_limits<double>::infinity();
   BoxTree<Vec3> tree_;
 };

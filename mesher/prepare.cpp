@@ -150,12 +150,11 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     check_count_early(problem, model, p.size);
     domain = mesh_model(problem, model, p.size);
   }
-  p.background = std::make_shared<BackgroundMesh>(domain.patches);
   if (spec.gradation > 0) {
+    p.background = std::make_shared<BackgroundMesh>(domain.patches);
     p.size = limit_gradation(p.size, p.background, spec.gradation);
     check_count_early(problem, model, p.size);
     domain = mesh_model(problem, model, p.size);
-    p.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
   if (!problem.divisions.empty()) {
     p.given_size = p.size;
@@ -171,11 +170,12 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
     fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
   }
-  if (fine.empty() && problem.divisions.empty()) return domain;
-  if (!p.given_size) p.given_size = p.size;
-  p.size = finer_near(p.size, std::move(fine));
-  check_count_early(problem, model, p.size);
-  domain = mesh_model(problem, model, p.size);
+  if (!fine.empty() || !problem.divisions.empty()) {
+    if (!p.given_size) p.given_size = p.size;
+    p.size = finer_near(p.size, std::move(fine));
+    check_count_early(problem, model, p.size);
+    domain = mesh_model(problem, model, p.size);
+  }
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   return domain;
 }

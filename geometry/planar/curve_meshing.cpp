@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <span>
@@ -337,15 +338,23 @@ class CurveMesher {
   }
 
   // A closed piece needs three edges, two between the same nodes two each: else they would fold up. One by
-  // itself needs two: else it could not be opened (see build_domain()).
+  // itself needs two: else it could not be opened (see build_domain()), nor could a crack between two tips.
   void set_least() {
     std::map<std::pair<int, int>, int> count;
     for (const CurvePiece& p : pieces_) ++count[p.sorted_ends()];
     const std::vector<int> valence = pieces_at_nodes(pieces_, chain_.nodes.size());
+    std::vector<CurvePiece> cracks;
+    std::ranges::copy_if(pieces_, std::back_inserter(cracks),
+                         [&](const CurvePiece& p) { return is_crack(p); });
+    const std::vector<int> crack_valence = pieces_at_nodes(cracks, chain_.nodes.size());
     for (CurvePiece& p : pieces_) {
       const bool is_single = valence[p.ends[0]] == 1 && valence[p.ends[1]] == 1;
-      p.least = p.ends[0] == p.ends[1] ? 3 : count[p.sorted_ends()] > 1 || is_single ? 2 : 1;
+      const bool has_tips = is_crack(p) && crack_valence[p.ends[0]] == 1 && crack_valence[p.ends[1]] == 1;
+      p.least = p.ends[0] == p.ends[1] ? 3 : count[p.sorted_ends()] > 1 || is_single || has_tips ? 2 : 1;
     }
+  }
+  bool is_crack(const CurvePiece& piece) const {
+    return std::ranges::any_of(piece.curves, [&](int c) { return model_.curves[c].is_crack; });
   }
 
   /// Points that are on no curve get two edges.

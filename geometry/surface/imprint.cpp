@@ -153,11 +153,11 @@ class Imprinter {
         check_cancelled();
         draw(*line, nodes[i], nodes[i + 1]);
       }
+    add_whiskers(placed);
     for (const auto& [line, nodes] : placed)
       if (nodes.size() == 1 && !line->names.empty())
         mesh_.named_points.push_back(
             {nodes[0], {static_cast<int>(mesh_.named_points.size()) + 1, line->names}});
-    add_whiskers(placed);
     editor_.finish();
     join_pieces();
     mark_corners(placed);
@@ -332,15 +332,20 @@ class Imprinter {
     pieces_.push_back({&line, face});
   }
 
-  void add_whiskers(const std::vector<Placed>& placed) {
+  /// A point of the file that has no room stays no node.
+  void add_whiskers(std::vector<Placed>& placed) {
     std::vector<int> points;
-    std::vector<std::string> labels;
-    for (const auto& [line, nodes] : placed)
-      if (nodes.size() == 1 && !editor_.is_on_line(nodes[0]) &&
-          std::ranges::find(points, nodes[0]) == points.end()) {
+    std::vector<const LooseLine*> lines;  // one for each, one that was asked for if there is any
+    for (const auto& [line, nodes] : placed) {
+      if (nodes.size() != 1 || editor_.is_on_line(nodes[0])) continue;
+      const auto known = std::ranges::find(points, nodes[0]);
+      if (known == points.end()) {
         points.push_back(nodes[0]);
-        labels.push_back(line->where);
+        lines.push_back(line);
+      } else if (line->is_asked) {
+        lines[known - points.begin()] = line;
       }
+    }
     if (points.empty()) return;
     PointWhiskers whiskers(mesh_, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -352,11 +357,16 @@ class Imprinter {
       const double size = size_(mesh_.points[points[i]]);
       const auto ends =
           whiskers.ends(i, normal, size, [&](const Vec3& x) { return places_.find(x, editor_).at; });
-      if (!ends)
-        throw InputError(fmt::format(
-            "{} at {} is nearer than a thousandth of the size, {:g}, to a curve or another point: expected "
-            "them farther apart, or at the same place",
-            labels[i], show_point(mesh_.points[points[i]]), size));
+      if (!ends) {
+        refuse(
+            *lines[i],
+            fmt::format("is nearer than a thousandth of the size, {:g}, to a curve or another point at {}: "
+                        "expected them farther apart, or at the same place",
+                        size, show_point(mesh_.points[points[i]])));
+        std::erase_if(placed,
+                      [&](const Placed& p) { return p.nodes.size() == 1 && p.nodes[0] == points[i]; });
+        continue;
+      }
       for (const Vec3& end : *ends) draw(whisker_, points[i], node_at(end));
     }
   }

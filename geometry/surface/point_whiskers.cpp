@@ -15,6 +15,17 @@ constexpr double kWhiskerShorter = 0.7, kShortestWhisker = 1e-3;
 constexpr int kWhiskerPlaces = 6;
 constexpr double kWhiskerRoom = 0.6;
 
+/// Whether a whisker from x, at its place next to a segment, keeps away from that: it crosses none.
+bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
+  const Vec3 u = end - x, w = b - a, from = x - a;
+  const double uu = dot(u, u), ww = dot(w, w), uw = dot(u, w), area = uu * ww - uw * uw;
+  const auto along = [&](double t) { return std::clamp(dot(a + t * w - x, u) / uu, 0.0, 1.0); };
+  double s = area > 0 ? std::clamp((uw * dot(w, from) - ww * dot(u, from)) / area, 0.0, 1.0) : 0;
+  const double t = ww > 0 ? std::clamp(dot(x + s * u - a, w) / ww, 0.0, 1.0) : 0;
+  s = along(t);
+  return norm(x + s * u - (a + t * w)) >= kWhiskerRoom * s * std::sqrt(uu);
+}
+
 double segment_distance(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
   const double length2 = dot(d, d);
@@ -51,7 +62,19 @@ bool PointWhiskers::has_room(std::size_t point, const std::array<Vec3, 2>& ends)
       const Vec3 along = static_cast<double>(k) / kWhiskerPlaces * (end - x);
       if (distance(point, x + along) < kWhiskerRoom * norm(along)) return false;
     }
-  return true;
+  const Box<Vec3> box = Box<Vec3>::around(ends);
+  bool is_free = std::ranges::all_of(ends, [&](const Vec3& end) {
+    return std::ranges::all_of(taken_, [&](const Segment& s) { return keeps_away(x, end, s[0], s[1]); });
+  });
+  const double limit = 0;
+  tree_.search(
+      limit, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
+      [&](int i) {
+        if (static_cast<std::size_t>(i) == first_point_ + point) return;
+        for (const Vec3& end : ends)
+          is_free = is_free && keeps_away(x, end, segments_[i][0], segments_[i][1]);
+      });
+  return is_free;
 }
 
 std::optional<std::array<Vec3, 2>> PointWhiskers::ends(std::size_t point, const Vec3& normal, double size,

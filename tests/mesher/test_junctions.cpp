@@ -293,6 +293,21 @@ TEST(Junctions, CracksComeApart) {
   EXPECT_EQ(of_kink.size(), kink.size());  // one closed chain
 }
 
+/// One edge between two tips could not open, whatever else ends there.
+TEST(Junctions, CracksShorterThanTheSizeComeApart) {
+  const MeshResult result = mesh(ModelMaker()
+                                     .rectangle({0, 0}, {1, 1}, "plate")
+                                     .curve(make_segment({0.2, 0.5}, {0.5, 0.5}), "line")
+                                     .curve(make_segment({0.5, 0.5}, {0.53, 0.54}), "crack", true)
+                                     .problem(0.1),
+                                 "DBCO");
+  expect_sound(result);
+  const auto lips = lines_named(result.mesh, "crack");
+  EXPECT_GE(lips.size(), 4u);
+  EXPECT_NEAR(length(result.mesh, lips), 2 * 0.05, 1e-12);
+  EXPECT_NEAR(areas(result.mesh).at("plate"), 1, 1e-12);
+}
+
 /// Small corners and short pieces of curves: the mesh is finer there, and says so.
 TEST(Junctions, SizesFollowShortPieces) {
   ModelMaker maker;

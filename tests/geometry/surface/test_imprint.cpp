@@ -157,6 +157,23 @@ TEST(Imprint, LinesOfAFileThatLieElsewhereAreNamed) {
   EXPECT_NE(model.warnings.back().text.find("the line 'far' is left out: it is 1 away"), std::string::npos);
 }
 
+TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
+  const LooseLine line = asked({{0.1, 0.15, 0}, {0.9, 0.75, 0}}, "line");
+  LooseLine near = asked({{0.5, 0.45 + 1e-5, 0}}, "near"), far = asked({{0.2, 0.8, 0}}, "far");
+  near.is_asked = far.is_asked = false;
+  const SurfaceModel model = imprinted(square(), {line, near, far});
+  ASSERT_EQ(model.fine.named_points.size(), 1u);
+  EXPECT_EQ(model.fine.named_points[0].entity.names[0], "far");
+  EXPECT_LT(corner_at(model, near.points[0]), 0);
+  EXPECT_GE(corner_at(model, far.points[0]), 0);
+  EXPECT_NE(model.warnings.back().text.find("the line 'near' is left out: it is nearer than a thousandth"),
+            std::string::npos);
+  SurfaceModel twice = square();
+  twice.loose = {line, near, near};
+  twice.loose[2].is_asked = true;
+  expect_input_error([&] { imprint(twice, size_of_tenth); }, {"the line 'near' is nearer than a thousandth"});
+}
+
 TEST(Imprint, ALineThatLeavesTheSurfaceIsRefused) {
   // A ring: its hole is between the ends.
   SurfaceModel ring = grid_surface({40, 4, true}, [](double u, double v) {
