@@ -1,12 +1,15 @@
 #include "geometry/surface/mirror_match.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/box_tree.h"
 #include "base/cancel.h"
@@ -121,7 +124,7 @@ struct MirrorMatcher::Tables {
   Off compare(int f, int g, const SymmetryPlanes& planes, int plane) const;
   bool looks_away(int f, int g, const SymmetryPlanes& planes, int plane) const;
   void match_face(int f, const SymmetryPlanes& planes, int plane, MirrorMatch& match, Off& off) const;
-  std::string no_image(int f, const SymmetryPlanes& planes, int plane) const;
+  std::string no_image(int f, const SymmetryPlanes& planes, int plane, const Off& off) const;
   std::string match_curves(const SymmetryPlanes& planes, int plane, MirrorMatch& match) const;
   Off match_curve(int c, const SymmetryPlanes& planes, int plane, const std::vector<char>& may_be,
                   std::vector<int>& found) const;
@@ -253,29 +256,27 @@ void MirrorMatcher::Tables::match_face(int f, const SymmetryPlanes& planes, int 
   }
 }
 
-/// Says why.
-std::string MirrorMatcher::Tables::no_image(int f, const SymmetryPlanes& planes, int plane) const {
-  double worst = 0;
-  Vec3 at;
-  std::vector<int> hit;
+/// Says why. `off`: from the face that is most like it, if there is one.
+std::string MirrorMatcher::Tables::no_image(int f, const SymmetryPlanes& planes, int plane,
+                                            const Off& off) const {
+  Off worst;
+  std::set<int> hit;
   for (const int p : faces[f].points) {
     const Vec3 x = planes.reflect(plane, mesh.points[p]);
     const NearestTriangle::Found found = all.find(x);
-    if (found.distance > worst) worst = found.distance, at = x;
+    hit.insert(mesh.regions[mesh.triangle_region[found.triangle]].tag);
+    if (found.distance > std::max(worst.distance, tolerance() + bends[found.triangle]))
+      worst = {found.distance, x, false};
   }
-  if (worst > tolerance())
-    return fmt::format("the mirror image of {} is {:.3g} away from the model at {}: expected at most {:.3g}",
-                       label("face", mesh.regions[f]), worst, show_point(at), tolerance());
-  for (const int t : faces[f].triangles) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3 middle = (1.0 / 3) * (mesh.points[a] + mesh.points[b] + mesh.points[c]);
-    const int other = mesh.triangle_region[all.find(planes.reflect(plane, middle)).triangle];
-    if (std::ranges::find(hit, other) == hit.end()) hit.push_back(other);
-  }
-  std::string tags;
-  for (const int g : hit) tags += fmt::format(" {}", mesh.regions[g].tag);
-  return fmt::format("the mirror image of {} is no face of the model: it lies on parts of faces{}",
-                     label("face", mesh.regions[f]), tags);
+  const std::string face = label("face", mesh.regions[f]);
+  if (worst.is_on && off.distance > 0) worst = off;
+  if (!worst.is_on && worst.distance > 0)
+    return fmt::format("the mirror image of {} is {:.3g} away from {} at {}: expected at most {:.3g}", face,
+                       worst.distance, worst.at == off.at ? "any face like it" : "the model",
+                       show_point(worst.at), tolerance());
+  return fmt::format(
+      "no face of the model has the outline of the mirror image of {}, which lies on face(s) {}", face,
+      fmt::join(hit, ", "));
 }
 
 /// How far the image of a curve is from those that it may be, and which of them it lies on.
@@ -376,7 +377,8 @@ MirrorMatch MirrorMatcher::match(const SymmetryPlanes& planes, int plane) const 
     if (match.face[f] >= 0 && match.face[match.face[f]] == f) continue;
     if (worst < 0 || offs[f].distance > offs[worst].distance) worst = f;
   }
-  match.failure = worst < 0 ? t.match_curves(planes, plane, match) : t.no_image(worst, planes, plane);
+  match.failure =
+      worst < 0 ? t.match_curves(planes, plane, match) : t.no_image(worst, planes, plane, offs[worst]);
   return match;
 }
 

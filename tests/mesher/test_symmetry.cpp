@@ -118,5 +118,31 @@ TEST(Symmetry, ModelsThatAreNotSymmetricAreRefused) {
           {"s 1: expected one plane", "perpendicular"});
 }
 
+TEST(Symmetry, NumbersOfEdgesThatWouldDoAreTold) {
+  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
+  model.loops[0].region = "plate";
+  model.curves.push_back({make_circle({2, 1}, 0.5), "hole", {}});
+  model.loops.push_back({{static_cast<int>(model.curves.size()) - 1}, "", {}});
+  MeshProblem problem =
+      symmetric_problem(model, 0.1, {{{{2, 1, 0}, {1, 0, 0}}, {{2, 1, 0}, {0, 1, 0}}}, false, "s 1"});
+  for (const int edges : {41, 42}) {
+    problem.divisions = {{"hole", edges}};
+    expect_input_error([&] { mesh(problem); },
+                       {("s 1: " + std::to_string(edges) + " edges cannot divide").c_str(), "'hole'",
+                        "into 4 pieces", "expected 40 or 44"});
+  }
+  problem.divisions = {{"hole", 44}};
+  const MeshResult r = mesh(problem);
+  EXPECT_TRUE(r.soundness.sound());
+  expect_mirrored(r.mesh, about_x2);
+}
+
+TEST(Symmetry, GridsAroundHolesAreRefusedForTheHoles) {
+  MeshProblem problem = symmetric_problem(symmetric_plate(), 0.1, {{{{2, 0, 0}, {1, 0, 0}}}});
+  problem.mapped = {{"plate"}, false, "m 1"};
+  expect_input_error([&] { mesh(problem); },
+                     {"'plate' cannot be a grid: something lies inside of it: expected one outline"});
+}
+
 }  // namespace
 }  // namespace delquad
