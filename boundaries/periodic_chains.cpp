@@ -51,7 +51,7 @@ std::pair<double, double> nearest_place(const Mesh& fine, const CurveChain& chai
 }
 
 Vec3 middle_of(const Mesh& fine, const CurveChain& chain) {
-  return fine.points[chain.points[chain.points.size() / 2]];
+  return fine_point_at(fine, chain, 0.5 * static_cast<double>(chain.points.size() - 1));
 }
 
 /// Finds images of pieces.

@@ -101,7 +101,8 @@ void define_mesh(py::module_& m) {
           "curves", [](const Mesh& mesh) { return list_of(mesh.curves); }, "(tag, names)")
       .def_property_readonly(
           "regions", [](const Mesh& mesh) { return list_of(mesh.regions); }, "(tag, names)")
-      .def_property_readonly("periodic", &periodic_of, "(index into curves, that of the master, (n, 2) nodes)")
+      .def_property_readonly("periodic", &periodic_of,
+                             "(index into curves, that of the master, (n, 2) nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,
                              "(index into regions, that of the master, (n, 2) nodes)")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")

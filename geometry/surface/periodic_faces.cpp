@@ -16,9 +16,14 @@
 namespace delquad {
 namespace {
 
-/// Two triangulations of a surface that bends by an angle along a side are this part of the two apart, at
-/// most.
-constexpr double kChordPart = 0.5;
+/// Chords of a surface that bends by an angle from triangle to triangle are off by this part of angle times
+/// side, at most: a sixth by the circle around an equilateral triangle, over the distance of two middles.
+constexpr double kChordPart = 0.3;
+
+/// How far something is, and how far it may be.
+struct FaceGap {
+  double distance, allowed;
+};
 
 /// The triangles of a face.
 class PairedFace {
@@ -57,13 +62,13 @@ class PairedFace {
     return sum;
   }
   NearestTriangle::Found find(const Vec3& x) const { return nearest_->find(x); }
-  /// How far x is from the face, beyond what chords explain.
-  double distance(const Vec3& x) const {
-    if (model_.projector) return norm(model_.projector->to_face(face_, x) - x);
+  /// On triangulations chords explain some distance.
+  FaceGap gap(const Vec3& x, double tolerance) const {
+    if (model_.projector) return {norm(model_.projector->to_face(face_, x) - x), tolerance};
     const NearestTriangle::Found found = nearest_->find(x);
     double chord = 0;
     for (const int v : triangles_[found.triangle]) chord = std::max(chord, bend_.at(v));
-    return std::max(0.0, found.distance - chord);
+    return {found.distance, tolerance + chord};
   }
 
  private:
@@ -110,16 +115,18 @@ std::vector<PairedFace> paired_faces(const SurfaceModel& model, const std::vecto
 void check_apart(const Mesh& fine, const PairedFace& a, const Motion& motion, const PairedFace& b,
                  const PeriodicPair& pair) {
   const double tolerance = kPeriodicTolerance * diagonal(fine);
-  double most = tolerance;
-  int worst = -1;
-  for (const int v : a.points())
-    if (const double d = b.distance(motion(fine.points[v])); d > most) most = d, worst = v;
-  if (worst < 0) return;
-  const Vec3& x = fine.points[worst];
-  throw InputError(fmt::format(
-      "{}: the faces do not match: the image of face {} at ({:.10g}, {:.10g}, {:.10g}) is {:.3g} "
-      "away from face {}, and {:.3g} is the most there may be",
-      pair.where, fine.regions[a.face()].tag, x.x, x.y, x.z, most, fine.regions[b.face()].tag, tolerance));
+  FaceGap worst{0, 0};
+  Vec3 at;
+  for (const int v : a.points()) {
+    const FaceGap gap = b.gap(motion(fine.points[v]), tolerance);
+    if (gap.distance - gap.allowed > worst.distance - worst.allowed) worst = gap, at = fine.points[v];
+  }
+  if (!(worst.distance > worst.allowed)) return;
+  throw InputError(
+      fmt::format("{}: the faces do not match: the image of face {} at ({:.10g}, {:.10g}, {:.10g}) is {:.3g} "
+                  "away from face {}, and {:.3g} is the most there may be",
+                  pair.where, fine.regions[a.face()].tag, at.x, at.y, at.z, worst.distance,
+                  fine.regions[b.face()].tag, worst.allowed));
 }
 
 }  // namespace

@@ -128,9 +128,9 @@ class CornerMatcher {
         is_forward ? std::pair(pair.of.from, pair.of.to) : std::pair(pair.of.to, pair.of.from);
     const Vec3& at = fine_.points[v];
     throw InputError(fmt::format(
-        "{}: the sides do not match: a curve of '{}' ends at ({:.10g}, {:.10g}, {:.10g}), and the "
-        "image of that, ({:.10g}, {:.10g}, {:.10g}), is {:.3g} away from the curves of '{}'",
-        pair.of.where, from, at.x, at.y, at.z, x.x, x.y, x.z, off, to));
+        "{}: the sides do not match: the image of ({:.10g}, {:.10g}, {:.10g}) on a curve of '{}', "
+        "({:.10g}, {:.10g}, {:.10g}), is {:.3g} away from the curves of '{}'",
+        pair.of.where, at.x, at.y, at.z, from, x.x, x.y, x.z, off, to));
   }
 
   SurfaceModel& model_;

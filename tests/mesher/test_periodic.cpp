@@ -152,7 +152,8 @@ TEST(Periodic, SurfacesMatch) {
   EXPECT_EQ(images.size(), masters.size());
   EXPECT_GT(images.size(), 10u);
   problem.periodic[0].motion.angle = 1.5;
-  expect_input_error([&] { mesh(problem); }, {"p: the sides do not match: curve 1"});
+  expect_input_error([&] { mesh(problem); },
+                     {"p: the sides do not match: the image of (", "away from the curves of 'curve_2'"});
 }
 
 TEST(Periodic, IsWritten) {

@@ -250,6 +250,23 @@ TEST(PeriodicFaces, FacesOfSheetsRunTheSameWay) {
   EXPECT_FALSE(r.mesh.periodic_faces[0].is_reversed);
 }
 
+TEST(PeriodicFaces, FacesThatAreCutOpenMatch) {
+  const Mesh can = testing_support::can(24, 4);
+  Mesh two = can;
+  const int n = static_cast<int>(can.points.size()), n_faces = static_cast<int>(can.regions.size());
+  for (const Vec3& p : can.points) two.points.push_back(p + Vec3{3, 0, 0});
+  for (const auto& [a, b, c] : can.triangles) two.triangles.push_back({a + n, b + n, c + n});
+  for (const int region : can.triangle_region) two.triangle_region.push_back(region + n_faces);
+  for (int f = 0; f < n_faces; ++f) two.regions.push_back({n_faces + f + 1, {}});
+  for (const char* word : {"DB", "DBCO", "DLBCO"}) {
+    const MeshResult r =
+        mesh(problem_of(TriangleModel{two}, 0.21, {{"region_1", "region_4", {{3, 0, 0}}, "p"}}), word);
+    EXPECT_TRUE(r.mesh.triangles.empty());
+    expect_images(r.mesh, 1);
+    EXPECT_FALSE(r.mesh.periodic_faces[0].is_reversed);
+  }
+}
+
 TEST(PeriodicFaces, CadFacesMatch) {
   std::ostringstream file;
   try {
