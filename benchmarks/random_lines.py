@@ -16,9 +16,9 @@ sound    exit code 0, and in the check: quads alone, corners turned the right wa
 paths    all segments covered by edges from end to end, all points nodes (planar: to 1e-9; on surfaces: lines of that name from end to end), cracks
          apart but for their tips
 refused  exit code 2; reasons are listed below the table, and so is whatever failed
-eta      mean over the sets, of the mesh and of one without the lines; away: of the quads that touch neither line nor point, seen from the file;
+eta      mean over the sets, of the mesh, of one without the lines, and of a disc of the square's area; away: of the quads that touch neither line nor point;
          bound: what is left of 1 by corners between lines, and by the fewest irregular vertices that the faces must have, if all else were squares
-time     processor seconds from model to mesh on one thread by those without: mean and largest
+time     processor seconds from model to mesh on one thread by those without: mean and largest; by disc: by those of the disc
 """
 
 import argparse
@@ -647,6 +647,10 @@ class Table:
         model.write_text(toml_surface(base, []) if base else toml_square([], None))
         plain = Run(arguments.delquad, model, size, arguments.limit)
         least_angle = math.radians(arguments.least_angle)
+        disc = None
+        if not base:
+            model.write_text(f"[[loop]]\ncircle = {{ centre = [0, 0], radius = {math.sqrt(1 / math.pi)!r} }}\n")
+            disc = Run(arguments.delquad, model, size, arguments.limit)
         n_open = len(open_edges(plain.mesh)) if base else 0
         near = 1e-3 * 2 * math.sqrt(3) if kind == "sphere" else 0.2
         for k in range(arguments.sets):
@@ -701,15 +705,18 @@ class Table:
                 text = model.read_text() if run.code else ""
                 (arguments.keep / f"{kind}_{self.size:g}_{k}.toml").write_text(
                     text or (toml_surface(base, features) if base else toml_regions(polygons) if kind == "regions" else toml_square(features, is_crack)))
-        self.print(size, plain.eta)
+        self.print(size, plain, disc)
 
-    def print(self, size, plain_eta):
+    def print(self, size, plain, disc):
         n = max(1, len(self.rows))
         mean = [math.fsum(x for x in column if not math.isnan(x)) / n for column in zip(*self.rows)] or [math.nan] * 5
         worst = max((row[3] for row in self.rows), default=math.nan)
-        away = f"{mean[1]:.3f} | {mean[2]:.3f}" if mean[1] else " | "
-        print(f"| {self.kind} | {size:g} | {self.sets} | {self.sound} | {self.paths} | {self.refused} | {mean[0]:.3f} | {plain_eta:.3f} | {away} | "
-              f"{mean[4]:.2f} | {mean[3]:.2f} | {worst:.2f} |", flush=True)
+        planar = ["", "", "", ""]
+        if disc:
+            planar = [f"{x:.3f}" for x in (disc.eta, mean[1], mean[2])] + [f"{mean[3] * plain.seconds / disc.seconds:.2f}"]
+        cells = [self.kind, f"{size:g}", self.sets, self.sound, self.paths, self.refused, f"{mean[0]:.3f}", f"{plain.eta:.3f}", *planar[:3],
+                 f"{mean[4]:.2f}", f"{mean[3]:.2f}", f"{worst:.2f}", planar[3]]
+        print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
     def print_failures(self):
         for text, count in self.reasons.most_common():
@@ -734,7 +741,7 @@ def main():
     arguments = parser.parse_args()
     if not arguments.delquad.exists():
         return print(f"skipped: {arguments.delquad} is not built")
-    header = ["kind", "size", "sets", "sound", "paths", "refused", "eta", "without", "away", "bound", "quads", "time", "at most"]
+    header = ["kind", "size", "sets", "sound", "paths", "refused", "eta", "without", "disc", "away", "bound", "quads", "time", "at most", "by disc"]
     print("| " + " | ".join(header) + " |\n|---|" + "---:|" * (len(header) - 1), flush=True)
     tables = []
     with tempfile.TemporaryDirectory() as folder:

@@ -8,6 +8,7 @@
 
 #include "base/predicates.h"
 #include "delquad/error.h"
+#include "geometry/planar/planar_model.h"
 #include "mesh/constrained_delaunay.h"
 #include "tests/fields/backgrounds.h"
 
@@ -108,6 +109,17 @@ TEST(BackgroundMesh, HasFewSmallAnglesAndTriangles) {
     const double sine = 2 * area(tri, static_cast<int>(t)) * shortest / product;
     EXPECT_GE(sine, std::sqrt(0.125) - 1e-9);
   }
+}
+
+/// The sides of the slits are 1e-6 of their edges apart; that is no reason for small triangles.
+TEST(BackgroundMesh, IsNoFinerWhereLinesCross) {
+  PlanarModel model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+  model.curves.push_back({make_segment({0.2, 0.3}, {0.8, 0.57}), "", ""});
+  model.curves.push_back({make_segment({0.2, 0.6}, {0.8, 0.27}), "", ""});
+  const PlanarDomain domain = make_domain(model, [](const Vec3&) { return 0.02; });
+  ASSERT_EQ(domain.patches.size(), 1u);
+  const BackgroundMesh background(domain.patches);
+  EXPECT_LT(background.triangles().triangles.size(), 3 * domain.boundary.lines.size());
 }
 
 TEST(BackgroundMesh, IsTheSameTwice) {
