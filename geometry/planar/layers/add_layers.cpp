@@ -166,7 +166,7 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   const BoundaryGraph graph(domain);
   std::vector<PatchLayers> patches = find_patch_layers(domain, specs, of_curves, graph, heights);
   check_number(patches, specs, max_quads);
-  LayerWalls walls(domain, patches, specs, graph);
+  LayerWalls walls(domain, patches, specs);
   fit(domain, specs, patches, walls);
   walls.count_edges();
   std::vector<int> images(domain.patches.size(), 0);

@@ -18,8 +18,8 @@ constexpr double kSameScale = 1e-9;
 }  // namespace
 
 LayerWalls::LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches,
-                       std::span<const LayerSpec> specs, const BoundaryGraph& graph)
-    : domain_(domain), patches_(patches), specs_(specs), graph_(graph) {
+                       std::span<const LayerSpec> specs)
+    : domain_(domain), patches_(patches), specs_(specs) {
   list_walls();
   pair_walls();
   group_ends();

@@ -28,8 +28,7 @@ class LayerWalls {
  public:
   /// Tells walls apart, and makes the ends of layers alike that meet on one, or on periodic ones. Throws
   /// InputError where these differ in number, or a periodic wall has none.
-  LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs,
-             const BoundaryGraph& graph);
+  LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs);
 
   /// Gives ends that are alike the least of their scales. Returns the patches of which some became less.
   std::vector<std::size_t> lower_alike();
@@ -95,7 +94,6 @@ class LayerWalls {
   PlanarDomain& domain_;
   std::vector<PatchLayers>& patches_;
   std::span<const LayerSpec> specs_;
-  const BoundaryGraph& graph_;
   std::vector<Wall> walls_;
   std::vector<std::vector<ChainEnd>> groups_;  ///< of ends that are alike
 };
