@@ -91,6 +91,11 @@ void print_parts(const ModelInfo& info) {
     fmt::print("  {:>4} {:>10.4g} {:>10.4g}  {:<20} {:<28} {}\n", mesh.regions[f].tag, face.area, face.width,
                topology(face), list_tags(mesh.curves, face.curves), fmt::join(mesh.regions[f].names, ", "));
   });
+  const auto boxes = boxes_of_faces(mesh);
+  fmt::print("\nboxes of faces\n");
+  print_rows(boxes.size(), [&](std::size_t f) {
+    fmt::print("  {:>4} {} to {}\n", mesh.regions[f].tag, show_point(boxes[f][0]), show_point(boxes[f][1]));
+  });
   fmt::print("\ncurves{:>11} {:>10} {:>8}  {}\n", "length", "kind", "closed", "faces");
   print_rows(r.curves.size(), [&](std::size_t c) {
     const CurveReport& curve = r.curves[c];

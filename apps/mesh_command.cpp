@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -63,6 +64,8 @@ NamedSize named_size(const std::string& text) {
 
 void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
   if (arguments.mapped.empty()) return;
+  if (std::ranges::find(arguments.mapped, "") != arguments.mapped.end())
+    throw InputError("--mapped '': expected the name of a region, or auto");
   mapped = {arguments.mapped, false, "--mapped"};
   mapped.automatic = std::erase(mapped.names, "auto") > 0;
 }

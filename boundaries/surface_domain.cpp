@@ -60,6 +60,21 @@ void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const C
                         fine.curves[curves.chains[c].curve].tag));
 }
 
+/// Tells of divided curves that lost nodes to caps: those near the tip of a cone.
+void warn_of_lost_nodes(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
+                        const std::vector<CurveDivision>& divisions, SurfaceDomain& domain) {
+  for (std::size_t c = 0; c < curves.chains.size(); ++c) {
+    const int exact = wanted.demands[c].exact, left = static_cast<int>(domain.nodes.on_curve[c].size()) - 1;
+    if (exact == 0 || left == exact) continue;
+    domain.warnings.push_back(
+        {"divided curves with fewer edges than asked for", static_cast<double>(exact - left),
+         fmt::format(
+             "{}: curve {} gets {} edges, not {}: it ends at a sharp tip, around which two quads take "
+             "the place of its last nodes",
+             divisions.front().where, fine.curves[curves.chains[c].curve].tag, left, exact)});
+  }
+}
+
 /// Nodes of a patch where two curves meet that have it on one side only.
 std::set<int> corners_between_curves(int p, const std::vector<FaceCorner>& corners,
                                      const std::vector<CurveDemand>& demands, const SurfaceNodes& nodes) {
@@ -232,6 +247,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
       throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(fine, patch.map), error.what()));
     }
   }
+  if (!divisions.empty()) warn_of_lost_nodes(fine, curves, wanted, divisions, domain);
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
   domain.boundary.periodic = periodic_nodes(curves.chains, curves.images.pairs, domain.nodes);
   domain.boundary.periodic_faces = periodic_faces(curves.images.faces, domain.nodes);

@@ -53,6 +53,7 @@ void read_options(const TomlTable& table, const OptionGroup& group, Options& opt
 }
 
 SizeSource read_source(const TomlTable& table) {
+  table.require_known(source_keys());
   const Vec3 at = table.space_point("at");
   SizeSource source{at,
                     table.has("to") ? table.space_point("to") : at,
@@ -67,6 +68,7 @@ SizeSource read_source(const TomlTable& table) {
 }
 
 NamedSize read_named_size(const TomlTable& table) {
+  table.require_known(named_size_keys());
   NamedSize named{.name = table.text("name"), .where = table.where()};
   if (table.has("size")) named.size = table.positive_number("size");
   named.reach = number_at_least(table, "reach", 0, 0);
@@ -81,6 +83,7 @@ NamedSize read_named_size(const TomlTable& table) {
 constexpr long long kMostDivided = 100'000'000;
 
 CurveDivision read_division(const TomlTable& table) {
+  table.require_known(division_keys());
   CurveDivision division{.name = table.text("name"), .where = table.where()};
   division.edges = static_cast<int>(integer_between(table, "edges", 1, kMostDivided, 1));
   for (const auto& [key, value] :
@@ -118,6 +121,7 @@ MappedSpec read_mapped(const TomlTable& table) {
 }
 
 LayerSpec read_layer(const TomlTable& table) {
+  table.require_known(layer_keys());
   LayerSpec layer;
   layer.where = table.where();
   layer.on = table.kind("on") == TomlKind::kText ? std::vector{table.text("on")} : table.texts("on");
@@ -126,6 +130,9 @@ LayerSpec read_layer(const TomlTable& table) {
   layer.number = static_cast<int>(integer_between(table, "number", 1, 10000, 0));
   if (table.has("thickness")) layer.thickness = table.positive_number("thickness");
   layer.fan = table.number("fan", layer.fan);
+  if (table.has("into"))
+    layer.into =
+        table.kind("into") == TomlKind::kText ? std::vector{table.text("into")} : table.texts("into");
   table.finish(layer_keys());
   layer_heights(layer);
   return layer;
@@ -159,6 +166,7 @@ SizeText read_size(const TomlTable& table) {
     return size;
   }
   const TomlTable fields = table.table("size");
+  fields.require_known(size_keys());
   if (fields.has("base")) size.base = fields.expression("base");
   for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
   for (const TomlTable& named : fields.tables("on")) size.named.push_back(read_named_size(named));
@@ -291,6 +299,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (table.has("case"))
     throw InputError(table.where("case") +
                      ": this is an experiment with cases of its own: run it with 'delquad run'");
+  table.require_known(case_keys());
   if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);

@@ -233,7 +233,8 @@ const TomlKeys& size_keys() {
 
 const TomlKeys& layer_keys() {
   static const TomlKeys keys = {
-      {"on", "names of boundary curves", kTextOrTexts, nullptr, false, true},
+      {"on", "names of curves that bound regions", kTextOrTexts, nullptr, false, true},
+      {"into", "names of the regions that get them; absent: on both sides of the curves", kTextOrTexts},
       {"first", "height of the quads at the curve", kPositive, nullptr, false, true},
       {"growth", "height of a quad by that of the one below", at_least("number", 1)},
       {"number", "quads that stand on each other", between("integer", 1, 10000)},

@@ -33,7 +33,6 @@ std::string only_key(const TomlTable& table, const std::vector<std::string>& cho
     found = key;
   }
   if (!found.empty()) return found;
-  table.finish();  // a misspelt shape is the likely reason
   throw InputError(table.where() + ": no shape: expected one of " + list);
 }
 
@@ -49,6 +48,7 @@ std::vector<PlacedCurve> polygon(const std::vector<Vec2>& corners) {
 std::vector<PlacedCurve> read_closed_shape(const TomlTable& table, const std::string& key) {
   if (key == "circle") {
     const TomlTable circle = table.table(key);
+    circle.require_known(circle_keys());
     const Vec2 centre = circle.point("centre");
     const double radius = circle.positive_number("radius");
     circle.finish(circle_keys());
@@ -105,6 +105,7 @@ class ModelReader {
   explicit ModelReader(std::string source) { model_.source = std::move(source); }
 
   void read_curve(const TomlTable& table) {
+    table.require_known(curve_keys());
     const std::string name = table.text("name");
     const std::string boundary_key = table.has("boundary") ? "boundary" : "name";
     const std::string boundary = group_name(table, boundary_key, table.text(boundary_key));
@@ -117,6 +118,7 @@ class ModelReader {
   }
 
   void read_embedded(const TomlTable& table) {
+    table.require_known(embed_keys());
     const std::string name = group_name(table, "name", table.text("name", ""));
     const bool is_crack = table.flag("crack", false);
     if (table.has("point")) {
@@ -131,6 +133,7 @@ class ModelReader {
   }
 
   void read_loop(const TomlTable& table) {
+    table.require_known(loop_keys());
     const std::string key = only_key(table, {"curves", "rectangle", "polygon", "circle"});
     const Inside inside = read_inside(table);
     if (key == "curves") {
@@ -143,6 +146,7 @@ class ModelReader {
   }
 
   void read_pattern(const TomlTable& table) {
+    table.require_known(pattern_keys());
     const auto shape = read_closed_shape(table, only_key(table, {"rectangle", "polygon", "circle"}));
     const auto names = read_boundary_names(table, shape.size());
     const Inside inside = read_inside(table);
@@ -179,6 +183,8 @@ class ModelReader {
       return make_segment(points[0], points[1]);
     }
     const TomlTable shape = table.table(key);
+    const TomlKeys& keys = key == "arc" ? arc_keys() : key == "circle" ? circle_keys() : expression_keys();
+    shape.require_known(keys);
     std::shared_ptr<const Curve> curve;
     if (key == "arc") {
       curve = make_arc(shape.point("centre"), shape.positive_number("radius"), radians(shape.number("from")),
@@ -189,7 +195,7 @@ class ModelReader {
       curve = make_expression_curve(shape.expression("x"), shape.expression("y"), shape.number("from"),
                                     shape.number("to"));
     }
-    shape.finish(key == "arc" ? arc_keys() : key == "circle" ? circle_keys() : expression_keys());
+    shape.finish(keys);
     return curve;
   }
 
@@ -241,6 +247,7 @@ bool has_planar_model(const TomlTable& table) {
 std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table) {
   std::vector<EmbeddedLine> lines;
   for (const TomlTable& embedded : table.tables("embed")) {
+    embedded.require_known(embed_keys());
     EmbeddedLine line{{}, group_name(embedded, "name", embedded.text("name", "")), embedded.where()};
     const std::string key = only_key(embedded, {"polyline", "point"});
     if (key == "point")

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/activity.h"
+#include "base/box.h"
 #include "base/box_tree.h"
 #include "cases/problem.h"
 #include "delquad/error.h"
@@ -86,12 +87,13 @@ Json tags(const std::vector<Entity>& entities, const std::vector<int>& indices) 
   return json;
 }
 
-Json face_json(const ModelInfo& info, std::size_t f) {
+Json face_json(const ModelInfo& info, std::size_t f, const std::array<Vec3, 2>& box) {
   const FaceReport& face = info.report.faces[f];
   const Mesh& mesh = info.model.fine;
   return {{"tag", mesh.regions[f].tag},
           {"names", mesh.regions[f].names},
           {"area", face.area},
+          {"box", {point_json(box[0]), point_json(box[1])}},
           {"topology", topology(face)},
           {"loops", face.loops},
           {"handles", face.handles},
@@ -148,6 +150,22 @@ std::vector<CornerReport> sharp_corners(const ModelReport& report) {
   return sharp;
 }
 
+std::vector<std::array<Vec3, 2>> boxes_of_faces(const Mesh& mesh) {
+  std::vector<std::vector<Vec3>> corners(mesh.regions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t]) corners[mesh.triangle_region[t]].push_back(mesh.points[v]);
+  std::vector<std::array<Vec3, 2>> boxes;
+  for (const std::vector<Vec3>& points : corners) {
+    if (points.empty()) {
+      boxes.push_back({});  // a face that was left out
+      continue;
+    }
+    const Box<Vec3> box = Box<Vec3>::around(points);
+    boxes.push_back({box.low, box.high});
+  }
+  return boxes;
+}
+
 std::string info_record(const ModelInfo& info, double size) {
   const ModelReport& report = info.report;
   const Mesh& mesh = info.model.fine;
@@ -166,7 +184,8 @@ std::string info_record(const ModelInfo& info, double size) {
                               {"closed", shell.closed},
                               {"euler_characteristic", shell.euler_characteristic}});
   json["faces"] = Json::array();
-  for (std::size_t f = 0; f < report.faces.size(); ++f) json["faces"].push_back(face_json(info, f));
+  const auto boxes = boxes_of_faces(mesh);
+  for (std::size_t f = 0; f < report.faces.size(); ++f) json["faces"].push_back(face_json(info, f, boxes[f]));
   json["curves"] = Json::array();
   for (std::size_t c = 0; c < report.curves.size(); ++c) json["curves"].push_back(curve_json(info, c));
   json["sharp_corners"] = Json::array();

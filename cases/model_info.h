@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ SmallFeatures smaller_than(const ModelReport& report, double size);
 
 /// Corners below 30 degrees, the sharpest first. A quad in a corner of angle a has at best an eta of a / 90.
 std::vector<CornerReport> sharp_corners(const ModelReport& report);
+
+/// The bounding box of each face: its lowest and highest corner.
+std::vector<std::array<Vec3, 2>> boxes_of_faces(const Mesh& mesh);
 
 /// The report as JSON; `size` 0: not given.
 std::string info_record(const ModelInfo& info, double size);

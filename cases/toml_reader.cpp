@@ -364,10 +364,9 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
   return TomlTable(std::move(data));
 }
 
-void TomlTable::finish() const {
+void TomlTable::require_among(const std::vector<std::string>& known) const {
   for (const std::string& name : data_->keys()) {
-    if (data_->asked.contains(name)) continue;
-    const std::vector<std::string> known(data_->asked.begin(), data_->asked.end());
+    if (std::ranges::find(known, name) != known.end()) continue;
     const auto key = data_->table->find(name);
     std::string place = data_->file.string() + ":";
     if (key != data_->table->end())
@@ -380,6 +379,15 @@ void TomlTable::finish() const {
     for (const std::string& other : known) message += " " + other;
     throw InputError(message);
   }
+}
+
+void TomlTable::finish() const { require_among({data_->asked.begin(), data_->asked.end()}); }
+
+void TomlTable::require_known(const TomlKeys& keys) const {
+  std::vector<std::string> known;
+  for (const TomlKey& key : keys) known.push_back(key.name);
+  std::ranges::sort(known);
+  require_among(known);
 }
 
 void TomlTable::finish(const TomlKeys& keys) const {

@@ -75,11 +75,16 @@ class TomlTable {
 
   /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
   void finish() const;
+  /// Throws InputError for a key that is present and none of these, suggesting the nearest of them: to be
+  /// called first, before the key that was meant is missed.
+  void require_known(const TomlKeys& keys) const;
   /// The same for a table with these keys; a std::logic_error when another one was asked for, so that the
   /// list is what is read.
   void finish(const TomlKeys& keys) const;
 
  private:
+  void require_among(const std::vector<std::string>& known) const;
+
   struct Data;
   explicit TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
   std::shared_ptr<Data> data_;

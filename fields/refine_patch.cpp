@@ -130,6 +130,7 @@ std::vector<Cdt::Vertex_handle> insert_boundary(Cdt& cdt, const PatchBoundary& p
 }
 
 /// Marks the faces of the patch: those to the left of its edges and all that can be reached from there.
+/// Throws InputError where that is so for both sides of an edge, or for none.
 void mark_domain(Cdt& cdt, const PatchBoundary& patch, const std::vector<Cdt::Vertex_handle>& handle) {
   std::vector<Cdt::Face_handle> stack;
   const auto enter = [&](Cdt::Face_handle f) {
@@ -138,18 +139,26 @@ void mark_domain(Cdt& cdt, const PatchBoundary& patch, const std::vector<Cdt::Ve
     stack.push_back(f);
   };
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
-  for (const auto& [a, b] : patch.edges) {
+  const auto face_beside = [&](int a, int b) {
     Cdt::Face_handle f;
     int side = 0;
     cdt.is_edge(handle[a], handle[b], f, side);
-    enter(f->vertex(Cdt::ccw(side)) == handle[a] ? f : f->neighbor(side));
-  }
+    return f->vertex(Cdt::ccw(side)) == handle[a] ? f : f->neighbor(side);
+  };
+  for (const auto& [a, b] : patch.edges) enter(face_beside(a, b));
   while (!stack.empty()) {
     const Cdt::Face_handle f = stack.back();
     stack.pop_back();
     for (int k = 0; k < 3; ++k) {
       if (!f->is_constrained(k)) enter(f->neighbor(k));
     }
+  }
+  for (const auto& [a, b] : patch.edges) {
+    if (face_beside(a, b)->is_in_domain() && !face_beside(b, a)->is_in_domain()) continue;
+    const Vec2 p = patch.points[a], q = patch.points[b];
+    throw InputError(fmt::format(
+        "the boundary edge ({}, {}) - ({}, {}) runs the wrong way round: expected the patch on its left only",
+        p.x, p.y, q.x, q.y));
   }
 }
 

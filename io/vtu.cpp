@@ -76,12 +76,25 @@ struct Cells {
   }
 };
 
-/// Arrays of numbers, which every reader takes: meshio refuses arrays of strings.
-void write_name_arrays(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
-  std::map<std::string, std::vector<std::int32_t>> tags;
+using NumbersOfNames = std::map<std::string, std::vector<std::int32_t>>;
+
+NumbersOfNames tags_of_names(const std::vector<Entity>& entities) {
+  NumbersOfNames tags;
   for (const Entity& entity : entities)
     for (const std::string& name : entity.names) tags[name].push_back(entity.tag);
-  for (const auto& [name, all] : tags)
+  return tags;
+}
+
+NumbersOfNames points_of_names(const Mesh& mesh) {
+  NumbersOfNames points;
+  for (const NamedPoint& named : mesh.named_points)
+    for (const std::string& name : named.entity.names) points[name].push_back(named.point);
+  return points;
+}
+
+/// Arrays of numbers, which every reader takes: meshio refuses arrays of strings.
+void write_name_arrays(TextWriter& out, const char* kind, const NumbersOfNames& numbers) {
+  for (const auto& [name, all] : numbers)
     write_array(out,
                 "type=\"Int32\" Name=\"" + std::string(kind) + ' ' + xml_escaped(name) +
                     "\" NumberOfTuples=\"" + std::to_string(all.size()) + '"',
@@ -95,8 +108,9 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
       << (kLittle ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
   if (!mesh.unit.empty()) out << "    <!-- lengths in " << mesh.unit << " -->\n";
   out << "      <FieldData>\n";
-  write_name_arrays(out, "curve", mesh.curves);
-  write_name_arrays(out, "region", mesh.regions);
+  write_name_arrays(out, "curve", tags_of_names(mesh.curves));
+  write_name_arrays(out, "region", tags_of_names(mesh.regions));
+  write_name_arrays(out, "point", points_of_names(mesh));
   out << "      </FieldData>\n";
   out << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << cells.types.size()
       << "\">\n";

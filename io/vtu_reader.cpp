@@ -374,11 +374,13 @@ class VtuReader {
     return it->second;
   }
 
-  /// "curve NAME" or "region NAME": the tags of those that have it.
+  /// "curve NAME" or "region NAME": the tags of those that have it. "point NAME": their numbers, from 0.
   void read_names(const Tree& data) {
     for (const auto& [tag, array] : data) {
       if (tag != "DataArray") continue;
       const std::string title = attribute(array, "Name");
+      if (const std::string kind = "point "; title.starts_with(kind))
+        for (const double number : read_array(array)) name_point(number, title.substr(kind.size()));
       for (const auto& [kind, dim] : {std::pair{"curve ", 1}, std::pair{"region ", 2}}) {
         if (!title.starts_with(kind)) continue;
         const std::string name = title.substr(std::string_view(kind).size());
@@ -391,14 +393,24 @@ class VtuReader {
     }
   }
 
+  void name_point(double number, const std::string& name) {
+    if (!(number >= 0 && number < static_cast<double>(mesh_.points.size()) && number == std::floor(number)))
+      fail(fmt::format("the name {} is that of point {}: there are {}, counted from 0", shown(name), number,
+                       mesh_.points.size()));
+    const int point = static_cast<int>(number), next = static_cast<int>(mesh_.named_points.size());
+    const auto [it, is_new] = index_.emplace(std::pair{0, point}, next);
+    if (is_new) mesh_.named_points.push_back({point, {next + 1, {}}});
+    mesh_.named_points[it->second].entity.names.push_back(name);
+  }
+
   std::string path_;
   TextScanner in_;
   Tree tree_;
   std::string appended_;
   bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
   Mesh mesh_;
-  std::map<std::pair<int, int>, int> index_;
-  std::optional<std::string> field_;  // the name of the field that is asked for
+  std::map<std::pair<int, int>, int> index_;  // by dimension and tag; of points: number
+  std::optional<std::string> field_;          // the name of the field that is asked for
   bool is_of_points_ = false;
   std::vector<double> values_, triangle_values_, quad_values_;
 };

@@ -41,6 +41,10 @@ void require_readable(const Mesh& mesh, const std::string& where) {
   check_elements(mesh.lines, mesh.line_curve, n, mesh.curves.size(), "line", "curve", where);
   check_elements(mesh.triangles, mesh.triangle_region, n, mesh.regions.size(), "triangle", "region", where);
   check_elements(mesh.quads, mesh.quad_region, n, mesh.regions.size(), "quad", "region", where);
+  for (const NamedPoint& named : mesh.named_points)
+    if (named.point < 0 || named.point >= static_cast<int>(n))
+      throw InputError(
+          fmt::format("{}: a name is that of point {}: there are {}, counted from 0", where, named.point, n));
 }
 
 }  // namespace delquad

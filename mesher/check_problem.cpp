@@ -46,10 +46,6 @@ void check(const GivenMesh& model, const std::string&) {
   require_readable(model.mesh, model.source);
   if (model.mesh.triangles.empty() && model.mesh.quads.empty())
     throw InputError(model.source + ": holds neither triangles nor quads");
-  for (const NamedPoint& named : model.mesh.named_points)
-    if (named.point < 0 || named.point >= static_cast<int>(model.mesh.points.size()))
-      throw InputError(fmt::format("{}: a name is that of point {}: there are {}, counted from 0",
-                                   model.source, named.point, model.mesh.points.size()));
 }
 
 void check(const CadModel& model, const std::string& where) {

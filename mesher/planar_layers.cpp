@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "delquad/error.h"
 #include "mesher/fine_spots.h"
+#include "mesher/named_parts.h"
 
 namespace delquad {
 namespace {
@@ -32,19 +35,35 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
   if (layers.count.least_scale < 1)
     warnings.emplace_back(
         fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
-                    "({:.6g}, {:.6g})",
-                    where, layers.count.least_scale, layers.least_at.x, layers.least_at.y));
+                    "({:.6g}, {:.6g}) on {}",
+                    where, layers.count.least_scale, layers.least_at.x, layers.least_at.y, layers.least_on));
   if (layers.largest_jump > kLargeJump)
     warnings.emplace_back(fmt::format(
-        "{}: edges on the last layer are up to {:.3g} times as long as it is high: more layers, or "
+        "{}: edges on the last layer are up to {:.3g} times as long as it is high, on {}: more layers, or "
         "a smaller size there, would help",
-        where, layers.largest_jump));
+        where, layers.largest_jump, layers.jump_on));
+}
+
+/// Regions that got layers are no grids any more. Throws InputError where they were asked to be.
+void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDomain& domain) {
+  std::erase_if(domain.mapped, [&](const auto& mapped) {
+    if (std::ranges::find(layers.patches, mapped.first) == layers.patches.end()) return false;
+    const Entity& region = domain.boundary.regions[domain.patch_region[mapped.first]];
+    for (const std::string& name : problem.mapped.names)
+      if (!entities_named({region}, "region", name).empty())
+        throw InputError(fmt::format(
+            "{}: layers stand in the grid '{}' ({}), or end on its sides: expected the one or the other, or "
+            "layers 'into' other regions",
+            problem.layers[0].where, name, problem.mapped.where));
+    return true;
+  });
 }
 
 }  // namespace
 
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
   p.layers = add_layers(domain, problem.layers, static_cast<double>(p.max_elements));
+  drop_grids(problem, p.layers, domain);
   p.outlines = std::move(domain.outlines);
   warn_of_layers(problem, p.layers, p.warnings);
   std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size);

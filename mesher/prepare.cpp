@@ -14,6 +14,7 @@
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
+#include "mesher/gap_warning.h"
 #include "mesher/given_domain.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/named_domain.h"
@@ -146,7 +147,9 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
   const std::shared_ptr<const SizeField> base = p.size;
   for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
-    p.size = finer_near(base, NamedParts(model, domain).spots(spec.named));
+    const NamedParts parts(model, domain);
+    if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
+    p.size = finer_near(base, parts.spots(spec.named));
     check_count_early(problem, model, p.size);
     domain = mesh_model(problem, model, p.size);
   }
@@ -224,7 +227,11 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   p.size = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
                      [&] { return make_boundary_size(p.background, domain.boundary); });
-  if (!spec.named.empty()) p.size = finer_near(p.size, NamedParts(domain).spots(spec.named));
+  if (!spec.named.empty()) {
+    const NamedParts parts(domain);
+    warn_of_idle_sizes(spec.named, parts, *p.size, p.warnings);
+    p.size = finer_near(p.size, parts.spots(spec.named));
+  }
   if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
   if (has_single_points(mesh)) {
     const PointSize size_at = as_function(p.size);
@@ -321,7 +328,11 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
-  if (!problem.size.named.empty()) size = finer_near(size, NamedParts(model.fine).spots(problem.size.named));
+  if (!problem.size.named.empty()) {
+    const NamedParts parts(model.fine);
+    warn_of_idle_sizes(problem.size.named, parts, *size, warnings);
+    size = finer_near(size, parts.spots(problem.size.named));
+  }
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
   p.times.insert(p.times.begin(), {"read", read});
@@ -344,16 +355,11 @@ void check_planar(const MeshProblem& problem) {
                      ": sizes by curvature are for surfaces, and this is a planar domain");
 }
 
-/// Refuses what would take away what grids, periodic sides and mirror images rely on.
-void check_layers_alone(const MeshProblem& problem) {
-  if (is_symmetric(problem) && (!problem.layers.empty() || !problem.periodic.empty()))
-    throw InputError(problem.symmetry.where +
-                     ": symmetry does not go with layers or periodic sides: expected one of these");
-  if (problem.layers.empty()) return;
-  const bool grids = problem.mapped.automatic || !problem.mapped.names.empty();
-  if (grids || !problem.periodic.empty())
-    throw InputError(fmt::format("{}: layers change the boundary that {} have: expected one of the two",
-                                 problem.layers[0].where, grids ? "grids" : "periodic sides"));
+/// Mirror images have the nodes of the other side, and not those of periodic curves.
+void check_symmetry_alone(const MeshProblem& problem) {
+  if (is_symmetric(problem) && !problem.periodic.empty())
+    throw InputError(fmt::format("{}: symmetry does not go with periodic sides ({}): expected one of the two",
+                                 problem.symmetry.where, problem.periodic[0].where));
 }
 
 /// Faces that become grids.
@@ -411,13 +417,14 @@ PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinem
 
 PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& refinement) {
   check_planar(problem);
-  check_layers_alone(problem);
+  check_symmetry_alone(problem);
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   PreparedProblem p = with_settings_of(problem);
   const Stopwatch watch;
   const DoingStage meshing_curves("boundary");
   std::vector<QuadPatch> given;
   PlanarDomain domain = planar_domain(problem, refinement, given, p);
+  if (!std::holds_alternative<GivenMesh>(problem.model)) warn_of_gaps(domain, p.warnings);
   if (!problem.layers.empty()) {
     put_layers(problem, domain, p);
     p.background = std::make_shared<BackgroundMesh>(domain.patches);

@@ -148,6 +148,23 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
 
 }  // namespace
 
+void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& parts, const SizeField& size,
+                        std::vector<Warning>& warnings) {
+  for (const NamedSize& wanted : named) {
+    if (!(wanted.size > 0)) continue;
+    double largest = 0;
+    int hint = -1;
+    for (const FineSpot& spot : parts.spots({wanted}))
+      for (const Vec3& x : {spot.a, spot.b, spot.c.value_or(spot.a), 0.5 * (spot.a + spot.b)})
+        largest = std::max(largest, size.at(x, hint));
+    if (largest > wanted.size || largest == 0) continue;
+    warnings.emplace_back(fmt::format(
+        "{}: the size {:.4g} of '{}' has no effect: it is {:.4g} there, or less, and the smaller one counts; "
+        "for larger quads ask for the larger size overall, and for smaller ones elsewhere by name",
+        wanted.where, wanted.size, wanted.name, largest));
+  }
+}
+
 void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings) {
   const double extent = diagonal(model);
   double least = std::numeric_limits<double>::infinity();

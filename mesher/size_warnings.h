@@ -6,6 +6,7 @@
 #include "fields/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/planar/planar_model.h"
+#include "mesher/named_parts.h"
 #include "mesher/prepare.h"
 
 namespace delquad {
@@ -13,6 +14,11 @@ namespace delquad {
 /// Fewer edges than this to a full turn of a circle or fillet are said: a hole of six edges has lost 17 % of
 /// its area, one of twelve 5 %.
 inline constexpr double kFewPerTurn = 12;
+
+/// Tells of each size that was asked for by name and is larger than the size at all of that: smaller ones
+/// win.
+void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& parts, const SizeField& size,
+                        std::vector<Warning>& warnings);
 
 /// Says so when the size is larger than the model at all of its points.
 void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings);

@@ -210,6 +210,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
     choice[k] = variant % axes[k].values.size();
   const TomlTable& plain = cases_[index_of_case];
   const TomlTable table = matrix_ ? plain.with_choice(*matrix_, leaves_, choice) : plain;
+  table.require_known(experiment_case_keys());
   Case c = defaults_;
   c.name = table.text("name");
   c.where = table.where();

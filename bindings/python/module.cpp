@@ -293,10 +293,10 @@ void define_cross(py::class_<Problem>& c) {
 }
 
 void define_layers(py::class_<Problem>& c) {
-  c.def("add_layer", [](Problem& p, const std::vector<std::string>& on, double first, double growth,
-                        int number, double thickness, double fan) {
+  c.def("add_layer", [](Problem& p, const std::vector<std::string>& on, const std::vector<std::string>& into,
+                        double first, double growth, int number, double thickness, double fan) {
     const std::string where = "layer " + std::to_string(p.problem.layers.size() + 1);
-    p.problem.layers.push_back({on, first, growth, number, thickness, fan, where});
+    p.problem.layers.push_back({on, first, growth, number, thickness, fan, into, where});
   });
 }
 

@@ -12,21 +12,21 @@
 
 namespace delquad::cad {
 
-/// Names of faces; all instances of a face, wherever they are placed, share them.
-class FaceNames {
+/// Names of faces and edges; all instances of one, wherever they are placed, share them.
+class PartNames {
  public:
-  void add(const TopoDS_Shape& face, const std::string& name) {
-    std::vector<std::string>* names = map_.ChangeSeek(unplaced(face));
-    if (names == nullptr) names = map_.Bound(unplaced(face), {});
+  void add(const TopoDS_Shape& part, const std::string& name) {
+    std::vector<std::string>* names = map_.ChangeSeek(unplaced(part));
+    if (names == nullptr) names = map_.Bound(unplaced(part), {});
     if (std::ranges::find(*names, name) == names->end()) names->push_back(name);
   }
-  std::vector<std::string> of(const TopoDS_Shape& face) const {
-    const std::vector<std::string>* names = map_.Seek(unplaced(face));
+  std::vector<std::string> of(const TopoDS_Shape& part) const {
+    const std::vector<std::string>* names = map_.Seek(unplaced(part));
     return names == nullptr ? std::vector<std::string>{} : *names;
   }
 
  private:
-  static TopoDS_Shape unplaced(const TopoDS_Shape& face) { return face.Located(TopLoc_Location()); }
+  static TopoDS_Shape unplaced(const TopoDS_Shape& part) { return part.Located(TopLoc_Location()); }
 
   NCollection_DataMap<TopoDS_Shape, std::vector<std::string>, TopTools_ShapeMapHasher> map_;
 };
@@ -34,7 +34,7 @@ class FaceNames {
 /// What a CAD file holds.
 struct CadShape {
   TopoDS_Shape shape;
-  FaceNames names;
+  PartNames names;
   double diagonal = 0;  ///< of the bounding box
   std::string unit;     ///< of lengths; empty: unknown
   std::vector<Warning> warnings;

@@ -149,7 +149,7 @@ CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
   cad.late_faces = request.late_faces;
-  cad.loose = loose_edges(cad.shape, kLooseDeflection * cad.diagonal);
+  cad.loose = loose_edges(cad, kLooseDeflection * cad.diagonal);
   drop_inner_edges(cad);
   heal(cad, request.options, request.heals, watch);
   if (request.options.glue) glue_shape(cad, kSewing * cad.diagonal);

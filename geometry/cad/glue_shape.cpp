@@ -23,10 +23,10 @@ std::string why(const BOPAlgo_Builder& builder) {
   return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
 }
 
-/// What has become of a face: itself, its parts, or nothing.
-TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& face) {
-  TopTools_ListOfShape images = builder.Modified(face);
-  if (images.IsEmpty() && !builder.IsDeleted(face)) images.Append(face);
+/// What has become of a face or an edge: itself, its parts, or nothing.
+TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
+  TopTools_ListOfShape images = builder.Modified(part);
+  if (images.IsEmpty() && !builder.IsDeleted(part)) images.Append(part);
   return images;
 }
 
@@ -49,10 +49,10 @@ std::string join_titles(const std::vector<std::string>& titles) {
   return fmt::format("{}, ...", fmt::join(titles.begin(), titles.begin() + kMostNamed, ", "));
 }
 
-/// Hands names on to what faces have become; returns "face 3 (lid) into 2" for those that were cut.
+/// Hands names on to what faces and edges have become; returns "face 3 (lid) into 2" for those that were cut.
 std::vector<std::string> follow_faces(BOPAlgo_Builder& builder, CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
-  FaceNames names;
+  PartNames names;
   std::vector<std::string> cut;
   for (int f = 1; f <= faces.Extent(); ++f) {
     const std::vector<std::string> own = cad.names.of(faces(f));
@@ -60,6 +60,13 @@ std::vector<std::string> follow_faces(BOPAlgo_Builder& builder, CadShape& cad) {
     for (const TopoDS_Shape& image : images)
       for (const std::string& name : own) names.add(image, name);
     if (images.Extent() > 1) cut.push_back(fmt::format("{} into {}", face_title(f, own), images.Extent()));
+  }
+  const TopTools_IndexedMapOfShape edges = parts(cad.shape, TopAbs_EDGE);
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    const std::vector<std::string> own = cad.names.of(edges(e));
+    if (own.empty()) continue;
+    for (const TopoDS_Shape& image : images_of(builder, edges(e)))
+      for (const std::string& name : own) names.add(image, name);
   }
   cad.names = names;
   return cut;

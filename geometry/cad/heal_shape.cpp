@@ -15,6 +15,7 @@
 #include <TopoDS.hxx>
 
 #include "base/parallel.h"
+#include "geometry/cad/sub_shapes.h"
 
 namespace delquad::cad {
 
@@ -29,17 +30,19 @@ int count_free_edges(const TopoDS_Shape& shape) {
   return n;
 }
 
-/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face.
+/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge.
 template <class Image>
 void replace(CadShape& cad, const TopoDS_Shape& shape, Image image) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
-  FaceNames names;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    TopTools_IndexedMapOfShape images;
-    TopExp::MapShapes(image(faces(f)), TopAbs_FACE, images);
-    for (const std::string& name : cad.names.of(faces(f)))
-      for (int i = 1; i <= images.Extent(); ++i) names.add(images(i), name);
+  PartNames names;
+  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
+    const TopTools_IndexedMapOfShape all = parts(cad.shape, kind);
+    for (int p = 1; p <= all.Extent(); ++p) {
+      const std::vector<std::string> own = cad.names.of(all(p));
+      if (own.empty()) continue;
+      const TopTools_IndexedMapOfShape images = parts(image(all(p)), kind);
+      for (const std::string& name : own)
+        for (int i = 1; i <= images.Extent(); ++i) names.add(images(i), name);
+    }
   }
   cad.shape = shape;
   cad.names = names;
@@ -55,7 +58,7 @@ void fix(CadShape& cad) {
   fixer.Perform();
   const TopoDS_Shape fixed = fixer.Shape();
   const BRepCheck_Analyzer check = check_shape(fixed);
-  replace(cad, fixed, [&](const TopoDS_Shape& face) { return fixer.Context()->Apply(face); });
+  replace(cad, fixed, [&](const TopoDS_Shape& part) { return fixer.Context()->Apply(part); });
   if (check.IsValid()) {
     cad.warnings.push_back("the shape was invalid and has been healed");
     return;
@@ -78,7 +81,7 @@ void sew(CadShape& cad, double tolerance) {
   if (sewn.IsNull()) return;
   const int after = count_free_edges(sewn);
   if (after >= before) return;
-  replace(cad, sewn, [&](const TopoDS_Shape& face) { return sewing.ModifiedSubShape(face); });
+  replace(cad, sewn, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
   cad.warnings.push_back(
       fmt::format("{} of {} free edges coincided and have been sewn", before - after, before));
 }

@@ -46,8 +46,8 @@ std::string colour_of(const IGESData_IGESEntity& entity) {
 
 }  // namespace
 
-FaceNames iges_names(const IGESControl_Reader& reader) {
-  FaceNames names;
+PartNames iges_names(const IGESControl_Reader& reader) {
+  PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   for (int i = 1; i <= model->NbEntities(); ++i) {

@@ -7,6 +7,6 @@
 namespace delquad::cad {
 
 /// Names and colours of the faces that `reader` has transferred: those of all entities that hold them.
-FaceNames iges_names(const IGESControl_Reader& reader);
+PartNames iges_names(const IGESControl_Reader& reader);
 
 }  // namespace delquad::cad

@@ -92,7 +92,7 @@ TopoDS_Shape without_inner_edges(const TopoDS_Shape& face) {
 void drop_inner_edges(CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   BRepTools_ReShape reshape;
-  FaceNames names;
+  PartNames names = cad.names;
   bool any = false;
   for (int f = 1; f <= faces.Extent(); ++f) {
     const TopoDS_Shape other = without_inner_edges(faces(f));
@@ -106,13 +106,14 @@ void drop_inner_edges(CadShape& cad) {
   cad.names = names;
 }
 
-std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection) {
+std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection) {
+  const TopoDS_Shape& shape = cad.shape;
   std::vector<LooseLine> loose;
   const TopTools_MapOfShape bounding = bounding_edges(shape);
   const TopTools_IndexedMapOfShape edges = parts(shape, TopAbs_EDGE);
   for (int e = 1; e <= edges.Extent(); ++e)
     if (const TopoDS_Edge edge = TopoDS::Edge(edges(e)); !bounding.Contains(edge) && is_finite_curve(edge))
-      loose.push_back({chords(edge, deflection), {}, fmt::format("edge {}", e)});
+      loose.push_back({chords(edge, deflection), cad.names.of(edge), fmt::format("edge {}", e)});
   TopTools_IndexedMapOfShape vertices;
   for (TopExp_Explorer vertex(shape, TopAbs_VERTEX, TopAbs_EDGE); vertex.More(); vertex.Next())
     vertices.Add(vertex.Current());

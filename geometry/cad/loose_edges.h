@@ -1,6 +1,5 @@
 #pragma once
 
-#include <TopoDS_Shape.hxx>
 #include <vector>
 
 #include "geometry/cad/cad_shape.h"
@@ -10,7 +9,7 @@ namespace delquad::cad {
 /// The edges that bound no face, those inside of faces and those beside all, as polylines no further than
 /// `deflection` (a length) from them, and the vertices that no edge has. Edges without a curve and infinite
 /// ones are left to others.
-std::vector<LooseLine> loose_edges(const TopoDS_Shape& shape, double deflection);
+std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 
 /// Takes edges and vertices inside of faces out of them: the kernel fails to triangulate some faces with
 /// them.

@@ -138,6 +138,8 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (LooseLine& line : model.loose) line.where = source + ": " + line.where;
   model.corners = std::move(welded.corners);
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
+  for (Entity& curve : model.fine.curves)
+    if (curve.tag <= edges.Extent()) curve.names = cad.names.of(edges(curve.tag));
   const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);
   name_solids(cad.shape, groups, model.fine);
   orient(model, groups);

@@ -1,10 +1,10 @@
 #include "geometry/cad/shape_bytes.h"
 
 #include <BinTools.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <sstream>
 #include <utility>
+
+#include "geometry/cad/sub_shapes.h"
 
 namespace delquad::cad {
 
@@ -57,12 +57,6 @@ std::vector<LooseLine> get_lines(std::istream& in) {
   return lines;
 }
 
-TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  return faces;
-}
-
 }  // namespace
 
 std::string to_bytes(const CadShape& cad) {
@@ -72,9 +66,12 @@ std::string to_bytes(const CadShape& cad) {
   put(out, std::vector<std::string>{cad.unit});
   put(out, cad.why_not);
   put(out, cad.loose);
-  const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
-  for (int f = 1; f <= faces.Extent(); ++f) put(out, cad.names.of(faces(f)));
-  // The shape last: its reader looks ahead. The names are in the order of its faces, so they come by number.
+  // The shape last: its reader looks ahead. The names are in the order of its faces and edges, so they come
+  // by number.
+  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
+    const TopTools_IndexedMapOfShape all = parts(cad.shape, kind);
+    for (int p = 1; p <= all.Extent(); ++p) put(out, cad.names.of(all(p)));
+  }
   std::ostringstream shape;
   BinTools::Write(cad.shape, shape);
   std::ostringstream all;
@@ -94,9 +91,11 @@ CadShape from_bytes(const std::string& bytes) {
   cad.unit = get_texts(in).at(0);
   cad.why_not = get_texts(in);
   cad.loose = get_lines(in);
-  const TopTools_IndexedMapOfShape faces = faces_of(cad.shape);
-  for (int f = 1; f <= faces.Extent(); ++f)
-    for (const std::string& name : get_texts(in)) cad.names.add(faces(f), name);
+  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
+    const TopTools_IndexedMapOfShape all = parts(cad.shape, kind);
+    for (int p = 1; p <= all.Extent(); ++p)
+      for (const std::string& name : get_texts(in)) cad.names.add(all(p), name);
+  }
   return cad;
 }
 

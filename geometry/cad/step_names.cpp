@@ -45,12 +45,13 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
 
 }  // namespace
 
-FaceNames step_names(const STEPControl_Reader& reader) {
-  FaceNames names;
+PartNames step_names(const STEPControl_Reader& reader) {
+  PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const auto add = [&](const Handle(Standard_Transient) & entity, const std::string& name) {
     const TopoDS_Shape shape = TransferBRep::ShapeResult(transfer, entity);
     if (shape.IsNull()) return;
+    if (shape.ShapeType() == TopAbs_EDGE) names.add(shape, name);
     for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) names.add(face.Current(), name);
   };
 

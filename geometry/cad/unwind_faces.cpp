@@ -49,7 +49,7 @@ void unwind_faces(CadShape& cad) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
   BRepTools_ReShape reshape;
-  FaceNames names;
+  PartNames names = cad.names;
   int n = 0;
   for (int f = 1; f <= faces.Extent(); ++f) {
     TopoDS_Face face = TopoDS::Face(faces(f));

@@ -87,8 +87,7 @@ class CurveMesher {
     domain.places = places();
     domain.places.resize(domain.boundary.points.size());
     for (const int v : domain.on_crack) domain.places[v] = {};
-    for (const CurvePiece& piece : pieces_)
-      if (piece.curve >= 0) domain.pieces.push_back({piece.ends, piece.shape, piece.from, piece.to});
+    domain.pieces = domain_pieces();
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
     add_mapped(domain);
@@ -250,6 +249,21 @@ class CurveMesher {
         places.push_back(stays[i] ? CurvePlace{} : CurvePlace{piece.shape, t, piece.from, piece.to});
     }
     return places;
+  }
+
+  std::vector<DomainPiece> domain_pieces() const {
+    std::vector<DomainPiece> pieces;
+    int next = static_cast<int>(chain_.nodes.size());
+    for (const CurvePiece& piece : pieces_) {
+      std::vector<int> nodes(piece.interior.size());
+      std::iota(nodes.begin(), nodes.end(), next);
+      next += static_cast<int>(nodes.size());
+      const bool is_divided = piece.is_divided || (piece.master >= 0 && pieces_[piece.master].is_divided);
+      if (piece.curve >= 0)
+        pieces.push_back(
+            {piece.ends, piece.shape, piece.from, piece.to, std::move(nodes), piece.interior, is_divided});
+    }
+    return pieces;
   }
 
   std::vector<std::vector<int>> loops_of_curve() const {

@@ -288,8 +288,10 @@ void drop_stray_lines(PlanarDomain& domain) {
   for (PatchBoundary& patch : domain.patches)
     for (int& v : patch.point_node) v = renamed[v];
   for (int& v : domain.on_crack) v = renamed[v];
-  for (DomainPiece& piece : domain.pieces)
+  for (DomainPiece& piece : domain.pieces) {
     for (int& v : piece.ends) v = renamed[v];
+    for (int& v : piece.nodes) v = renamed[v];
+  }
   renumber_nodes(mesh, renamed);
 }
 

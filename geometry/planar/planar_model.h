@@ -45,6 +45,9 @@ struct DomainPiece {
   std::array<int, 2> ends;  ///< nodes
   std::shared_ptr<const Curve> shape;
   double from = 0, to = 1;
+  std::vector<int> nodes = {};        ///< between the ends
+  std::vector<double> interior = {};  ///< their parameters
+  bool is_divided = false;            ///< their number was asked for
 };
 
 /// A patch that is a mirror image of another.

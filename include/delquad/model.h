@@ -130,13 +130,14 @@ struct DeclaredSurfaces {
 /// Thin quads along curves of a planar model, as flow solvers want them at walls. Each edge of the curves is
 /// the foot of a column of quads that stand on each other.
 struct LayerSpec {
-  std::vector<std::string> on;  ///< names of boundary curves
-  double first = 0;             ///< height of the quads at the curve
-  double growth = 1.2;          ///< height of a quad over that of the one below it, at least 1
-  int number = 0;               ///< quads in a column; 0: as many as reach `thickness`
-  double thickness = 0;         ///< height of a column; 0: `number` says it. One of both is given
-  double fan = 60;              ///< degrees in (0, 120]: corners that turn away by more get a fan
-  std::string where = "layer";  ///< who asked for it, for messages
+  std::vector<std::string> on;         ///< names of curves that bound regions
+  double first = 0;                    ///< height of the quads at the curve
+  double growth = 1.2;                 ///< height of a quad over that of the one below it, at least 1
+  int number = 0;                      ///< quads in a column; 0: as many as reach `thickness`
+  double thickness = 0;                ///< height of a column; 0: `number` says it. One of both is given
+  double fan = 60;                     ///< degrees in (0, 120]: corners that turn away by more get a fan
+  std::vector<std::string> into = {};  ///< names of the regions that get them; empty: on both sides
+  std::string where = "layer";         ///< who asked for it, for messages
 };
 
 /// A planar domain bounded by lines, which are kept: each becomes an edge of the mesh.

@@ -116,11 +116,30 @@ TEST_F(ModelFiles, MistakesAreLocated) {
   expect_input_error([&] { read("[[loop]]\ncircle = { centre = [0, 0], radius = -1 }"); },
                      {"m.toml:2", "> 0"});
   expect_input_error([&] { read("[[loop]]\ncircle = { center = [0, 0], radius = 1 }"); },
-                     {"m.toml:2", "'loop.circle.centre'"});
+                     {"m.toml:2", "unknown key 'loop.circle.center'", "'centre'"});
+  const std::string arc = "arc = { center = [0, 0], radius = 1, from = 0, to = 90 }";
+  expect_input_error([&] { read("[[curve]]\nname = \"a\"\n" + arc); },
+                     {"m.toml:3", "arc.center'", "'centre'"});
+  expect_input_error([&] { read("[[curve]]\nnam = \"a\"\n" + circle); },
+                     {"m.toml:2", "'curve.nam'", "'name'"});
   expect_input_error([&] { read("[[loop]]\ncurves = []"); }, {"m.toml:2", "no curves"});
   for (const char* count : {"[0, 2]", "[2]", "[1.5, 2]", "[100000, 100000]"})
     expect_input_error([&] { read("[[pattern]]\n" + circle + "\nstep = [1, 1]\ncount = " + count); },
                        {"m.toml:4", "'count'"});
+}
+
+/// Before anything is missed that was meant.
+TEST_F(ModelFiles, UnknownKeysAreToldFirst) {
+  const auto refused = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read_model_case(testing_support::write_text(folder_ / "m.toml", text)); },
+                       parts);
+  };
+  const std::string curve = "curve = { name = \"a\", circle = { centre = [0, 0], radius = 1 } }\n";
+  refused(curve + "loops = { curves = [\"a\"] }\nsize = 0.1", {"m.toml:2", "unknown key 'loops'", "'loop'"});
+  refused("loop = { rectangle = [[0, 0], [1, 1]] }\nsize = { bas = 1 }",
+          {"m.toml:2", "'size.bas'", "'base'"});
+  refused("loop = { rectangle = [[0, 0], [1, 1]] }\nlayer = { on = \"a\", frist = 1, number = 2 }",
+          {"m.toml:2", "'layer.frist'", "'first'"});
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/predicates.h"
@@ -139,6 +141,26 @@ TEST(BackgroundMesh, RefusesUnsoundBoundaries) {
                InputError);  // touches itself
   EXPECT_THROW(background_of(shapes::polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}})),
                InputError);  // a point twice
+}
+
+TEST(BackgroundMesh, RefusesBoundariesThatRunTheWrongWayRound) {
+  const auto refused = [](const PatchBoundary& boundary) {
+    try {
+      background_of(boundary);
+    } catch (const InputError& error) {
+      return std::string(error.what()).find("wrong way round") != std::string::npos;
+    }
+    return false;
+  };
+  const auto turned = [](PatchBoundary boundary, std::size_t from) {
+    for (std::size_t e = from; e < boundary.edges.size(); ++e)
+      std::swap(boundary.edges[e][0], boundary.edges[e][1]);
+    return boundary;
+  };
+  const PatchBoundary plate = shapes::plate_with_holes(1, 20, 1, 0.14, 12);
+  EXPECT_FALSE(refused(plate));
+  EXPECT_TRUE(refused(turned(plate, plate.edges.size() - 12)));  // its hole
+  EXPECT_TRUE(refused(turned(shapes::rectangle(1, 1, 3, 3), 0)));
 }
 
 // --- locate

@@ -186,6 +186,123 @@ bool try_domain(std::string_view bytes) {
   });
 }
 
+/// Layers on some of the curves, on both sides or into the regions of one name.
+std::vector<LayerSpec> draw_layers(Draw& draw, PlanarModel& model) {
+  constexpr int kNames = 4;
+  const auto name = [](int i) { return "part " + std::to_string(i); };
+  int n = 0;
+  for (ModelCurve& curve : model.curves) curve.name = name(n++ % kNames);
+  for (std::size_t l = 0; l < model.loops.size(); ++l)
+    if (draw.flag()) model.loops[l].region = "region " + std::to_string(l % 2);
+  std::vector<LayerSpec> layers;
+  for (int on = 0; on < std::min(n, kNames); ++on) {
+    if (draw.flag()) continue;
+    if (layers.empty() || draw.flag()) {
+      LayerSpec& layer = layers.emplace_back();
+      layer.first = std::ldexp(1, -draw.below(12));
+      layer.number = 1 + draw.below(5);
+      layer.growth = draw.between(1, 1.5);
+      layer.fan = draw.between(20, 120);
+      if (draw.below(4) == 0) layer.into = {"region 0"};
+    }
+    layers.back().on.push_back(name(on));
+  }
+  return layers;
+}
+
+bool try_layers(std::string_view bytes) {
+  return result_or_input_error("", [&] {
+    Draw draw(bytes);
+    MeshProblem problem;
+    problem.max_elements = 1000;
+    const std::string word = draw_word(draw);
+    problem.size = draw_size(draw, kWidth);
+    problem.seed = draw.below(2);
+    problem.symmetry.automatic = draw.below(4) == 3;
+    problem.mapped.automatic = draw.below(4) == 3;
+    PlanarModel model = LoopDrawer(draw).model();
+    problem.layers = draw_layers(draw, model);
+    problem.model = std::move(model);
+    require_mesh(problem, word);
+  });
+}
+
+/// Squares, some of them halved, in two regions, with lines between these and on the outline.
+Mesh draw_given(Draw& draw) {
+  const int n = 1 + draw.below(4), m = 1 + draw.below(4);
+  Mesh mesh;
+  mesh.regions = {{1, {"one"}}, {2, {"two"}}};
+  mesh.curves = {{1, {"outline"}}, {2, {}}};
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= n; ++i) mesh.points.push_back({double(i), double(j), 0});
+  const auto at = [&](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      const std::array<int, 4> q = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      const int kind = draw.below(8), region = draw.below(4) == 1;
+      if (kind == 1) continue;  // a hole
+      if (kind < 6) {
+        mesh.quads.push_back(q);
+        mesh.quad_region.push_back(region);
+        continue;
+      }
+      for (const int k : {0, 2}) {
+        mesh.triangles.push_back({q[k], q[k + 1], q[(k + 2) % 4]});
+        mesh.triangle_region.push_back(region);
+      }
+    }
+  for (int lines = draw.below(4); lines > 0; --lines) {
+    const int i = draw.below(n), j = draw.below(m + 1);
+    mesh.lines.push_back({at(i, j), at(i + 1, j)});
+    mesh.line_curve.push_back(draw.below(2));
+  }
+  for (int named = draw.below(3); named > 0; --named)
+    mesh.named_points.push_back({draw.below(static_cast<int>(mesh.points.size()) + 1), {named, {"point"}}});
+  for (int moves = draw.below(6); moves > 0; --moves) {
+    Vec3& p = mesh.points[static_cast<std::size_t>(draw.byte()) % mesh.points.size()];
+    const double x = draw.between(-0.7, 0.7);
+    p = p + Vec3{x, draw.between(-0.7, 0.7), 0};
+  }
+  if (draw.below(8) == 7 && !mesh.quads.empty()) std::swap(mesh.quads[0][1], mesh.quads[0][3]);
+  if (draw.below(8) == 7 && !mesh.quads.empty()) mesh.quads[0][0] = mesh.quads[0][1];
+  return mesh;
+}
+
+/// Whether all corners of all elements turn left.
+bool is_convex(const Mesh& mesh) {
+  const auto turns_left = [&](const auto& element) {
+    const std::size_t n = element.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec3 &a = mesh.points[static_cast<std::size_t>(element[k])],
+                 &b = mesh.points[static_cast<std::size_t>(element[(k + 1) % n])],
+                 &c = mesh.points[static_cast<std::size_t>(element[(k + 2) % n])];
+      if (!(cross(b - a, c - b).z > 0)) return false;
+    }
+    return true;
+  };
+  return std::ranges::all_of(mesh.quads, turns_left) && std::ranges::all_of(mesh.triangles, turns_left);
+}
+
+/// What is not sound may stay so, and only that.
+bool try_given(std::string_view bytes) {
+  return result_or_input_error("", [&] {
+    constexpr std::array kGivenWords = {"CO", "BCO", "B", "C", "O", "DB", "G", "T", "L", "DBCO"};
+    Draw draw(bytes);
+    MeshProblem problem;
+    problem.max_elements = 500;
+    const std::string word = kGivenWords[static_cast<std::size_t>(draw.below(kGivenWords.size()))];
+    if (draw.flag()) problem.size.field = make_constant_size(draw.between(0.2, 3));
+    problem.seed = draw.below(2);
+    Mesh given = draw_given(draw);
+    problem.allow_unsound = !is_convex(given);
+    problem.model = GivenMesh{std::move(given), "drawn"};
+    const MeshResult result = mesh(problem, word, {.threads = 1});
+    require(problem.allow_unsound || result.soundness.sound(), "a mesh that is not sound was returned");
+    const std::vector<std::string> wrong = check_invariants(result.mesh);
+    require(wrong.empty(), wrong.empty() ? "" : wrong[0]);
+  });
+}
+
 /// A height field over n x n squares.
 Mesh hills(int n, Draw& draw) {
   testing_support::TriangulatedShape shape;
@@ -280,6 +397,22 @@ std::vector<std::string> domain_seeds() {
   };
 }
 
+std::vector<std::string> layer_seeds() {
+  return {
+      // DB, size 4, no source; a square, and layers on all of its sides
+      bytes_of({0, 3, 0, 0, 0, 0, 1, 0, 4, 128, 128, 160, 128, 100, 0, 0, 0, 6, 3, 100, 200, 1, 0, 0, 0}),
+      // DBCO, a circle in a square, with different layers
+      bytes_of(
+          {3, 5, 0, 0, 0, 0, 1, 0, 2, 128, 128, 60, 0, 0, 0, 7, 2, 60, 100, 1, 0, 1, 8, 3, 80, 90, 1, 1}),
+  };
+}
+
+std::vector<std::string> given_seeds() {
+  return {bytes_of({0, 0, 0, 2, 2}), bytes_of({1, 0, 0, 2, 2, 6, 0, 6, 1, 0, 0, 7, 0, 2, 0, 1, 1, 1, 1, 3}),
+          bytes_of({4, 1, 100, 0, 3, 2, 0, 0, 0, 0, 0, 0, 0, 0,   0,
+                    0, 0, 0,   0, 0, 0, 0, 0, 0, 0, 0, 2, 9, 150, 90})};
+}
+
 std::vector<std::string> triangulation_seeds() {
   return {bytes_of({3, 0, 0, 1, 1, 0, 255, 255, 0}), bytes_of({4, 1, 1, 40, 1, 2, 1, 5, 0}),
           bytes_of({5, 0, 0, 1, 2, 2, 10, 200, 30, 150, 60, 110, 80, 90, 70, 2, 5, 0, 7, 3, 1, 2, 3})};
@@ -289,6 +422,8 @@ std::vector<std::string> triangulation_seeds() {
 
 std::vector<Target> mesher_targets() {
   return {{"domain", try_domain, domain_seeds, 100},
+          {"layers", try_layers, layer_seeds, 120},
+          {"given", try_given, given_seeds, 100},
           {"triangulation", try_triangulation, triangulation_seeds, 60}};
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -70,6 +71,30 @@ TEST(Vtu, NeedsOneValueForEachCell) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_vtu(folder / "a.vtu", quad_grid(1, 1), {{"short", {1}}}), std::invalid_argument);
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Vtu, KeepsNamesOfPoints) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 1);
+  mesh.named_points = {{4, {7, {"sensor", "tip < 1"}}}, {1, {8, {}}}, {0, {9, {"sensor"}}}};
+  write_vtu(folder / "a.vtu", mesh);
+  const std::string xml = testing_support::read_text(folder / "a.vtu");
+  EXPECT_EQ(array<std::int32_t>(xml, "point sensor"), (std::vector<std::int32_t>{4, 0}));
+  EXPECT_EQ(array<std::int32_t>(xml, "point tip &lt; 1"), (std::vector<std::int32_t>{4}));
+  const Mesh read = read_vtu(folder / "a.vtu");
+  ASSERT_EQ(read.named_points.size(), 2u);
+  EXPECT_EQ(read.named_points[0].point, 4);
+  EXPECT_EQ(read.named_points[0].entity.names, (std::vector<std::string>{"sensor", "tip < 1"}));
+  EXPECT_EQ(read.named_points[1].point, 0);
+  EXPECT_EQ(read.named_points[1].entity.names, (std::vector<std::string>{"sensor"}));
+}
+
+TEST(Vtu, NamesOfPointsThatAreNotThereAreAnError) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 1);
+  mesh.named_points = {{6, {1, {"far"}}}};
+  write_vtu(folder / "a.vtu", mesh);
+  expect_input_error([&] { read_vtu(folder / "a.vtu"); }, {"a.vtu", "far", "point 6", "there are 6"});
 }
 
 }  // namespace

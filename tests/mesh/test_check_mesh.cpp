@@ -45,6 +45,10 @@ TEST(CheckMesh, SaysWhatIsWrongAndWhere) {
             "here: triangle 0 is of region 1: there are 1, counted from 0");
   EXPECT_EQ(complaint([](Mesh& m) { m.points[2].y = NAN; }),
             "here: point 2 is (0, nan, 0): finite coordinates were expected");
+  EXPECT_EQ(complaint([](Mesh& m) {
+              m.named_points = {{3, {1, {"tip"}}}};
+            }),
+            "here: a name is that of point 3: there are 3, counted from 0");
 }
 
 }  // namespace

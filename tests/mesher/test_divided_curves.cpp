@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "delquad/mesher.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
@@ -97,6 +102,35 @@ TEST(DividedCurves, OfGivenLinesAreRefused) {
         mesh(problem_of(square, 0.2, {{"rim", 8, 1, 1, "d 1"}}));
       },
       {"d 1: 'rim' cannot be divided"});
+}
+
+TEST(DividedCurves, TellWhereTheTipOfAConeTakesTheirLastNodes) {
+  const Mesh cone = testing_support::cone(24, 100, 0.05).fine;
+  Mesh surface;
+  surface.points = cone.points;
+  surface.triangles = cone.triangles;
+  surface.triangle_region = cone.triangle_region;
+  surface.regions = cone.regions;
+  surface.curves = {{7, {"seam"}}};
+  std::map<double, int> along;  // points of a generator, by their height
+  for (std::size_t i = 0; i < cone.points.size(); ++i)
+    if (const Vec3& p = cone.points[i]; std::abs(p.y) < 1e-12 && p.x >= 0) along[p.z] = static_cast<int>(i);
+  for (auto at = along.begin(); std::next(at) != along.end(); ++at) {
+    surface.lines.push_back({at->second, std::next(at)->second});
+    surface.line_curve.push_back(0);
+  }
+  constexpr std::size_t kAsked = 60;
+  const MeshResult r = mesh(problem_of(TriangleModel{surface}, 1.0 / 60, {{"seam", kAsked, 1, 1}}), "DB");
+  const auto seam = std::ranges::find_if(
+      r.mesh.curves, [](const Entity& curve) { return curve.names == std::vector<std::string>{"seam"}; });
+  ASSERT_NE(seam, r.mesh.curves.end());
+  const std::size_t left = edges_by_tag(r.mesh)[seam->tag].size();
+  EXPECT_LT(left, kAsked);
+  std::string all;
+  for (const Warning& warning : r.warnings) all += warning.text + "\n";
+  const std::string told =
+      "curve " + std::to_string(seam->tag) + " gets " + std::to_string(left) + " edges, not 60";
+  EXPECT_NE(all.find(told), std::string::npos) << told << ": " << all;
 }
 
 }  // namespace

@@ -2,114 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
-#include <set>
 
-#include "base/predicates.h"
-#include "delquad/mesher.h"
-#include "geometry/planar/layers/layer_heights.h"
+#include "tests/mesher/layered_model.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
-
-struct LayeredModel {
-  PlanarModel model{"layered", {}, {}};
-
-  LayeredModel& polygon(const std::vector<Vec2>& corners, const std::vector<std::string>& names) {
-    ModelLoop loop{{}, "", ""};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      loop.curves.push_back(static_cast<int>(model.curves.size()));
-      model.curves.push_back(
-          {make_segment(corners[i], corners[(i + 1) % corners.size()]), names[i % names.size()], ""});
-    }
-    model.loops.push_back(loop);
-    return *this;
-  }
-  LayeredModel& rectangle(Vec2 low, Vec2 high, const std::vector<std::string>& names) {
-    return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, names);
-  }
-  LayeredModel& curve(std::shared_ptr<const Curve> shape, const std::string& name) {
-    model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
-    model.curves.push_back({std::move(shape), name, ""});
-    return *this;
-  }
-  MeshProblem problem(double size, std::vector<LayerSpec> layers) const {
-    MeshProblem problem;
-    problem.model = model;
-    problem.size.field = make_constant_size(size);
-    problem.layers = std::move(layers);
-    return problem;
-  }
-};
-
-LayerSpec layer_on(std::vector<std::string> on, double first, int number, double growth = 1.2) {
-  LayerSpec spec;
-  spec.on = std::move(on);
-  spec.first = first;
-  spec.number = number;
-  spec.growth = growth;
-  return spec;
-}
-
-Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
-
-long long count_of(const MeshResult& result, const std::string& key) {
-  return result.summaries.get<long long>("layers", key);
-}
-
-int lines_on(const Mesh& mesh, const std::vector<std::string>& names) {
-  int n = 0;
-  for (const int curve : mesh.line_curve)
-    n += std::ranges::any_of(mesh.curves[curve].names,
-                             [&](const auto& name) { return std::ranges::count(names, name) > 0; });
-  return n;
-}
-
-/// Every corner of every quad turns left, exactly; the areas add up to the domain's; the layers have each
-/// quad that they should.
-void expect_layers(const MeshProblem& problem, const MeshResult& result) {
-  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
-  EXPECT_TRUE(result.mesh.triangles.empty());
-  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>());
-  const Mesh& mesh = result.mesh;
-  for (const auto& q : mesh.quads)
-    for (int k = 0; k < 4; ++k)
-      EXPECT_GT(orient2d(flat(mesh.points[q[k]]), flat(mesh.points[q[(k + 1) % 4]]),
-                         flat(mesh.points[q[(k + 2) % 4]])),
-                0);
-  double area = 0, inside = 0;
-  const auto swept = [&](int a, int b) { return cross(mesh.points[a], mesh.points[b]).z / 2; };
-  for (const auto& q : mesh.quads)
-    for (int k = 0; k < 4; ++k) area += swept(q[k], q[(k + 1) % 4]);
-  for (const auto& [a, b] : mesh.lines) inside += swept(a, b);
-  EXPECT_NEAR(area, inside, 1e-9 * inside);
-  std::vector<std::string> names;
-  for (const LayerSpec& layer : problem.layers) names.insert(names.end(), layer.on.begin(), layer.on.end());
-  const long long columns = lines_on(mesh, names), fans = count_of(result, "fans");
-  const auto n = static_cast<long long>(layer_heights(problem.layers[0]).size());
-  EXPECT_EQ(count_of(result, "columns"), columns);
-  EXPECT_EQ(count_of(result, "quads"), n * columns + fans + 2 * fans * (n - 1));
-}
-
-/// Heights of the quads at the lines of a curve: areas by lengths.
-std::vector<double> first_heights(const Mesh& mesh, const std::string& name) {
-  std::set<std::pair<int, int>> lines;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (std::ranges::count(mesh.curves[mesh.line_curve[l]].names, name) > 0)
-      lines.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
-  std::vector<double> heights;
-  for (const auto& q : mesh.quads)
-    for (int k = 0; k < 4; ++k) {
-      if (!lines.contains(std::minmax(q[k], q[(k + 1) % 4]))) continue;
-      const Vec2 a = flat(mesh.points[q[k]]), b = flat(mesh.points[q[(k + 1) % 4]]);
-      const Vec2 c = flat(mesh.points[q[(k + 2) % 4]]);
-      heights.push_back(cross(b - a, c - a) / norm(b - a));
-    }
-  return heights;
-}
 
 TEST(Layers, HeightsAreAGeometricSeries) {
   LayerSpec spec = layer_on({"a"}, 0.1, 3, 2);
@@ -215,6 +115,7 @@ TEST(Layers, NarrowChannelsLowerThem) {
   EXPECT_GT(least, 0.01);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings[0].text.find("layers are lower"), std::string::npos) << result.warnings[0].text;
+  EXPECT_NE(result.warnings[0].text.find("on 'a'"), std::string::npos) << result.warnings[0].text;
 }
 
 std::vector<Vec2> star(int rays, double inner, double outer) {
@@ -278,41 +179,6 @@ TEST(Layers, GivenLines) {
   for (int i = 0; i < n; ++i) EXPECT_EQ(result.mesh.points[i], lines.points[i]);
 }
 
-/// The chord is 1; the far field ten of them away.
-MeshProblem naca0012(bool is_sharp, double first) {
-  const double last = is_sharp ? 0.1036 : 0.1015;
-  const auto half = [last](double s) {
-    return 0.6 * (0.2969 * s - 0.1260 * s * s - 0.3516 * std::pow(s, 4) + 0.2843 * std::pow(s, 6) -
-                  last * std::pow(s, 8));
-  };
-  LayeredModel model;
-  model.rectangle({-10, -10}, {11, 10}, {"far"});
-  std::vector<ModelCurve>& curves = model.model.curves;
-  const double tail = is_sharp ? 0 : half(1);
-  const auto side = [&](double sign) {
-    return make_parametric_curve(
-        [=](double s) {
-          return Vec2{s * s, s == 1 ? sign * tail : sign * half(s)};
-        },
-        0, 1);
-  };
-  ModelLoop loop{{4, 5}, "", "", true};
-  curves.push_back({side(1), "airfoil", ""});
-  curves.push_back({side(-1), "airfoil", ""});
-  if (!is_sharp) {
-    curves.push_back({make_segment({1, tail}, {1, -tail}), "airfoil", ""});
-    loop.curves = {4, 6, 5};
-  }
-  model.model.loops.push_back(loop);
-  LayerSpec layer = layer_on({"airfoil"}, first, 0);
-  layer.thickness = 0.02;
-  MeshProblem problem = model.problem(1, {layer});
-  problem.size.sources = {{{0, 0, 0}, {1, 0, 0}, 0.015, 1, 0.1, 8},
-                          {{0, 0, 0}, {0, 0, 0}, 0.004, 1, 0.01, 8},
-                          {{1, 0, 0}, {1, 0, 0}, 0.002, 1, 0.005, 8}};
-  return problem;
-}
-
 TEST(Layers, Airfoils) {
   for (const bool is_sharp : {true, false}) {
     SCOPED_TRACE(is_sharp);
@@ -344,6 +210,16 @@ TEST(Layers, FansOfThickLayersHaveShorterEdges) {
   };
   EXPECT_EQ(fans(10), 4);
   EXPECT_EQ(fans(20), 8);
+}
+
+TEST(Layers, WarningsOfThinLastLayersNameTheCurve) {
+  const MeshProblem problem = LayeredModel()
+                                  .rectangle({0, 0}, {2, 1}, {"south", "east", "north", "west"})
+                                  .problem(0.1, {layer_on({"north"}, 1e-3, 5)});
+  const MeshResult result = mesh(problem, "DB");
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].text.find("times as long as it is high, on 'north'"), std::string::npos)
+      << result.warnings[0].text;
 }
 
 TEST(Layers, TheSameBytesForAnyNumberOfThreads) {
@@ -385,23 +261,24 @@ TEST(Layers, BadInput) {
   refused(bad, {"1 wide", "thinner"});
   MeshProblem twice = plate.problem(0.1, {good, good});
   expect_input_error([&] { mesh(twice, "DB"); }, {"'south' has a layer already"});
-  MeshProblem uneven = plate.problem(0.1, {good, layer_on({"east"}, 1e-3, 6)});
-  expect_input_error([&] { mesh(uneven, "DB"); }, {"5 layers meet 6", "(2, 0)"});
+  bad = good, bad.into = {"flud"};
+  refused(bad, {"no region has the name 'flud'"});
   MeshProblem surface = plate.problem(0.1, {good});
   surface.model = ExampleModel{"bracket"};
   expect_input_error([&] { mesh(surface, "DB"); }, {"planar"});
 }
 
-TEST(Layers, InterfacesAndCracksHaveNone) {
-  LayeredModel model = LayeredModel().rectangle({0, 0}, {1, 1}, {"s", "mid", "n", "w"});
-  model.rectangle({1, 0}, {2, 1}, {"s2", "e", "n2", "mid"});
+TEST(Layers, CracksAndLinesInOneRegionHaveNone) {
+  LayeredModel model = LayeredModel().rectangle({0, 0}, {1, 1}, {"s", "e", "n", "w"});
+  model.model.curves.push_back({make_segment({0.3, 0.5}, {0.7, 0.5}), "slit", "", true});
+  model.model.curves.push_back({make_segment({0.3, 0.3}, {0.7, 0.3}), "rib", ""});
+  model.model.curves.push_back({make_segment({0.5, 1}, {0.5, 0.8}), "wall", ""});
   const auto refuse = [&](const std::string& on, std::initializer_list<const char*> parts) {
     expect_input_error([&] { mesh(model.problem(0.1, {layer_on({on}, 1e-3, 5)}), "DB"); }, parts);
   };
-  refuse("mid", {"'mid' has mesh on both sides"});
-  refuse("s", {"another curve meets the layer at (1, 0)"});
-  model.model.curves.push_back({make_segment({0.3, 0.5}, {0.7, 0.5}), "slit", "", true});
   refuse("slit", {"'slit'", "crack"});
+  refuse("rib", {"'rib' stands inside of one region"});
+  refuse("n", {"another curve meets the layer", "(0.5, 1)"});
 }
 
 }  // namespace

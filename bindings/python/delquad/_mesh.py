@@ -89,13 +89,15 @@ _LAYER = {"first": float, "growth": float, "number": int, "thickness": float, "f
 def _add_layer(problem, layer):
     values = {"growth": 1.2, "number": 0, "thickness": 0, "fan": 60, **layer}
     on = values.pop("on", None)
+    into = values.pop("into", [])
     unknown = sorted(set(values) - set(_LAYER))
     if on is None or unknown or "first" not in values:
         raise _core.InputError(
-            "layers: expected 'on', 'first' and either 'number' or 'thickness', perhaps 'growth' and 'fan'"
+            "layers: expected 'on', 'first' and either 'number' or 'thickness', perhaps 'growth', 'fan' and 'into'"
             + (f", got '{unknown[0]}'" if unknown else "")
         )
-    problem.add_layer([on] if isinstance(on, str) else list(on), *(read(values[key]) for key, read in _LAYER.items()))
+    names = [[given] if isinstance(given, str) else list(given) for given in (on, into)]
+    problem.add_layer(*names, *(read(values[key]) for key, read in _LAYER.items()))
 
 
 def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit):
@@ -188,7 +190,7 @@ def mesh(
         them is a mirror image.
     mapped: names of regions that become grids, or "auto" for all where that pays.
     layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
-        "number": n or "thickness": height, "fan": 60} each; see docs/meshing.md.
+        "number": n or "thickness": height, "fan": 60, "into": name or names of regions} each; see docs/meshing.md.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a

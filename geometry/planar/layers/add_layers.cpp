@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/box.h"
@@ -12,6 +13,8 @@
 #include "geometry/planar/layers/fit_layers.h"
 #include "geometry/planar/layers/layer_builder.h"
 #include "geometry/planar/layers/layer_heights.h"
+#include "geometry/planar/layers/mirror_layers.h"
+#include "mesh/renumber_nodes.h"
 
 namespace delquad {
 namespace {
@@ -30,10 +33,12 @@ void check_thickness(const PlanarDomain& domain, std::span<const LayerSpec> spec
                       specs[s].where, heights[s].back(), width));
 }
 
-void check_number(const LayerColumns& layers, std::span<const LayerSpec> specs, double most) {
+void check_number(const std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs, double most) {
   double quads = 0;
-  for (int c = 0; c < layers.n_chains(); ++c)
-    quads += static_cast<double>(layers.chain(c).spec.size()) * layers.n_layers(c);
+  for (const PatchLayers& patch : patches)
+    for (int c = 0; c < patch.columns.n_chains(); ++c)
+      for (std::size_t k = 0; k < patch.columns.chain(c).spec.size(); ++k)
+        quads += patch.columns.layers_on(c, static_cast<int>(k));
   if (quads <= most) return;
   throw InputError(
       fmt::format("{}: the layers need about {:.3g} quads, more than the {:.3g} that are allowed "
@@ -41,23 +46,36 @@ void check_number(const LayerColumns& layers, std::span<const LayerSpec> specs, 
                   specs[0].where, quads, most));
 }
 
-void count(const LayerColumns& layers, LayerReport& result) {
+/// `images`: how many mirror images the patch has.
+void count(const PlanarDomain& domain, const PatchLayers& patch, int images, LayerReport& result) {
+  const LayerColumns& layers = patch.columns;
+  const PatchBoundary& boundary = domain.patches[patch.patch];
+  std::vector<int> curve(boundary.points.size());
+  for (std::size_t e = 0; e < boundary.edges.size(); ++e)
+    curve[boundary.edges[e][0]] = boundary.edge_curve[e];
   for (int c = 0; c < layers.n_chains(); ++c) {
-    const int top = layers.n_layers(c);
-    for (int k = 0; k < layers.chain(c).n_points(); ++k) {
-      result.count.fans += layers.corner(c, k).quads;
+    const LayerChain& chain = layers.chain(c);
+    const auto title = [&](int k) {
+      const int on = std::min(k, static_cast<int>(chain.spec.size()) - 1);
+      return curve_title(domain.boundary.curves[curve[chain.points[on]]]);
+    };
+    for (int k = 0; k < chain.n_points(); ++k) {
+      result.count.fans += (1 + images) * layers.corner(c, k).quads;
       if (layers.scales[c][k] >= result.count.least_scale) continue;
       result.count.least_scale = layers.scales[c][k];
       result.least_at = layers.foot(c, k);
+      result.least_on = title(k);
     }
     layers.for_each_pair(c, [&](int a, int b) {
       const auto& columns = layers.columns(c);
       if (columns[a].point == columns[b].point) return;
-      ++result.count.columns;
-      const int k = columns[a].at;
+      result.count.columns += 1 + images;
+      const int k = columns[a].at, top = layers.layers_between(c, a, b);
       const double last = layers.height(c, k, top) - layers.height(c, k, top - 1);
       const double edge = norm(layers.node(c, {a, top}) - layers.node(c, {b, top}));
-      if (layers.scales[c][k] == 1) result.largest_jump = std::max(result.largest_jump, edge / last);
+      if (layers.scales[c][k] < 1 || edge <= result.largest_jump * last) return;
+      result.largest_jump = edge / last;
+      result.jump_on = title(k);
     });
   }
 }
@@ -110,8 +128,31 @@ void drop_unused_nodes(PlanarDomain& domain) {
   for (PatchBoundary& patch : domain.patches) rename(patch.point_node);
   for (PatchBoundary& patch : domain.outlines) rename(patch.point_node);
   rename(domain.on_crack);
-  for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
+  renumber_nodes(mesh, renamed);
   domain.pieces.clear();
+}
+
+/// All nodes of a wall in the place of its first line, none in that of the others.
+void add_replaced(const std::vector<std::pair<std::vector<int>, std::vector<int>>>& walls,
+                  ReplacedLines& replaced) {
+  for (const auto& [old, nodes] : walls)
+    for (std::size_t i = 0; i + 1 < old.size(); ++i)
+      replaced[{old[i], old[i + 1]}] = i == 0 ? nodes : std::vector<int>();
+}
+
+/// Layers that end at one place have the same height there.
+void fit(const PlanarDomain& domain, std::span<const LayerSpec> specs, std::vector<PatchLayers>& patches,
+         LayerWalls& walls) {
+  constexpr int kMostRounds = 100;
+  std::vector<std::size_t> left(patches.size());
+  std::iota(left.begin(), left.end(), 0);
+  for (int round = 0; !left.empty(); ++round) {
+    if (round == kMostRounds)
+      throw InputError(specs[0].where + ": layers that end at one place find no common height there");
+    for (const std::size_t p : left)
+      fit_layers(domain.patches[patches[p].patch], specs, patches[p].columns, round > 0);
+    left = walls.lower_alike();
+  }
 }
 
 }  // namespace
@@ -119,29 +160,36 @@ void drop_unused_nodes(PlanarDomain& domain) {
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads) {
   std::vector<std::vector<double>> heights;
   for (const LayerSpec& spec : specs) heights.push_back(layer_heights(spec));
-  const std::vector<int> of_curve = layers_of_curves(domain, specs);
+  const CurveLayers of_curves = layers_of_curves(domain, specs);
   check_thickness(domain, specs, heights);
+  check_layers_symmetric(domain, specs, of_curves);
+  const BoundaryGraph graph(domain);
+  std::vector<PatchLayers> patches = find_patch_layers(domain, specs, of_curves, graph, heights);
+  check_number(patches, specs, max_quads);
+  LayerWalls walls(domain, patches, specs);
+  fit(domain, specs, patches, walls);
+  walls.count_edges();
+  std::vector<int> images(domain.patches.size(), 0);
+  for (const PatchImage& image : domain.images) ++images[image.master];
   LayerReport result;
-  ReplacedLines replaced;
-  std::vector<PatchBoundary> rests;
-  for (std::size_t i = 0; i < domain.patches.size(); ++i) {
-    const std::vector<int>& curves = domain.patches[i].edge_curve;
-    if (std::ranges::none_of(curves, [&](int c) { return c >= 0 && of_curve[c] >= 0; })) {
-      domain.outlines.push_back(domain.patches[i]);
-      rests.push_back(domain.patches[i]);
-      continue;
-    }
-    LayerColumns layers(domain.patches[i], find_layer_chains(domain, i, specs, of_curve, heights), specs,
-                        heights);
-    check_number(layers, specs, max_quads);
-    fit_layers(domain.patches[i], specs, layers);
-    count(layers, result);
-    const LayerBuilder builder(domain, i, layers);
-    domain.outlines.push_back(builder.outline());
-    rests.push_back(builder.rest());
-    builder.replace_lines(replaced);
+  std::vector<LayeredPatch> layered(domain.patches.size());
+  for (const PatchLayers& patch : patches) {
+    count(domain, patch, images[patch.patch], result);
+    const LayerBuilder builder(domain, patch, walls);
+    layered[patch.patch] = {builder.outline(), builder.rest(), builder.replaced_walls(), builder.quads()};
   }
-  domain.patches = std::move(rests);
+  walls.pair_nodes();
+  mirror_layers(domain, layered);
+  ReplacedLines replaced;
+  for (std::size_t p = 0; p < layered.size(); ++p) {
+    LayeredPatch& patch = layered[p];
+    const bool is_same = patch.rest.points.empty();
+    domain.outlines.push_back(is_same ? domain.patches[p] : std::move(patch.outline));
+    if (is_same) continue;
+    domain.patches[p] = std::move(patch.rest);
+    result.patches.push_back(static_cast<int>(p));
+    add_replaced(patch.walls, replaced);
+  }
   replace(domain.boundary, replaced);
   drop_unused_nodes(domain);
   result.count.quads = static_cast<int>(domain.boundary.quads.size());

@@ -22,12 +22,17 @@ struct LayerReport {
   Vec2 least_at;  ///< where heights are scaled the most
   /// Most length of an edge of a front by the height of its last layer, where that is as it was asked for.
   double largest_jump = 1;
+  std::string jump_on;  ///< the curve where that is so
+  /// The curve where heights are scaled the most.
+  std::string least_on;
+  std::vector<int> patches;  ///< those that changed
 };
 
 /// Adds quads to domain.boundary, along the curves that the layers name, and takes what these cover from the
 /// patches, so that the edges of the last layers become their boundary. The patches as they were are in
-/// domain.outlines. Nodes of curves on which layers end are placed anew; where there are such, patches get
-/// even numbers of edges. Throws InputError for layers that cannot be, and for more than `max_quads`.
+/// domain.outlines. Nodes of curves on which layers end are placed anew, in all patches that have them and on
+/// periodic curves; where there are such, patches get even numbers of edges. Mirror images of patches get
+/// those of their layers. Throws InputError for layers that cannot be, and for more than `max_quads`.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
 }  // namespace delquad

@@ -56,11 +56,12 @@ class LayerFitter {
     add_boundary();
   }
 
-  void fit() {
+  void fit(bool again) {
+    if (layers_.n_chains() == 0) return;
     for (int round = 0; round < kMostRounds; ++round) {
       check_cancelled();
       limit_slopes();
-      cut_peaks();
+      if (!again || round > 0) cut_peaks();
       layers_.place();
       too_high_.assign(patch_.points.size(), 0);
       for (int c = 0; c < layers_.n_chains(); ++c) check_quads(c);
@@ -85,14 +86,16 @@ class LayerFitter {
   void limit_slopes() {
     for (int c = 0; c < layers_.n_chains(); ++c) {
       const int n = layers_.chain(c).n_points();
-      const auto limit = [&](int from, int to) {
+      // `edge`: the point at which that between both begins.
+      const auto limit = [&](int from, int to, int edge) {
+        const int top = layers_.layers_on(c, edge);
         const double most =
-            layers_.thickness(c, from) + kSteepest * norm(layers_.foot(c, to) - layers_.foot(c, from));
-        if (const double h = layers_.thickness(c, to); h > most) layers_.scales[c][to] *= most / h;
+            layers_.height(c, from, top) + kSteepest * norm(layers_.foot(c, to) - layers_.foot(c, from));
+        if (const double h = layers_.height(c, to, top); h > most) layers_.scales[c][to] *= most / h;
       };
       const bool is_closed = layers_.chain(c).is_closed;
-      for (int k = 1; k < (is_closed ? 2 * n : n); ++k) limit((k - 1) % n, k % n);
-      for (int k = is_closed ? 2 * n - 1 : n - 1; k > 0; --k) limit(k % n, (k - 1) % n);
+      for (int k = 1; k < (is_closed ? 2 * n : n); ++k) limit((k - 1) % n, k % n, (k - 1) % n);
+      for (int k = is_closed ? 2 * n - 1 : n - 1; k > 0; --k) limit(k % n, (k - 1) % n, (k - 1) % n);
     }
   }
 
@@ -113,7 +116,7 @@ class LayerFitter {
     layers_.for_each_pair(c, [&](int a, int b) {
       if (columns[a].point == columns[b].point) return;
       const Vec2 edge = layers_.foot(c, columns[b].at) - layers_.foot(c, columns[a].at);
-      const int top = layers_.n_layers(c);
+      const int top = layers_.layers_between(c, a, b);
       const Vec2 front = layers_.node(c, {b, top}) - layers_.node(c, {a, top});
       if (dot(front, edge) < kLeastFront * dot(edge, edge)) mark(c, columns[a]), mark(c, columns[b]);
     });
@@ -126,9 +129,9 @@ class LayerFitter {
     });
   }
 
-  /// The top of a column, and the distance that it keeps.
-  Vec2 guarded_top(int c, const LayerColumn& column) const {
-    const double h = layers_.thickness(c, column.at);
+  /// A node of a column, and the distance that it keeps.
+  Vec2 guarded(int c, const LayerColumn& column, int layer) const {
+    const double h = layers_.height(c, column.at, layer);
     const auto [before, after] = layers_.edges_at(c, column.at);
     return layers_.point(c, column, h + kGap * std::min({h, before, after}));
   }
@@ -137,14 +140,17 @@ class LayerFitter {
     std::vector<Segment> all = boundary_;
     for (int c = 0; c < layers_.n_chains(); ++c) {
       const auto& columns = layers_.columns(c);
-      std::vector<Vec2> tops;
-      for (const LayerColumn& column : columns) {
-        tops.push_back(guarded_top(c, column));
-        all.push_back({layers_.foot(c, column.at), tops.back(), {column.point, -1}, {column.wall, -1}});
-      }
+      for (const LayerColumn& column : columns)
+        all.push_back({layers_.foot(c, column.at),
+                       guarded(c, column, layers_.layers_at(c, column.at)),
+                       {column.point, -1},
+                       {column.wall, -1}});
       layers_.for_each_pair(c, [&](int a, int b) {
-        all.push_back(
-            {tops[a], tops[b], {columns[a].point, columns[b].point}, {columns[a].wall, columns[b].wall}});
+        const int top = layers_.layers_between(c, a, b);
+        all.push_back({guarded(c, columns[a], top),
+                       guarded(c, columns[b], top),
+                       {columns[a].point, columns[b].point},
+                       {columns[a].wall, columns[b].wall}});
       });
     }
     return all;
@@ -197,8 +203,9 @@ class LayerFitter {
 
 }  // namespace
 
-void fit_layers(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers) {
-  LayerFitter(patch, specs, layers).fit();
+void fit_layers(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers,
+                bool again) {
+  LayerFitter(patch, specs, layers).fit(again);
 }
 
 }  // namespace delquad

@@ -1,24 +1,25 @@
 #include "geometry/planar/layers/layer_builder.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace delquad {
 
-LayerBuilder::LayerBuilder(PlanarDomain& domain, std::size_t patch, const LayerColumns& layers)
+LayerBuilder::LayerBuilder(PlanarDomain& domain, const PatchLayers& layers, LayerWalls& walls)
     : domain_(domain),
-      patch_(domain.patches[patch]),
-      region_(domain.patch_region[patch]),
-      layers_(layers),
+      patch_(domain.patches[layers.patch]),
+      region_(domain.patch_region[layers.patch]),
+      layers_(layers.columns),
+      all_walls_(walls),
       curve_(patch_.points.size()),
-      columns_(layers.n_chains()) {
+      columns_(layers.columns.n_chains()) {
   for (std::size_t e = 0; e < patch_.edges.size(); ++e) curve_[patch_.edges[e][0]] = patch_.edge_curve[e];
-  const int n_walls = static_cast<int>(layers_.found().walls.size());
   for (int c = 0; c < layers_.n_chains(); ++c) add_columns(c);
-  for (int w = 0; w < n_walls; ++w) add_wall(w);
-  make_even();
-  for (int w = 0; w < n_walls; ++w) place_wall(w);
+  for (const LayerWall& wall : layers_.found().walls)
+    walls_.push_back({{wall_side(wall, 0), wall_side(wall, 1)}});
+  for (std::size_t w = 0; w < walls_.size(); ++w) walls_[w].between = walls.between(layers_.found().walls[w]);
+  quads_.first = domain.boundary.quads.size();
   for (int c = 0; c < layers_.n_chains(); ++c) add_quads(c);
+  quads_.second = domain.boundary.quads.size();
 }
 
 int LayerBuilder::add_node(Vec2 at) {
@@ -34,8 +35,13 @@ void LayerBuilder::add_columns(int c) {
   for (int a = 0; a < static_cast<int>(columns.size()); ++a) {
     const int foot = patch_.point_node[columns[a].point];
     if (!domain_.places.empty()) domain_.places[foot] = {};
+    if (columns[a].wall >= 0) {
+      columns_[c].push_back(all_walls_.side(layers_.found().walls[columns[a].wall], 1 - columns[a].end));
+      continue;
+    }
     std::vector<int> nodes = {foot};
-    for (int i = 1; i <= layers_.n_layers(c); ++i) nodes.push_back(add_node(layers_.node(c, {a, i})));
+    for (int i = 1; i <= layers_.layers_at(c, columns[a].at); ++i)
+      nodes.push_back(add_node(layers_.node(c, {a, i})));
     columns_[c].push_back(std::move(nodes));
   }
 }
@@ -47,64 +53,10 @@ bool LayerBuilder::ends_free(int c, int end) const {
 }
 
 /// Beside a free end of layers a wall has as many nodes, as far apart.
-LayerBuilder::WallSide LayerBuilder::wall_side(int w, int end) {
-  const LayerWall& wall = layers_.found().walls[w];
-  const int node = patch_.point_node[end == 0 ? wall.points.front() : wall.points.back()];
+LayerBuilder::WallSide LayerBuilder::wall_side(const LayerWall& wall, int end) {
   const int c = wall.chain[end];
-  if (c < 0) return {{node}};
   // The wall begins where the chain ends.
-  const int at = end == 0 ? layers_.chain(c).n_points() - 1 : 0;
-  if (!ends_free(c, 1 - end)) {
-    const LayerColumn& column = end == 0 ? layers_.columns(c).back() : layers_.columns(c).front();
-    return {end == 0 ? columns_[c].back() : columns_[c].front(), column.slant * layers_.thickness(c, at),
-            true};
-  }
-  WallSide side{{node}, layers_.thickness(c, at)};
-  for (int i = 1; i <= layers_.n_layers(c); ++i) {
-    const double along = layers_.height(c, at, i);
-    side.nodes.push_back(
-        add_node(wall.track.point(wall.track.place(end == 0 ? along : wall.track.length() - along))));
-  }
-  return side;
-}
-
-void LayerBuilder::add_wall(int w) {
-  const WallTrack& track = layers_.found().walls[w].track;
-  WallNodes nodes{{wall_side(w, 0), wall_side(w, 1)}};
-  nodes.from = track.place(nodes.sides[0].along);
-  nodes.to = nodes.sides[1].along > 0 ? track.place(track.length() - nodes.sides[1].along) : track.n_edges();
-  nodes.n = std::max(1, static_cast<int>(std::lround(nodes.to - nodes.from)));
-  walls_.push_back(std::move(nodes));
-}
-
-/// A longer wall notices an edge more the least.
-void LayerBuilder::make_even() {
-  if (walls_.empty()) return;
-  std::size_t edges = patch_.edges.size();
-  for (int c = 0; c < layers_.n_chains(); ++c) {
-    const LayerChain& chain = layers_.chain(c);
-    edges -= static_cast<std::size_t>(chain.is_closed ? chain.n_points() : chain.n_points() - 1);
-    layers_.for_each_pair(c, [&](int, int) { ++edges; });
-    for (const int end : {0, 1})
-      edges += ends_free(c, end) ? static_cast<std::size_t>(layers_.n_layers(c)) : 0;
-  }
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    edges += static_cast<std::size_t>(walls_[w].n) - (layers_.found().walls[w].points.size() - 1);
-    for (const WallSide& side : walls_[w].sides) edges += side.is_front ? 0 : side.nodes.size() - 1;
-  }
-  if (edges % 2 != 0) ++std::ranges::max_element(walls_, {}, &WallNodes::n)->n;
-}
-
-void LayerBuilder::place_wall(int w) {
-  const WallTrack& track = layers_.found().walls[w].track;
-  WallNodes& wall = walls_[w];
-  for (int k = 1; k < wall.n; ++k) {
-    const double place = wall.from + (wall.to - wall.from) * k / wall.n;
-    wall.nodes.push_back(add_node(track.point(place)));
-    if (domain_.places.empty()) continue;
-    const auto [low, high] = std::minmax({track.param(wall.from), track.param(wall.to)});
-    domain_.places.back() = {track.curve(), track.param(place), low, high};
-  }
+  return {all_walls_.side(wall, end), c >= 0 && !ends_free(c, 1 - end)};
 }
 
 void LayerBuilder::add_quads(int c) {
@@ -185,16 +137,25 @@ void LayerBuilder::add_chain(int c, bool with_layers, std::vector<LoopPoint>& lo
   }
 }
 
+/// Along the tops of the columns, and along their sides where numbers of layers change.
 void LayerBuilder::add_front(int c, std::vector<LoopPoint>& loop) const {
   const auto& columns = columns_[c];
-  const std::size_t n = columns[0].size() - 1;
-  if (ends_free(c, 0))
-    for (std::size_t i = 0; i < n; ++i) loop.push_back(node_point(columns.front()[i], -1));
-  const bool ends_on_wall = !layers_.chain(c).is_closed && !ends_free(c, 1);
-  for (std::size_t a = 0; a + ends_on_wall < columns.size(); ++a)
-    loop.push_back(node_point(columns[a][n], -1));
-  if (ends_free(c, 1))
-    for (std::size_t i = n - 1; i > 0; --i) loop.push_back(node_point(columns.back()[i], -1));
+  const LayerChain& chain = layers_.chain(c);
+  std::vector<int> levels;  // of the pair from each column
+  layers_.for_each_pair(c, [&](int a, int b) { levels.push_back(layers_.layers_between(c, a, b)); });
+  // From `from` on to `to`, without it.
+  const auto climb = [&](const std::vector<int>& column, int from, int to) {
+    for (int i = from; i != to; i += from < to ? 1 : -1)
+      loop.push_back(node_point(column[static_cast<std::size_t>(i)], -1));
+  };
+  if (ends_free(c, 0)) climb(columns.front(), 0, levels.front());
+  int last = chain.is_closed ? levels.back() : levels.front();
+  for (std::size_t a = 0; a < levels.size(); ++a) {
+    climb(columns[a], last, levels[a]);
+    last = levels[a];
+    loop.push_back(node_point(columns[a][static_cast<std::size_t>(last)], -1));
+  }
+  if (ends_free(c, 1)) climb(columns.back(), last, 0);
 }
 
 /// All but the last point.
@@ -205,23 +166,22 @@ void LayerBuilder::add_wall_points(int w, bool with_layers, std::vector<LoopPoin
   for (std::size_t i = with_layers || !first.is_front ? 0 : first.nodes.size() - 1; i < first.nodes.size();
        ++i)
     loop.push_back(node_point(first.nodes[i], curve));
-  for (const int node : wall.nodes) loop.push_back(node_point(node, curve));
+  for (const int node : wall.between) loop.push_back(node_point(node, curve));
   if (with_layers || !last.is_front)
     for (std::size_t i = last.nodes.size() - 1; i > 0; --i) loop.push_back(node_point(last.nodes[i], curve));
 }
 
-void LayerBuilder::replace_lines(std::map<std::pair<int, int>, std::vector<int>>& replaced) const {
+std::vector<std::pair<std::vector<int>, std::vector<int>>> LayerBuilder::replaced_walls() const {
+  std::vector<std::pair<std::vector<int>, std::vector<int>>> replaced;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const std::vector<int>& points = layers_.found().walls[w].points;
+    auto& [old, nodes] = replaced.emplace_back();
+    for (const int p : layers_.found().walls[w].points) old.push_back(patch_.point_node[p]);
     std::vector<LoopPoint> loop;
     add_wall_points(static_cast<int>(w), true, loop);
-    std::vector<int> nodes;
     for (const LoopPoint& p : loop) nodes.push_back(p.node);
-    nodes.push_back(patch_.point_node[points.back()]);
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      replaced[{patch_.point_node[points[i]], patch_.point_node[points[i + 1]]}] =
-          std::exchange(nodes, std::vector<int>());
+    nodes.push_back(old.back());
   }
+  return replaced;
 }
 
 }  // namespace delquad

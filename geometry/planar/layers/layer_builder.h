@@ -5,20 +5,23 @@
 #include <vector>
 
 #include "geometry/planar/layers/layer_columns.h"
+#include "geometry/planar/layers/layer_walls.h"
 
 namespace delquad {
 
 /// Puts the layers of one patch into its domain: nodes and quads at once, boundaries and lines when asked.
 class LayerBuilder {
  public:
-  LayerBuilder(PlanarDomain& domain, std::size_t patch, const LayerColumns& layers);
+  LayerBuilder(PlanarDomain& domain, const PatchLayers& layers, LayerWalls& walls);
 
   /// The patch with its layers, walls with their new nodes.
   PatchBoundary outline() const { return boundary(true); }
   /// What is left of it.
   PatchBoundary rest() const { return boundary(false); }
-  /// Nodes of walls in the place of a line of theirs; none in the place of the others. Lines by their nodes.
-  void replace_lines(std::map<std::pair<int, int>, std::vector<int>>& replaced) const;
+  /// Nodes in the place of each wall; both by all of its nodes, in the order of the patch.
+  std::vector<std::pair<std::vector<int>, std::vector<int>>> replaced_walls() const;
+  /// Of the domain: the first of its quads, and the one after the last.
+  std::pair<std::size_t, std::size_t> quads() const { return quads_; }
 
  private:
   /// A point of a loop, and the curve of the edge from it.
@@ -26,26 +29,20 @@ class LayerBuilder {
     Vec2 at;
     int node, curve;
   };
-  /// Layers at an end of a wall.
+  /// Nodes at an end of a wall, from there on.
   struct WallSide {
-    std::vector<int> nodes;  ///< from the end on
-    double along = 0;        ///< length up to the last
-    bool is_front = false;   ///< the front begins at the last; else the wall is free from its end on
+    std::vector<int> nodes;
+    bool is_front = false;  ///< the front begins at the last; else the wall is free from its end on
   };
   struct WallNodes {
     std::array<WallSide, 2> sides;
-    double from = 0, to = 0;      ///< places of what is between
-    int n = 1;                    ///< edges there
-    std::vector<int> nodes = {};  ///< inside of that
+    std::vector<int> between = {};
   };
 
   int add_node(Vec2 at);
   void add_columns(int c);
-  void add_wall(int w);
-  WallSide wall_side(int w, int end);
   bool ends_free(int c, int end) const;
-  void make_even();
-  void place_wall(int w);
+  WallSide wall_side(const LayerWall& wall, int end);
   void add_quads(int c);
 
   PatchBoundary boundary(bool with_layers) const;
@@ -59,9 +56,11 @@ class LayerBuilder {
   const PatchBoundary patch_;
   int region_;
   const LayerColumns& layers_;
+  LayerWalls& all_walls_;
   std::vector<int> curve_;                              ///< of the edge from each point
   std::vector<std::vector<std::vector<int>>> columns_;  ///< nodes, by chain and column, from the foot up
   std::vector<WallNodes> walls_;
+  std::pair<std::size_t, std::size_t> quads_;
 };
 
 }  // namespace delquad

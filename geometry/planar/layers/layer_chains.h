@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "delquad/model.h"
+#include "geometry/planar/layers/boundary_graph.h"
+#include "geometry/planar/layers/curve_layers.h"
 #include "geometry/planar/layers/wall_track.h"
 #include "geometry/planar/planar_model.h"
 
@@ -29,9 +31,14 @@ struct LayerChain {
 /// What lies beside a chain, up to the next corner.
 struct LayerWall {
   std::vector<int> points;  ///< of the patch
-  int curve;                ///< of the mesh
+  int curve;                ///< of the mesh; -1: an axis of symmetry
   WallTrack track;
   std::array<int, 2> chain = {-1, -1};  ///< that ends at the first, and begins at the last point
+  bool is_axis = false;                 ///< a mirror image of the patch lies behind it
+  /// Whether layers of some patch end at its first, at its last point.
+  std::array<bool, 2> is_taken = {false, false};
+  int id = -1;               ///< of the wall among those of all patches, see LayerWalls
+  bool is_reversed = false;  ///< against that one
 };
 
 struct LayerChains {
@@ -39,20 +46,12 @@ struct LayerChains {
   std::vector<LayerWall> walls;
 };
 
-/// Which layer each curve of the boundary has; -1: none. Throws InputError for names that no curve has, for
-/// curves with several layers, and for those that do not bound the domain.
-std::vector<int> layers_of_curves(const PlanarDomain& domain, std::span<const LayerSpec> specs);
-
-/// Of one patch. Throws InputError where other curves meet a layer, and where layers meet that have not the
-/// same number. `heights`: see layer_heights(), by layer.
+/// Of one patch. Throws InputError where the boundary meets itself at a layer, or a crack does.
 LayerChains find_layer_chains(const PlanarDomain& domain, std::size_t patch, std::span<const LayerSpec> specs,
-                              const std::vector<int>& of_curve,
-                              const std::vector<std::vector<double>>& heights);
+                              const CurveLayers& layers, const BoundaryGraph& graph);
 
-/// Points at which the boundary turns by more than this are corners, radians.
-inline constexpr double kLayerCorner = 20 * 0.017453292519943295;
-
-/// The angle inside of the boundary at a point, in (0, 2 pi).
-double inner_angle(Vec2 before, Vec2 at, Vec2 after);
+/// The wall along these points of a patch. Throws InputError where its number of edges was asked for.
+LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::vector<int> points,
+                          const BoundaryGraph& graph, const std::string& where);
 
 }  // namespace delquad

@@ -41,6 +41,8 @@ LayerColumns::LayerColumns(const PatchBoundary& patch, const LayerChains& found,
     const int n = chain(c).n_points();
     scales.emplace_back(n, 1.0);
     corners_.emplace_back(n);
+    slants_.push_back({1, 1});
+    joined_.emplace_back();
     for (int k = 0; k < n; ++k) set_corner(c, k, specs);
   }
   columns_.resize(n_chains());
@@ -55,11 +57,45 @@ std::array<double, 2> LayerColumns::edges_at(int c, int k) const {
   return {length(before), length(k + 1 < n || chain.is_closed ? k : n - 2)};
 }
 
+int LayerColumns::layers_at(int c, int k) const {
+  const auto [a, b] = chain(c).specs_at(k);
+  return std::max(a < 0 ? 0 : n_of(a), b < 0 ? 0 : n_of(b));
+}
+
+int LayerColumns::layers_between(int c, int a, int b) const {
+  const auto& columns = columns_[c];
+  return columns[a].point == columns[b].point ? layers_at(c, columns[a].at) : layers_on(c, columns[a].at);
+}
+
+/// Beyond the last of fewer layers those of more go on as they are on their side.
 double LayerColumns::height(int c, int k, int layer) const {
   if (layer == 0) return 0;
   const auto [a, b] = chain(c).specs_at(k);
-  const double one = heights_[a < 0 ? b : a][layer - 1], other = heights_[b < 0 ? a : b][layer - 1];
-  return scales[c][k] * (one + other) / 2;
+  const std::vector<double>&one = heights_[a < 0 ? b : a], &other = heights_[b < 0 ? a : b];
+  if (a < 0 || b < 0) {
+    const std::vector<int>& joined = joined_[c][k == 0 ? 0 : 1];
+    double sum = one[layer - 1];
+    for (const int s : joined) sum += heights_[s][layer - 1];
+    return scales[c][k] * (sum / static_cast<double>(joined.size() + 1));
+  }
+  const int common = std::min({layer, n_of(a), n_of(b)});
+  double height = (one[common - 1] + other[common - 1]) / 2;
+  if (layer > common) {
+    const std::vector<double>& more = one.size() > other.size() ? one : other;
+    height += more[layer - 1] - more[common - 1];
+  }
+  return scales[c][k] * height;
+}
+
+int LayerColumns::fan_quads(double turn, int c, int k) const {
+  const double edges = turn * thickness(c, k) / (kLongFront * std::ranges::max(edges_at(c, k)));
+  const double wanted = std::clamp(edges / 2, turn / kFanQuad, std::max(1.0, turn / kThinFanQuad));
+  return std::max(1, static_cast<int>(std::lround(wanted)));
+}
+
+void LayerColumns::join_end(int c, int end, std::vector<int> others, double slant) {
+  joined_[c][end] = std::move(others);
+  slants_[c][end] = slant;
 }
 
 void LayerColumns::set_corner(int c, int k, std::span<const LayerSpec> specs) {
@@ -77,37 +113,45 @@ void LayerColumns::set_corner(int c, int k, std::span<const LayerSpec> specs) {
   const auto [a, b] = chain.specs_at(k);
   if (-turn >= std::min(specs[a].fan, specs[b].fan) * kDegree) {
     corner.kind = ChainCorner::kFan;
-    const double edges = -turn * thickness(c, k) / (kLongFront * std::ranges::max(edges_at(c, k)));
-    const double wanted = std::clamp(edges / 2, -turn / kFanQuad, std::max(1.0, -turn / kThinFanQuad));
-    corner.quads = std::max(1, static_cast<int>(std::lround(wanted)));
+    corner.quads = fan_quads(-turn, c, k);
   } else if (std::abs(turn) > kLayerCorner) {
     corner.kind = ChainCorner::kMitre;
   }
 }
 
-void LayerColumns::set_end(ChainCorner& corner, int c, int end) const {
+/// Where the mirror image goes on, a fan of both turns into the axis.
+void LayerColumns::set_end(ChainCorner& corner, int c, int end) {
   const LayerChain& chain = this->chain(c);
   const LayerWall& wall = found_.walls[chain.wall[end]];
   const std::size_t n = wall.points.size();
   corner.angle = end == 0 ? inner_angle(patch_.points[wall.points[n - 2]], foot(c, 0), foot(c, 1))
                           : inner_angle(foot(c, chain.n_points() - 2), foot(c, chain.n_points() - 1),
                                         patch_.points[wall.points[1]]);
-  corner.kind = corner.angle <= kWidestWall ? ChainCorner::kOnWall : ChainCorner::kOpenEnd;
+  if (corner.angle <= kWidestWall) {
+    corner.kind = ChainCorner::kOnWall;
+    slants_[c][end] = 1 / std::sin(corner.angle);
+  } else if (wall.is_axis) {
+    corner.kind = ChainCorner::kFanToWall;
+    corner.quads = fan_quads(corner.angle - std::numbers::pi / 2, c, end == 0 ? 0 : chain.n_points() - 1);
+  } else {
+    corner.kind = ChainCorner::kOpenEnd;
+  }
 }
 
-/// What is known of the scales before layers are compared with each other: how much of a wall they may take,
-/// and how far the columns of sharp corners may reach.
 void LayerColumns::set_bounds() {
   for (int c = 0; c < n_chains(); ++c)
     for (int k = 0; k < chain(c).n_points(); ++k) {
       const ChainCorner& corner = corners_[c][k];
       double most = thickness(c, k);
-      const bool is_end = corner.kind == ChainCorner::kOnWall || corner.kind == ChainCorner::kOpenEnd;
+      const bool is_end = !chain(c).is_closed && (k == 0 || k + 1 == chain(c).n_points());
       if (is_end) {
-        const LayerWall& wall = found_.walls[chain(c).wall[k == 0 ? 0 : 1]];
-        const double share = wall.chain[0] >= 0 && wall.chain[1] >= 0 ? kPartOfWall / 2 : kPartOfWall;
-        most = share * wall.track.length();
-        if (corner.kind == ChainCorner::kOnWall) most *= std::sin(corner.angle);
+        const int end = k == 0 ? 0 : 1;
+        const LayerWall& wall = found_.walls[chain(c).wall[end]];
+        const bool are_two =
+            (wall.chain[0] >= 0 || wall.is_taken[0]) && (wall.chain[1] >= 0 || wall.is_taken[1]);
+        most = (are_two ? kPartOfWall / 2 : kPartOfWall) * wall.track.length();
+        if (corner.kind == ChainCorner::kOnWall)
+          most *= joined_[c][end].empty() ? std::sin(corner.angle) : 1 / slants_[c][end];
       }
       const double lean = 1 / std::tan(is_end ? corner.angle : corner.angle / 2);
       if (lean > kSteepLean) most = std::min(most, std::ranges::min(edges_at(c, k)) / lean);
@@ -128,6 +172,8 @@ void LayerColumns::add_columns(int c, int k, double lean) {
   const int point = chain(c).points[k];
   if (corner.kind == ChainCorner::kOnWall) {
     columns_[c].push_back(on_wall(c, k));
+  } else if (corner.kind == ChainCorner::kFanToWall) {
+    add_fan_to_wall(c, k);
   } else if (corner.kind == ChainCorner::kFan) {
     const double turn = corner.angle - std::numbers::pi, step = turn / (2 * corner.quads);
     const double diagonal = std::min(1 / std::cos(step), kLongestDiagonal);
@@ -141,9 +187,24 @@ void LayerColumns::add_columns(int c, int k, double lean) {
   }
 }
 
+/// As one half of a fan.
+void LayerColumns::add_fan_to_wall(int c, int k) {
+  const ChainCorner& corner = corners_[c][k];
+  const bool is_first = k == 0;
+  const double step = (corner.angle - std::numbers::pi / 2) / (2 * corner.quads);
+  const double diagonal = std::min(1 / std::cos(step), kLongestDiagonal);
+  std::vector<LayerColumn> fan;
+  for (int i = 0; i < 2 * corner.quads; ++i)
+    fan.push_back({k, chain(c).points[k],
+                   (i % 2 == 0 ? 1 : diagonal) * turned(perp(corner.in), (is_first ? i : -i) * step)});
+  fan.push_back(on_wall(c, k));
+  if (is_first) std::ranges::reverse(fan);
+  columns_[c].insert(columns_[c].end(), fan.begin(), fan.end());
+}
+
 LayerColumn LayerColumns::on_wall(int c, int k) const {
   const int end = k == 0 ? 0 : 1;
-  return {k, chain(c).points[k], {}, chain(c).wall[end], end, 1 / std::sin(corners_[c][k].angle)};
+  return {k, chain(c).points[k], {}, chain(c).wall[end], end, slants_[c][end]};
 }
 
 Vec2 LayerColumns::point(int c, const LayerColumn& column, double height) const {

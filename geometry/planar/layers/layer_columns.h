@@ -24,7 +24,7 @@ struct ColumnNode {
 
 /// How a chain runs through one of its points.
 struct ChainCorner {
-  enum Kind { kSmooth, kMitre, kFan, kOnWall, kOpenEnd };
+  enum Kind { kSmooth, kMitre, kFan, kOnWall, kFanToWall, kOpenEnd };
   Kind kind = kSmooth;
   double angle = 0;  ///< inside of the boundary
   Vec2 in, out;      ///< unit tangents of the edges before and after; at an end both are of its edge
@@ -41,7 +41,11 @@ class LayerColumns {
   const LayerChains& found() const { return found_; }
   const LayerChain& chain(int c) const { return found_.chains[c]; }
   const ChainCorner& corner(int c, int k) const { return corners_[c][k]; }
-  int n_layers(int c) const { return static_cast<int>(heights_[chain(c).spec[0]].size()); }
+  /// Layers on the edge from a point, and at a point: the more of those at its edges.
+  int layers_on(int c, int k) const { return n_of(chain(c).spec[k]); }
+  int layers_at(int c, int k) const;
+  /// Of two columns side by side.
+  int layers_between(int c, int a, int b) const;
   Vec2 foot(int c, int k) const { return patch_.points[chain(c).points[k]]; }
   /// Lengths of the edges at a point; at an end both are of its edge.
   std::array<double, 2> edges_at(int c, int k) const;
@@ -50,8 +54,17 @@ class LayerColumns {
   std::vector<std::vector<double>> scales;
   /// Of a node above a point.
   double height(int c, int k, int layer) const;
-  double thickness(int c, int k) const { return height(c, k, n_layers(c)); }
+  double thickness(int c, int k) const { return height(c, k, layers_at(c, k)); }
 
+  /// The walls of other patches' layers, to know them by their places in found().walls.
+  LayerWall& wall(int w) { return found_.walls[w]; }
+  /// Length along the wall by height, at an end of an open chain.
+  double slant(int c, int end) const { return slants_[c][end]; }
+  /// An end gets the mean heights of its own layer and these, and this slant. Then set_bounds() is due.
+  void join_end(int c, int end, std::vector<int> others, double slant);
+  /// What is known of the scales before layers are compared with each other: how much of a wall they may
+  /// take, and how far the columns of sharp corners may reach.
+  void set_bounds();
   /// To be called once the scales have changed.
   void place();
   const std::vector<LayerColumn>& columns(int c) const { return columns_[c]; }
@@ -74,7 +87,7 @@ class LayerColumns {
   void for_each_quad(int c, Visit visit) const {
     for_each_pair(c, [&](int a, int b) {
       const bool in_fan = columns_[c][a].point == columns_[c][b].point;
-      for (int i = in_fan ? 2 : 1; i <= n_layers(c); ++i)
+      for (int i = in_fan ? 2 : 1, n = layers_between(c, a, b); i <= n; ++i)
         visit(std::array<ColumnNode, 4>{{{a, i - 1}, {b, i - 1}, {b, i}, {a, i}}});
     });
     const int n = static_cast<int>(columns_[c].size());
@@ -89,9 +102,11 @@ class LayerColumns {
 
  private:
   void set_corner(int c, int k, std::span<const LayerSpec> specs);
-  void set_end(ChainCorner& corner, int c, int end) const;
-  void set_bounds();
+  int n_of(int spec) const { return static_cast<int>(heights_[spec].size()); }
+  void set_end(ChainCorner& corner, int c, int end);
+  int fan_quads(double turn, int c, int k) const;
   void add_columns(int c, int k, double lean);
+  void add_fan_to_wall(int c, int k);
   std::vector<double> leans(int c) const;
   void lean_beside(int c, int k, bool forward, std::vector<double>& leans) const;
   double lean_of(int c, int k, bool forward) const;
@@ -101,6 +116,8 @@ class LayerColumns {
   LayerChains found_;
   const std::vector<std::vector<double>>& heights_;
   std::vector<std::vector<ChainCorner>> corners_;
+  std::vector<std::array<double, 2>> slants_;            ///< of chains' ends
+  std::vector<std::array<std::vector<int>, 2>> joined_;  ///< layers of others that share the end
   std::vector<std::vector<LayerColumn>> columns_;
 };
 

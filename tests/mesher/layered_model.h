@@ -1,0 +1,159 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/predicates.h"
+#include "delquad/mesher.h"
+#include "geometry/planar/layers/layer_heights.h"
+
+namespace delquad {
+
+struct LayeredModel {
+  PlanarModel model{"layered", {}, {}};
+
+  LayeredModel& polygon(const std::vector<Vec2>& corners, const std::vector<std::string>& names) {
+    ModelLoop loop{{}, "", ""};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      loop.curves.push_back(static_cast<int>(model.curves.size()));
+      model.curves.push_back(
+          {make_segment(corners[i], corners[(i + 1) % corners.size()]), names[i % names.size()], ""});
+    }
+    model.loops.push_back(loop);
+    return *this;
+  }
+  LayeredModel& rectangle(Vec2 low, Vec2 high, const std::vector<std::string>& names) {
+    return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, names);
+  }
+  LayeredModel& curve(std::shared_ptr<const Curve> shape, const std::string& name) {
+    model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
+    model.curves.push_back({std::move(shape), name, ""});
+    return *this;
+  }
+  MeshProblem problem(double size, std::vector<LayerSpec> layers) const {
+    MeshProblem problem;
+    problem.model = model;
+    problem.size.field = make_constant_size(size);
+    problem.layers = std::move(layers);
+    return problem;
+  }
+};
+
+inline LayerSpec layer_on(std::vector<std::string> on, double first, int number, double growth = 1.2) {
+  LayerSpec spec;
+  spec.on = std::move(on);
+  spec.first = first;
+  spec.number = number;
+  spec.growth = growth;
+  return spec;
+}
+
+inline Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
+
+inline long long count_of(const MeshResult& result, const std::string& key) {
+  return result.summaries.get<long long>("layers", key);
+}
+
+inline int lines_on(const Mesh& mesh, const std::vector<std::string>& names) {
+  int n = 0;
+  for (const int curve : mesh.line_curve)
+    n += std::ranges::any_of(mesh.curves[curve].names,
+                             [&](const auto& name) { return std::ranges::count(names, name) > 0; });
+  return n;
+}
+
+/// Every corner of every quad turns left, exactly; the areas add up to the domain's.
+inline void expect_good_quads(const MeshResult& result) {
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_TRUE(result.mesh.triangles.empty());
+  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>());
+  const Mesh& mesh = result.mesh;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_GT(orient2d(flat(mesh.points[q[k]]), flat(mesh.points[q[(k + 1) % 4]]),
+                         flat(mesh.points[q[(k + 2) % 4]])),
+                0);
+  double area = 0, inside = 0;
+  const auto swept = [&](int a, int b) { return cross(mesh.points[a], mesh.points[b]).z / 2; };
+  std::set<std::pair<int, int>> sides;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      area += swept(q[k], q[(k + 1) % 4]);
+      sides.insert({q[k], q[(k + 1) % 4]});
+    }
+  for (const auto& [a, b] : mesh.lines)
+    if (!sides.contains({b, a})) inside += swept(a, b);
+  EXPECT_NEAR(area, inside, 1e-9 * inside);
+}
+
+/// And the layers have each quad that they should.
+inline void expect_layers(const MeshProblem& problem, const MeshResult& result) {
+  expect_good_quads(result);
+  std::vector<std::string> names;
+  for (const LayerSpec& layer : problem.layers) names.insert(names.end(), layer.on.begin(), layer.on.end());
+  const long long columns = lines_on(result.mesh, names), fans = count_of(result, "fans");
+  const auto n = static_cast<long long>(layer_heights(problem.layers[0]).size());
+  EXPECT_EQ(count_of(result, "columns"), columns);
+  EXPECT_EQ(count_of(result, "quads"), n * columns + fans + 2 * fans * (n - 1));
+}
+
+/// Heights of the quads at the lines of a curve: areas by lengths.
+inline std::vector<double> first_heights(const Mesh& mesh, const std::string& name) {
+  std::set<std::pair<int, int>> lines;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    if (std::ranges::count(mesh.curves[mesh.line_curve[l]].names, name) > 0)
+      lines.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
+  std::vector<double> heights;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      if (!lines.contains(std::minmax(q[k], q[(k + 1) % 4]))) continue;
+      const Vec2 a = flat(mesh.points[q[k]]), b = flat(mesh.points[q[(k + 1) % 4]]);
+      const Vec2 c = flat(mesh.points[q[(k + 2) % 4]]);
+      heights.push_back(cross(b - a, c - a) / norm(b - a));
+    }
+  return heights;
+}
+
+/// The chord is 1; the far field ten of them away.
+inline MeshProblem naca0012(bool is_sharp, double first) {
+  const double last = is_sharp ? 0.1036 : 0.1015;
+  const auto half = [last](double s) {
+    return 0.6 * (0.2969 * s - 0.1260 * s * s - 0.3516 * std::pow(s, 4) + 0.2843 * std::pow(s, 6) -
+                  last * std::pow(s, 8));
+  };
+  LayeredModel model;
+  model.rectangle({-10, -10}, {11, 10}, {"far"});
+  std::vector<ModelCurve>& curves = model.model.curves;
+  const double tail = is_sharp ? 0 : half(1);
+  const auto side = [&](double sign) {
+    return make_parametric_curve(
+        [=](double s) {
+          return Vec2{s * s, s == 1 ? sign * tail : sign * half(s)};
+        },
+        0, 1);
+  };
+  ModelLoop loop{{4, 5}, "", "", true};
+  curves.push_back({side(1), "airfoil", ""});
+  curves.push_back({side(-1), "airfoil", ""});
+  if (!is_sharp) {
+    curves.push_back({make_segment({1, tail}, {1, -tail}), "airfoil", ""});
+    loop.curves = {4, 6, 5};
+  }
+  model.model.loops.push_back(loop);
+  LayerSpec layer = layer_on({"airfoil"}, first, 0);
+  layer.thickness = 0.02;
+  MeshProblem problem = model.problem(1, {layer});
+  problem.size.sources = {{{0, 0, 0}, {1, 0, 0}, 0.015, 1, 0.1, 8},
+                          {{0, 0, 0}, {0, 0, 0}, 0.004, 1, 0.01, 8},
+                          {{1, 0, 0}, {1, 0, 0}, 0.002, 1, 0.005, 8}};
+  return problem;
+}
+
+}  // namespace delquad
