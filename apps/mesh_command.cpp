@@ -63,7 +63,7 @@ NamedSize named_size(const std::string& text) {
 
 void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
   if (arguments.mapped.empty()) return;
-  mapped = {arguments.mapped, false, "--mapped"};
+  mapped = {arguments.mapped, false, "--mapped", {}};
   mapped.automatic = std::erase(mapped.names, "auto") > 0;
 }
 

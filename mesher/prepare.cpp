@@ -11,11 +11,11 @@
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/curve_divisions.h"
+#include "mesher/add_grids.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
 #include "mesher/given_domain.h"
-#include "mesher/mapped_grid.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -185,11 +185,20 @@ bool is_symmetric(const MeshProblem& problem) {
 }
 
 /// Refuses what is for planar models of curves.
-void check_not_mapped(const MeshProblem& problem) {
-  if (problem.mapped.automatic || !problem.mapped.names.empty())
-    throw InputError(problem.mapped.where + ": grids are for planar models of curves");
+void check_not_symmetric(const MeshProblem& problem) {
   if (is_symmetric(problem))
     throw InputError(problem.symmetry.where + ": planes of symmetry are for planar models of curves");
+}
+
+/// Refuses what is for models whose curves are meshed.
+void check_not_mapped(const MeshProblem& problem) {
+  check_not_symmetric(problem);
+  if (!problem.mapped.asks()) return;
+  const std::string& where =
+      problem.mapped.corners.empty() || problem.mapped.automatic || !problem.mapped.names.empty()
+          ? problem.mapped.where
+          : problem.mapped.corners[0].where;
+  throw InputError(where + ": grids are for planar models of curves and for surfaces");
 }
 
 /// What cannot be where lines are kept.
@@ -298,7 +307,7 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
 }
 
 PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
-  check_not_mapped(problem);
+  check_not_symmetric(problem);
   const Stopwatch reading;
   const DoingStage stage("reading");
   std::vector<FeatureBall> kept_features;
@@ -344,25 +353,10 @@ void check_layers_alone(const MeshProblem& problem) {
     throw InputError(problem.symmetry.where +
                      ": symmetry does not go with layers or periodic sides: expected one of these");
   if (problem.layers.empty()) return;
-  const bool grids = problem.mapped.automatic || !problem.mapped.names.empty();
+  const bool grids = problem.mapped.asks();
   if (grids || !problem.periodic.empty())
     throw InputError(fmt::format("{}: layers change the boundary that {} have: expected one of the two",
                                  problem.layers[0].where, grids ? "grids" : "periodic sides"));
-}
-
-/// Faces that become grids.
-void add_grids(const MeshProblem& problem, const PlanarDomain& domain, PreparedProblem& p) {
-  for (const auto& [patch, corners] : domain.mapped) {
-    p.patches[patch].grid = mapped_grid(p.patches[patch].boundary, corners);
-    const Entity& region = p.boundary.regions[p.patches[patch].region];
-    const bool asked = std::ranges::any_of(problem.mapped.names, [&](const std::string& name) {
-      return !entities_named({region}, "region", name).empty();
-    });
-    if (!p.patches[patch].grid && asked)
-      throw InputError(
-          fmt::format("{}: '{}' cannot be a grid: it would fold", problem.mapped.where,
-                      region.names.empty() ? fmt::format("region {}", region.tag) : region.names[0]));
-  }
 }
 
 /// Cross field and patches.
@@ -384,7 +378,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
                          {}});
   for (std::size_t i = 0; i < given.size(); ++i) p.patches[i].given = std::move(given[i]);
   for (PatchImage& image : domain.images) p.patches[image.patch].image = std::move(image);
-  add_grids(problem, domain, p);
+  add_grids(problem.mapped, domain.mapped, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);
   p.times.emplace_back("fields", fields.time());

@@ -13,6 +13,7 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "mesher/add_grids.h"
 #include "mesher/fine_spots.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -72,7 +73,7 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, problem.divisions, problem.periodic);
+                                 *solver, asked, problem.divisions, problem.periodic, problem.mapped);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -218,6 +219,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const Stopwatch fields;
   const DoingStage making_fields("fields");
   prepare_patches(surface, p);
+  add_grids(problem.mapped, surface->domain.mapped, p);
   if (size_aware) make_crosses_size_aware(p);
   p.times.emplace_back("fields", size_time + fields.time());
   return p;
