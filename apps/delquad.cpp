@@ -256,8 +256,9 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
   mesh->add_option("--size-on", arguments.size_on,
                    "NAME=SIZE: at most this size on and in what has the name; may be repeated")
       ->allow_extra_args(false);
-  mesh->add_option("--mapped", arguments.mapped,
-                   "name of a region that becomes a grid, or 'auto' for all where that pays; may be repeated")
+  mesh->add_option(
+          "--mapped", arguments.mapped,
+          "name of a region or face that becomes a grid, or 'auto' for all where that pays; may be repeated")
       ->allow_extra_args(false);
   mesh->add_option("--curvature", arguments.curvature,
                    "of surfaces: elements per full turn of a curved face or curve")

@@ -66,7 +66,7 @@ void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
   if (arguments.mapped.empty()) return;
   if (std::ranges::find(arguments.mapped, "") != arguments.mapped.end())
     throw InputError("--mapped '': expected the name of a region, or auto");
-  mapped = {arguments.mapped, false, "--mapped"};
+  mapped = {arguments.mapped, false, "--mapped", {}};
   mapped.automatic = std::erase(mapped.names, "auto") > 0;
 }
 

@@ -68,11 +68,13 @@ std::vector<int> curves_at_fault(const PatchBoundary& boundary, const std::vecto
 
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
-                                 const SurfaceSize& size, const MatchingSolver& solver) {
+                                 const SurfaceSize& size, const MatchingSolver& solver,
+                                 const MappedSpec& spec, std::vector<MappedFace>& mapped) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
-  placed.counts = even_counts(joined_demands(wanted.demands, curves.images.pairs),
-                              static_cast<int>(maps.size()), solver, placed.odd_patches);
+  placed.counts = mapped.empty() ? even_counts(joined_demands(wanted.demands, curves.images.pairs),
+                                               static_cast<int>(maps.size()), solver, placed.odd_patches)
+                                 : grid_counts(spec, model.fine, curves, wanted, mapped, placed.odd_patches);
   for (const ChainPair& pair : curves.images.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
                                   wanted.group, size_on_lines(size));

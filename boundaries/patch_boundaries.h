@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "boundaries/surface_curves.h"
+#include "boundaries/surface_grids.h"
 #include "matching/matching.h"
 
 namespace delquad {
@@ -20,8 +21,10 @@ struct PatchBoundaries {
 /// loops that are turned inside out.
 bool meshable(const PatchBoundary& boundary);
 
+/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts().
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
-                                 const SurfaceSize& size, const MatchingSolver& solver);
+                                 const SurfaceSize& size, const MatchingSolver& solver,
+                                 const MappedSpec& spec, std::vector<MappedFace>& mapped);
 
 }  // namespace delquad

@@ -26,9 +26,10 @@ constexpr int kRefinements = 8;
 /// Demands more edges of the curves that keep boundaries from enclosing quads, until none do.
 PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                        const AcrossView& across, CurveDemands& wanted,
-                                       const SurfaceSize& size, const MatchingSolver& solver) {
+                                       const SurfaceSize& size, const MatchingSolver& solver,
+                                       const MappedSpec& spec, std::vector<MappedFace>& mapped) {
   for (int attempt = 0;; ++attempt) {
-    PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver);
+    PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver, spec, mapped);
     const FlatPatch* crossing = nullptr;
     bool can_change = false;
     for (size_t p = 0; p < curves.maps.size(); ++p) {
@@ -211,8 +212,8 @@ void add_image_corners(const SurfaceCurves& curves, const std::vector<PeriodicFa
 
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
-                                  const std::vector<CurveDivision>& divisions,
-                                  const PeriodicSides& periodic) {
+                                  const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
+                                  const MappedSpec& mapped) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size, periodic);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
@@ -220,7 +221,10 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
       measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size, divisions);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
-  PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver);
+  std::vector<MappedFace> grids;
+  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, grids);
+  domain.mapped = grid_patches(grids, curves, placed.counts);
   check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
   for (const int p : placed.odd_patches)
     domain.warnings.push_back(
@@ -239,6 +243,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
                               std::move(placed.boundaries[p]), std::move(backgrounds[p]),
                               std::move(curves.tube_sizes[p])});
     SurfacePatch& patch = domain.patches[p];
+    if (std::ranges::find(grids, static_cast<int>(p), &MappedFace::face) != grids.end()) continue;
     const DoingFace face(fine.regions[patch.map.face].tag);
     try {
       capping.cap(static_cast<int>(p));
@@ -256,6 +261,9 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
   for (const ChainPair& pair : curves.images.pairs)
     domain.chain_stays[pair.chain] = domain.chain_stays[pair.master] = 1;
+  for (const MappedFace& grid : grids)
+    for (const auto& side : grid.sides)
+      for (const int chain : side) domain.chain_stays[chain] = 1;
   domain.cut_face = std::move(curves.cut_face);
   return domain;
 }

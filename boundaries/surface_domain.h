@@ -44,6 +44,7 @@ struct SurfaceDomain {
   SurfaceNodes nodes;                      ///< those of `boundary`
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
+  std::vector<MappedPatch> mapped;         ///< those that become grids
   std::vector<Warning> warnings;
 };
 
@@ -52,13 +53,14 @@ struct SurfaceDomain {
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
-/// first: faces that are images have no patches, see `boundary.periodic_faces`. Throws FaceError when no
+/// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
+/// `mapped` asks, get numbers that fit. Throws FaceError when no
 /// refinement gives a valid boundary, naming the face, and InputError where divisions leave a patch with an
 /// odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
-                                  const PeriodicSides& periodic = {});
+                                  const PeriodicSides& periodic = {}, const MappedSpec& mapped = {});
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 #include "base/located.h"
 #include "cases/case_keys.h"
@@ -106,17 +107,26 @@ PeriodicPair read_periodic(const TomlTable& table) {
   return pair;
 }
 
+GridCorners read_grid_corners(const TomlTable& table) {
+  GridCorners corners{.region = table.text("name"), .corners = {}, .where = table.where()};
+  for (const auto& corner : table.texts_and_points("corners")) {
+    if (const auto* name = std::get_if<std::string>(&corner))
+      corners.corners.push_back({*name, {}});
+    else
+      corners.corners.push_back({{}, std::get<Vec3>(corner)});
+  }
+  table.finish(mapped_keys());
+  return corners;
+}
+
 MappedSpec read_mapped(const TomlTable& table) {
-  MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped")};
+  MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped"), .corners = {}};
   if (table.kind("mapped") == TomlKind::kFlag)
     throw InputError(mapped.where + ": 'mapped' must be names of regions, or \"auto\"");
-  if (table.kind("mapped") != TomlKind::kText) {
-    mapped.names = table.texts("mapped");
-  } else if (const std::string text = table.text("mapped"); text == "auto") {
-    mapped.automatic = true;
-  } else {
-    mapped.names = {text};
-  }
+  auto [names, tables] = table.texts_and_tables("mapped");
+  mapped.names = std::move(names);
+  if (table.kind("mapped") == TomlKind::kText) mapped.automatic = std::erase(mapped.names, "auto") > 0;
+  for (const TomlTable& one : tables) mapped.corners.push_back(read_grid_corners(one));
   return mapped;
 }
 

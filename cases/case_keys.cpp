@@ -36,6 +36,10 @@ const std::string kSpacePoint =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3})";
 const std::string kVector = R"({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3})";
 const std::string kTextOrTexts = R"({"type": ["string", "array"], "items": {"type": "string"}})";
+const std::string kTextsAndTables =
+    R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})";
+const std::string kTextsOrPoints =
+    R"({"type": "array", "items": {"type": ["string", "array"], "items": {"type": "number"}}, "minItems": 3, "maxItems": 4})";
 const std::string kWords = R"({"type": "object", "additionalProperties": {"type": "string"}})";
 const std::string kCompound =
     R"({"anyOf": [{"enum": ["all", "tangent"]},
@@ -205,6 +209,13 @@ const TomlKeys& periodic_keys() {
   return keys;
 }
 
+const TomlKeys& mapped_keys() {
+  static const TomlKeys keys = {
+      {"name", "of a region or face", kText, nullptr, false, true},
+      {"corners", "three or four: names of points, or places", kTextsOrPoints, nullptr, false, true}};
+  return keys;
+}
+
 const TomlKeys& symmetry_keys() {
   static const TomlKeys keys = {{"point", "of the plane", kSpacePoint, nullptr, false, true},
                                 {"normal", "of the plane", kSpacePoint, nullptr, false, true}};
@@ -250,25 +261,26 @@ TomlKeys keys_of(const OptionGroup& group) {
 }
 
 TomlKeys case_keys() {
-  TomlKeys keys = {{"loop", "closed loops", "", loop_keys, true},
-                   {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
-                   {"curve", "curves that loops are made of", "", curve_keys, true},
-                   {"embed", "curves and points inside of regions, polylines and points on surfaces", "",
-                    embed_keys, true},
-                   {"example", "a surface that the program makes itself", kText},
-                   {"mesh", "an MSH file; with 'start' of any format", kText},
-                   {"start", "words may begin from the elements of that mesh", kFlag},
-                   {"model", "a model file, a surface or an MSH file", kText},
-                   {"data", "a surface or MSH file in the folder of --data", kText},
-                   {"surface", "what becomes of a surface's faces", "", surface_keys},
-                   {"layer", "thin quads along curves", "", layer_keys, true},
-                   {"size", "wanted edge length", kSize, size_keys},
-                   {"divide", "numbers of edges of curves", "", division_keys, true},
-                   {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},
-                   {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},
-                   {"mapped", "regions that become grids, or \"auto\"", kTextOrTexts},
-                   {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
-                   {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
+  TomlKeys keys = {
+      {"loop", "closed loops", "", loop_keys, true},
+      {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
+      {"curve", "curves that loops are made of", "", curve_keys, true},
+      {"embed", "curves and points inside of regions, polylines and points on surfaces", "", embed_keys,
+       true},
+      {"example", "a surface that the program makes itself", kText},
+      {"mesh", "an MSH file; with 'start' of any format", kText},
+      {"start", "words may begin from the elements of that mesh", kFlag},
+      {"model", "a model file, a surface or an MSH file", kText},
+      {"data", "a surface or MSH file in the folder of --data", kText},
+      {"surface", "what becomes of a surface's faces", "", surface_keys},
+      {"layer", "thin quads along curves", "", layer_keys, true},
+      {"size", "wanted edge length", kSize, size_keys},
+      {"divide", "numbers of edges of curves", "", division_keys, true},
+      {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},
+      {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},
+      {"mapped", "regions or faces that become grids, or \"auto\"", kTextsAndTables, mapped_keys, true},
+      {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
+      {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {
     if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end() || group.name == kCompare)
       throw std::logic_error("options '" + group.name + "': a key of cases has that name");

@@ -19,6 +19,7 @@ const TomlKeys& expression_keys();
 const TomlKeys& surface_keys();
 const TomlKeys& mirror_keys();
 const TomlKeys& named_size_keys();
+const TomlKeys& mapped_keys();
 const TomlKeys& symmetry_keys();
 const TomlKeys& periodic_keys();
 const TomlKeys& division_keys();

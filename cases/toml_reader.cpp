@@ -276,6 +276,15 @@ std::vector<std::string> TomlTable::texts(const std::string& key) const {
   });
 }
 
+std::vector<std::variant<std::string, Vec3>> TomlTable::texts_and_points(const std::string& key) const {
+  constexpr const char* kWhat = "a list of texts in quotes or points [x, y, z]";
+  using Entry = std::variant<std::string, Vec3>;
+  return data_->list<Entry>(key, kWhat, [&](const toml::node& node) -> Entry {
+    if (node.is_string()) return *node.value<std::string>();
+    return data_->space_point(node, key, kWhat);
+  });
+}
+
 TomlTable TomlTable::table(const std::string& key) const {
   const std::string what = "a table of keys and values";
   const toml::node& node = data_->need(key, what);
@@ -299,6 +308,25 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   for (const toml::node& item : data_->array(*node, key, what)) {
     if (!item.is_table()) data_->expected(item, key, what);
     result.push_back(TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
+  }
+  return result;
+}
+
+std::pair<std::vector<std::string>, std::vector<TomlTable>> TomlTable::texts_and_tables(
+    const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (!node) return {};
+  if (node->is_string()) return {{text(key)}, {}};
+  if (node->is_table()) return {{}, {table(key)}};
+  const std::string what = "a text in quotes, a table, or a list of these";
+  std::pair<std::vector<std::string>, std::vector<TomlTable>> result;
+  for (const toml::node& item : data_->array(*node, key, what)) {
+    if (item.is_string())
+      result.first.push_back(*item.value<std::string>());
+    else if (item.is_table())
+      result.second.push_back(TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
+    else
+      data_->expected(item, key, what);
   }
   return result;
 }

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/nearest_name.h"
@@ -57,10 +59,14 @@ class TomlTable {
   /// [[n, ...], ...], of the range of int.
   std::vector<std::vector<int>> integer_lists(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
+  /// A list of texts and points [x, y] or [x, y, z].
+  std::vector<std::variant<std::string, Vec3>> texts_and_points(const std::string& key) const;
   TomlTable table(const std::string& key) const;
   std::optional<TomlTable> optional_table(const std::string& key) const;
   /// An array of tables, or one table; none when absent.
   std::vector<TomlTable> tables(const std::string& key) const;
+  /// The same where texts may stand among the tables.
+  std::pair<std::vector<std::string>, std::vector<TomlTable>> texts_and_tables(const std::string& key) const;
 
   /// Dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
   std::vector<std::string> leaves() const;

@@ -1,16 +1,42 @@
 #pragma once
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "delquad/extend.h"
 
 namespace delquad {
 
-/// The grid of a patch whose boundary has four sides, which begin at these points of it, by transfinite
-/// interpolation [Gordon and Hall 1973], its parameters by the lengths along opposite sides. Nothing where
-/// opposite sides have different numbers of edges, or a quad would not be convex.
-std::optional<QuadPatch> mapped_grid(const PatchBoundary& boundary, const std::array<int, 4>& corners);
+/// A grid before anything is known of its quads: the boundary's points, those inside, and the quads.
+template <class Vec>
+struct MappedGrid {
+  std::vector<Vec> points;
+  std::vector<std::array<int, 4>> quads;
+};
+
+/// The grid of a patch whose boundary, counterclockwise, has its points at `places`, in the plane or in
+/// space, by transfinite interpolation [Gordon and Hall 1973], its parameters by the lengths along opposite
+/// sides. `corners`: the points at which its sides begin. Of four, opposite sides have equal numbers of
+/// edges. Of three, the sides are divided so that three grids fit, which meet in the mean of the places of
+/// division [midpoint subdivision]. None: two loops of as many edges each, joined by straight lines with
+/// nodes at `layers`, parts of the way from the outer loop, ends excluded. Nothing where the numbers of edges
+/// do not fit.
+template <class Vec>
+std::optional<MappedGrid<Vec>> interpolated_grid(const PatchBoundary& boundary,
+                                                 const std::vector<Vec>& places,
+                                                 const std::vector<int>& corners,
+                                                 const std::vector<double>& layers);
+
+/// Where the nodes between the loops of a ring lie, by the mean of the sizes along the lines between them.
+std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricSize& size);
+
+/// Whether all corners of all quads turn left, by exact predicates. Else `at` is the first one that does not.
+bool are_convex(const std::vector<Vec2>& points, const std::vector<std::array<int, 4>>& quads,
+                Vec2* at = nullptr);
+
+/// Moves the points inside until the quads are convex, where that can be, then all together as stage O does,
+/// for shape and lengths; no quad gets inverted.
+void smooth_grid(QuadPatch& grid, const CrossField& cross, const ParametricSize& size);
 
 /// A grid in the form that a stage leaves.
 PatchMesh grid_as(PatchForm form, const QuadPatch& grid);

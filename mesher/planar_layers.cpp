@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "delquad/error.h"
+#include "geometry/planar/grid_sides.h"
 #include "mesher/fine_spots.h"
-#include "mesher/named_parts.h"
 
 namespace delquad {
 namespace {
@@ -47,14 +47,13 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
 /// Regions that got layers are no grids any more. Throws InputError where they were asked to be.
 void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDomain& domain) {
   std::erase_if(domain.mapped, [&](const auto& mapped) {
-    if (std::ranges::find(layers.patches, mapped.first) == layers.patches.end()) return false;
-    const Entity& region = domain.boundary.regions[domain.patch_region[mapped.first]];
-    for (const std::string& name : problem.mapped.names)
-      if (!entities_named({region}, "region", name).empty())
-        throw InputError(fmt::format(
-            "{}: layers stand in the grid '{}' ({}), or end on its sides: expected the one or the other, or "
-            "layers 'into' other regions",
-            problem.layers[0].where, name, problem.mapped.where));
+    if (std::ranges::find(layers.patches, mapped.patch) == layers.patches.end()) return false;
+    if (mapped.is_asked)
+      throw InputError(fmt::format(
+          "{}: layers stand in the grid '{}' ({}), or end on its sides: expected the one or the other, or "
+          "layers 'into' other regions",
+          problem.layers[0].where, region_label(domain.boundary.regions[domain.patch_region[mapped.patch]]),
+          problem.mapped.where));
     return true;
   });
 }

@@ -11,12 +11,12 @@
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/curve_divisions.h"
+#include "mesher/add_grids.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
 #include "mesher/fine_spots.h"
 #include "mesher/gap_warning.h"
 #include "mesher/given_domain.h"
-#include "mesher/mapped_grid.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -187,18 +187,17 @@ bool is_symmetric(const MeshProblem& problem) {
   return problem.symmetry.automatic || !problem.symmetry.planes.empty();
 }
 
-/// Refuses what is for planar models of curves.
-void check_not_mapped(const MeshProblem& problem) {
-  if (problem.mapped.automatic || !problem.mapped.names.empty())
-    throw InputError(problem.mapped.where + ": grids are for planar models of curves");
-}
-
-/// Refuses what is not for meshes whose lines are kept.
-void check_not_symmetric(const MeshProblem& problem) {
-  check_not_mapped(problem);
+/// Refuses what is for models whose curves are meshed.
+void check_curves_are_meshed(const MeshProblem& problem) {
   if (is_symmetric(problem))
     throw InputError(problem.symmetry.where +
                      ": planes of symmetry are for planar models of curves and for surfaces");
+  if (!problem.mapped.asks()) return;
+  const std::string& where =
+      problem.mapped.corners.empty() || problem.mapped.automatic || !problem.mapped.names.empty()
+          ? problem.mapped.where
+          : problem.mapped.corners[0].where;
+  throw InputError(where + ": grids are for planar models of curves and for surfaces");
 }
 
 /// What cannot be where lines are kept.
@@ -215,7 +214,7 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
   const Mesh& mesh = model.mesh;
   check_lines_are_free(problem, model.source);
-  check_not_symmetric(problem);
+  check_curves_are_meshed(problem);
   if (mesh.lines.empty())
     throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
   if (!mesh.triangles.empty() || !mesh.quads.empty())
@@ -311,7 +310,6 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
 }
 
 PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refinement& refinement) {
-  check_not_mapped(problem);
   const Stopwatch reading;
   const DoingStage stage("reading");
   std::vector<FeatureBall> kept_features;
@@ -362,21 +360,6 @@ void check_symmetry_alone(const MeshProblem& problem) {
                                  problem.symmetry.where, problem.periodic[0].where));
 }
 
-/// Faces that become grids.
-void add_grids(const MeshProblem& problem, const PlanarDomain& domain, PreparedProblem& p) {
-  for (const auto& [patch, corners] : domain.mapped) {
-    p.patches[patch].grid = mapped_grid(p.patches[patch].boundary, corners);
-    const Entity& region = p.boundary.regions[p.patches[patch].region];
-    const bool asked = std::ranges::any_of(problem.mapped.names, [&](const std::string& name) {
-      return !entities_named({region}, "region", name).empty();
-    });
-    if (!p.patches[patch].grid && asked)
-      throw InputError(
-          fmt::format("{}: '{}' cannot be a grid: it would fold", problem.mapped.where,
-                      region.names.empty() ? fmt::format("region {}", region.tag) : region.names[0]));
-  }
-}
-
 /// Cross field and patches.
 void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const CrossField>& given_cross,
                      PlanarDomain&& domain, std::vector<QuadPatch>&& given, PreparedProblem& p) {
@@ -396,7 +379,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
                          {}});
   for (std::size_t i = 0; i < given.size(); ++i) p.patches[i].given = std::move(given[i]);
   for (PatchImage& image : domain.images) p.patches[image.patch].image = std::move(image);
-  add_grids(problem, domain, p);
+  add_grids(problem.mapped, domain.mapped, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
   if (p.index_sum_and_expected) check_index_sum(problem, p);
   p.times.emplace_back("fields", fields.time());
@@ -409,7 +392,7 @@ PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinem
   const auto* start = std::get_if<GivenMesh>(&problem.model);
   if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
   check_lines_are_free(problem, start->source);
-  check_not_symmetric(problem);
+  check_curves_are_meshed(problem);
   if (!problem.layers.empty())
     throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
   return prepare_given(problem, *start, p, given);

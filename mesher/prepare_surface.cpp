@@ -14,6 +14,7 @@
 #include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
+#include "mesher/add_grids.h"
 #include "mesher/fine_spots.h"
 #include "mesher/mirrored_surface.h"
 #include "mesher/named_parts.h"
@@ -97,7 +98,7 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, divisions, periodic);
+                                 *solver, asked, divisions, periodic, problem.mapped);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -255,6 +256,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const Stopwatch fields;
   const DoingStage making_fields("fields");
   prepare_patches(surface, p);
+  add_grids(problem.mapped, surface->domain.mapped, p);
   if (size_aware) make_crosses_size_aware(p);
   if (cut) {
     p.size = folded_size(p.size, cut->planes);

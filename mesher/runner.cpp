@@ -246,7 +246,8 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
   const Stopwatch watch;
   const DoingStage lifting("lifting");
   std::vector<char> patch_left_out;
-  for (const PreparedPatch& patch : prepared.patches) patch_left_out.push_back(left_out[patch.region]);
+  for (const PreparedPatch& patch : prepared.patches)
+    patch_left_out.push_back(left_out[patch.region] || patch.grid);
   LiftingSummary summary =
       lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();

@@ -140,6 +140,12 @@ Json options_json(const Case& c) {
     json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
   if (c.mapped.automatic) json["mapped"] = "auto";
   if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
+  for (const GridCorners& grid : c.mapped.corners) {
+    Json corners = Json::array();
+    for (const GridCorner& corner : grid.corners)
+      corners.push_back(corner.name.empty() ? point_json(corner.at) : Json(corner.name));
+    json["mapped_corners"].push_back({{"name", grid.region}, {"corners", corners}});
+  }
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
   if (c.start) json["start"] = true;
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);

@@ -248,7 +248,18 @@ void define_size(py::class_<Problem>& c) {
            })
       .def("mapped",
            [](Problem& p, const std::vector<std::string>& names, bool automatic) {
-             p.problem.mapped = {names, automatic, "mapped"};
+             p.problem.mapped = {names, automatic, "mapped", {}};
+           })
+      .def("mapped_corners",
+           [](Problem& p, const std::string& name, const std::vector<py::object>& corners) {
+             GridCorners grid{name, {}, "mapped"};
+             for (const py::object& corner : corners) {
+               if (py::isinstance<py::str>(corner))
+                 grid.corners.push_back({corner.cast<std::string>(), {}});
+               else
+                 grid.corners.push_back({{}, read_vec3(corner, "mapped: a corner")});
+             }
+             p.problem.mapped.corners.push_back(std::move(grid));
            })
       .def("size_limits",
            [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,

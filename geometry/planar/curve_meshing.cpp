@@ -90,7 +90,7 @@ class CurveMesher {
     domain.pieces = domain_pieces();
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
-    add_mapped(domain);
+    domain.mapped = mapped_patches(mapped_, pieces_, domain.patches, domain.boundary.points);
     if (domain.has_junctions) drop_stray_lines(domain);
     if (n_axes_ > 0) drop_axes(domain);
     return domain;
@@ -204,25 +204,6 @@ class CurveMesher {
             has_whiskers() ? whisker_curve() : -1};
   }
 
-  /// Patches by the corners of the faces that they are of.
-  void add_mapped(PlanarDomain& domain) const {
-    for (const MappedFace& face : mapped_) {
-      std::size_t edges = 0;
-      for (const auto& side : face.sides)
-        for (const int piece : side) edges += static_cast<std::size_t>(pieces_[piece].n);
-      for (std::size_t p = 0; p < domain.patches.size(); ++p) {
-        const std::vector<Vec2>& points = domain.patches[p].points;
-        if (points.size() != edges) continue;
-        std::array<int, 4> corners;
-        for (int k = 0; k < 4; ++k)
-          corners[k] =
-              static_cast<int>(std::ranges::find(points, chain_.nodes[face.corners[k]]) - points.begin());
-        if (std::ranges::all_of(corners, [&](int c) { return c < static_cast<int>(points.size()); }))
-          domain.mapped.emplace_back(static_cast<int>(p), corners);
-      }
-    }
-  }
-
   /// Of each piece, whether its nodes stay in all stages: they were asked for, are paired, or a face that is
   /// a grid has them.
   std::vector<char> staying() const {
@@ -231,7 +212,7 @@ class CurveMesher {
       if (pieces_[i].is_divided) stays[i] = 1;
       if (pieces_[i].master >= 0) stays[i] = stays[pieces_[i].master] = 1;
     }
-    for (const MappedFace& face : mapped_)
+    for (const MappedPlanarFace& face : mapped_)
       for (const auto& side : face.sides)
         for (const int piece : side) stays[piece] = 1;
     return stays;
@@ -406,8 +387,8 @@ class CurveMesher {
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    if (mapped_spec_.automatic || !mapped_spec_.names.empty()) {
-      mapped_ = find_mapped_faces(mapped_spec_, lines, arrangement, regions, pieces_);
+    if (mapped_spec_.asks()) {
+      mapped_ = find_mapped_faces(model_, mapped_spec_, lines, arrangement, regions, chain_, pieces_);
       return balance_mapped(model_, mapped_, arrangement, regions, pieces_);
     }
     const bool are_apart =
@@ -452,7 +433,7 @@ class CurveMesher {
   const MappedSpec mapped_spec_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
-  std::vector<MappedFace> mapped_;
+  std::vector<MappedPlanarFace> mapped_;
   int n_axes_ = 0;                          ///< the last curves of the model
   std::vector<Entity> curves_;              ///< of the mesh
   std::vector<std::vector<int>> of_curve_;  ///< the model's curves of each

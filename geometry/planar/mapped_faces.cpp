@@ -5,25 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
-#include "base/nearest_name.h"
 #include "delquad/error.h"
-#include "matching/side_counts.h"
 
 namespace delquad {
 namespace {
-
-/// What kAuto takes: angles of corners and of other nodes may be so far from 90 and 180 degrees, and wanted
-/// numbers of edges of opposite sides have at most this ratio.
-constexpr double kCornerSlack = 35, kStraightSlack = 30, kMostSideRatio = 2.05;
-
-/// A piece on a face's outline.
-struct OutlinePiece {
-  int piece;
-  bool forward;
-  double angle;  ///< inside, where it begins; radians
-};
 
 class FaceOutlines {
  public:
@@ -33,26 +21,30 @@ class FaceOutlines {
       for (int k = 0; k < pieces[i].n; ++k) piece_of_.push_back(static_cast<int>(i));
   }
 
-  /// The outline of a face, from a node between pieces on; empty where there is none, or a hole.
-  std::vector<OutlinePiece> of(int face) const {
-    if (arrangement_.faces[face].cycles.size() != 1) return {};
-    const Arrangement::Cycle& cycle = arrangement_.faces[face].cycles[0];
-    std::vector<OutlinePiece> outline;
-    for (const int side : cycle) {
-      const int piece = piece_of_[side / 2];
-      const bool forward = side % 2 == 0;
-      const int begin = pieces_[piece].ends[forward ? 0 : 1];
-      if (start_of(lines_.lines, side) != begin) continue;  // goes on
-      outline.push_back({piece, forward, 0});
-    }
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      const OutlinePiece& before = outline[(k + outline.size() - 1) % outline.size()];
-      outline[k].angle = angle_between(before, outline[k]);
+  /// The loops of a face, each from a node between pieces on.
+  FaceOutline of(int face) const {
+    FaceOutline outline;
+    for (const Arrangement::Cycle& cycle : arrangement_.faces[face].cycles) {
+      auto& loop = outline.emplace_back();
+      std::vector<char> forward;
+      for (const int side : cycle) {
+        const int piece = piece_of_[side / 2];
+        const bool is_forward = side % 2 == 0;
+        const CurvePiece& p = pieces_[piece];
+        const int begin = p.ends[is_forward ? 0 : 1];
+        if (start_of(lines_.lines, side) != begin) continue;  // goes on
+        const double want = p.is_divided || !p.measure ? p.n : p.measure->integral();
+        loop.push_back({piece, begin, lines_.points[begin], 0, want});
+        forward.push_back(is_forward);
+      }
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::size_t before = (k + loop.size() - 1) % loop.size();
+        loop[k].angle = angle_between(leaving(loop[k].curve, forward[k] != 0),
+                                      leaving(loop[before].curve, forward[before] == 0));
+      }
     }
     return outline;
   }
-
-  int node(const OutlinePiece& p) const { return pieces_[p.piece].ends[p.forward ? 0 : 1]; }
 
  private:
   /// From an end of a piece a little way along it.
@@ -62,8 +54,7 @@ class FaceOutlines {
     return from_start ? p.shape->point(p.from + step) - p.shape->point(p.from)
                       : p.shape->point(p.to - step) - p.shape->point(p.to);
   }
-  double angle_between(const OutlinePiece& before, const OutlinePiece& after) const {
-    const Vec2 out = leaving(after.piece, after.forward), back = leaving(before.piece, !before.forward);
+  static double angle_between(Vec2 out, Vec2 back) {
     const double angle = std::atan2(cross(out, back), dot(out, back));
     return angle < 0 ? angle + 2 * std::numbers::pi : angle;
   }
@@ -74,76 +65,29 @@ class FaceOutlines {
   std::vector<int> piece_of_;  ///< of each line
 };
 
-double degrees(double angle) { return angle * 180 / std::numbers::pi; }
-
-/// Places in the outline of the four corners, ascending.
-std::array<std::size_t, 4> four_corners(const std::vector<OutlinePiece>& outline) {
-  std::vector<std::size_t> order(outline.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  // What the angle is nearer to a right one than to a straight one.
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
-    return std::abs(degrees(outline[i].angle) - 180) - std::abs(degrees(outline[i].angle) - 90);
-  });
-  std::array<std::size_t, 4> corners{order[0], order[1], order[2], order[3]};
-  std::ranges::sort(corners);
-  return corners;
+std::string piece_label(const PlanarModel& model, const CurvePiece& piece) {
+  if (piece.curves.empty()) return "the edge at a point";
+  const std::string& name = model.curves[piece.curves[0]].name;
+  return name.empty() ? fmt::format("curve_{}", piece.curves[0] + 1) : name;
 }
 
-MappedFace mapped_by_outline(int face, const std::vector<OutlinePiece>& outline,
-                             const FaceOutlines& outlines) {
-  const auto corners = four_corners(outline);
-  MappedFace mapped{face, true, {}, {}};
-  for (int k = 0; k < 4; ++k) {
-    mapped.corners[k] = outlines.node(outline[corners[k]]);
-    for (std::size_t i = corners[k]; i != corners[(k + 1) % 4]; i = (i + 1) % outline.size())
-      mapped.sides[k].push_back(outline[i].piece);
+/// Where on a patch's outline parts with these numbers of edges begin, the first of them at `nodes`; -1: it
+/// is another patch.
+int outline_begin(const std::vector<Vec2>& nodes, const std::vector<int>& counts, const PatchBoundary& patch,
+                  const std::vector<Vec3>& points) {
+  const int n = std::accumulate(counts.begin(), counts.end(), 0);
+  // Points moved apart along a cut are told by the nodes that they stand for.
+  const auto is_at = [&](int i, Vec2 x) {
+    const Vec3& node = points[patch.point_node[i % n]];
+    return node.x == x.x && node.y == x.y;
+  };
+  for (int first = 0; first < n; ++first) {
+    int at = first;
+    bool fits = true;
+    for (std::size_t k = 0; fits && k < counts.size(); at += counts[k++]) fits = is_at(at, nodes[k]);
+    if (fits) return first;
   }
-  return mapped;
-}
-
-/// Whether a grid pays there.
-bool looks_mapped(const std::vector<OutlinePiece>& outline, const MappedFace& mapped,
-                  const std::vector<CurvePiece>& pieces) {
-  const auto corners = four_corners(outline);
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const bool is_corner = std::ranges::find(corners, i) != corners.end();
-    if (std::abs(degrees(outline[i].angle) - (is_corner ? 90 : 180)) >
-        (is_corner ? kCornerSlack : kStraightSlack))
-      return false;
-  }
-  for (const int k : {0, 1}) {
-    double want[2] = {0, 0};
-    for (const int opposite : {0, 1})
-      for (const int piece : mapped.sides[k + 2 * opposite])
-        want[opposite] += pieces[piece].measure->integral();
-    if (std::max(want[0], want[1]) > kMostSideRatio * std::min(want[0], want[1])) return false;
-  }
-  return true;
-}
-
-std::string region_label(const Entity& region) {
-  return region.names.empty() ? fmt::format("region_{}", region.tag) : region.names[0];
-}
-
-bool is_named(const MappedSpec& spec, const Entity& region) {
-  return std::ranges::any_of(spec.names, [&](const std::string& name) {
-    return name == fmt::format("region_{}", region.tag) ||
-           std::ranges::find(region.names, name) != region.names.end();
-  });
-}
-
-void check_names(const MappedSpec& spec, const FaceRegions& regions) {
-  for (const std::string& name : spec.names) {
-    std::vector<std::string> known;
-    bool found = false;
-    for (const Entity& region : regions.regions) {
-      known.push_back(region_label(region));
-      found |= is_named({{name}, false, {}}, region);
-    }
-    if (!found)
-      throw InputError(
-          fmt::format("{}: no region is called '{}'{}", spec.where, name, suggestion(name, known)));
-  }
+  return -1;
 }
 
 /// Whether the faces of a region that hang together with this one leave something out inside: more than one
@@ -183,71 +127,101 @@ bool leaves_something_out(int face, const Arrangement& arrangement, const FaceRe
 
 }  // namespace
 
-std::vector<MappedFace> find_mapped_faces(const MappedSpec& spec, const Mesh& lines,
-                                          const Arrangement& arrangement, const FaceRegions& regions,
-                                          const std::vector<CurvePiece>& pieces) {
-  check_names(spec, regions);
+std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const MappedSpec& spec,
+                                                const Mesh& lines, const Arrangement& arrangement,
+                                                const FaceRegions& regions, const ModelChain& chain,
+                                                const std::vector<CurvePiece>& pieces) {
+  GridFinder::NamedPlaces points;
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    const Vec2 at = chain.nodes[chain.point_nodes[i]];
+    points.emplace_back(model.points[i].name, Vec3{at.x, at.y, 0});
+  }
+  GridFinder finder(spec, regions.regions, points);
   const FaceOutlines outlines(lines, arrangement, pieces);
-  std::vector<MappedFace> mapped;
+  std::vector<MappedPlanarFace> mapped;
   for (std::size_t f = 0; f < regions.region.size(); ++f) {
     if (regions.region[f] < 0) continue;
-    const Entity& region = regions.regions[regions.region[f]];
-    const bool asked = is_named(spec, region);
-    if (!asked && !spec.automatic) continue;
-    const std::vector<OutlinePiece> outline = outlines.of(static_cast<int>(f));
-    if (outline.size() < 4) {
-      if (!asked) continue;
-      throw InputError(fmt::format(
-          "{}: '{}' cannot be a grid: {}", spec.where, region_label(region),
-          outline.empty()
-              ? "something lies inside of it: expected one outline"
-              : fmt::format("its outline has {} corner(s): expected at least 4", outline.size())));
-    }
-    MappedFace face = mapped_by_outline(static_cast<int>(f), outline, outlines);
-    face.is_asked = asked;
-    std::set<int> nodes(face.corners.begin(), face.corners.end());
-    if (!asked && (nodes.size() < 4 || !looks_mapped(outline, face, pieces))) continue;
-    mapped.push_back(std::move(face));
+    const FaceOutline outline = outlines.of(static_cast<int>(f));
+    const auto found = finder.find(static_cast<int>(f), regions.regions[regions.region[f]], outline);
+    if (!found) continue;
+    auto& face = mapped.emplace_back(MappedPlanarFace{*found, {}});
+    for (const auto& loop : outline)
+      for (const OutlinePart& part : loop) face.nodes.push_back({part.at.x, part.at.y});
   }
+  finder.finish();
   return mapped;
 }
 
-void balance_mapped(const PlanarModel& model, std::span<const MappedFace> mapped,
+void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
                     const Arrangement& arrangement, const FaceRegions& regions,
                     std::vector<CurvePiece>& pieces) {
-  const auto leader = [&](int i) { return pieces[i].master < 0 ? i : pieces[i].master; };
   std::vector<CountedCurve> curves;
-  for (const CurvePiece& p : pieces)
+  std::vector<int> leader;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const CurvePiece& p = pieces[i];
     curves.push_back(
         {p.measure ? p.measure->integral() : 1, p.n, p.least, !p.is_divided && p.master < 0 && p.curve >= 0});
-  std::vector<CountedFace> faces(arrangement.faces.size());
-  for (const MappedFace& m : mapped) {
-    faces[m.face].is_mapped = true;
-    for (int k = 0; k < 4; ++k)
-      for (const int piece : m.sides[k]) faces[m.face].sides[k].push_back(leader(piece));
+    leader.push_back(p.master < 0 ? static_cast<int>(i) : p.master);
+    names.push_back(piece_label(model, p));
   }
+  std::vector<std::vector<int>> around(arrangement.faces.size());
   std::size_t line = 0;
   for (std::size_t i = 0; i < pieces.size(); line += static_cast<std::size_t>(pieces[i++].n))
     for (const int side : {0, 1}) {
       const int f = arrangement.face_of[2 * line + side];
-      if (f >= 0 && regions.region[f] >= 0 && !faces[f].is_mapped)
-        faces[f].sides[0].push_back(leader(static_cast<int>(i)));
+      if (f >= 0 && regions.region[f] >= 0) around[f].push_back(leader[i]);
     }
-  if (const auto bad = balance_counts(curves, faces)) {
-    const std::string name = region_label(regions.regions[regions.region[*bad]]);
-    if (faces[*bad].is_mapped && leaves_something_out(*bad, arrangement, regions, pieces))
+  std::vector<MappedFace> faces(mapped.begin(), mapped.end());
+  const auto bad = balance_grids(curves, around, leader, faces);
+  std::erase_if(mapped, [&](const MappedFace& m) {
+    return std::ranges::find(faces, m.face, &MappedFace::face) == faces.end();
+  });
+  if (!bad.empty()) {
+    const auto face = std::ranges::find(faces, bad[0].face, &MappedFace::face);
+    if (face != faces.end() && leaves_something_out(face->face, arrangement, regions, pieces))
       throw InputError(
           fmt::format("{}'{}' cannot be a grid: something lies inside of it: expected one outline",
-                      message_prefix(model), name));
-    throw InputError(fmt::format(
-        "{}the numbers of edges that are given leave '{}' {}: change or leave out that of one of its curves",
-        message_prefix(model), name,
-        faces[*bad].is_mapped
-            ? "with sides that do not match, and a grid needs equal numbers on opposite sides"
-            : "with an odd number around it, and quads need an even one"));
+                      message_prefix(model), region_label(regions.regions[regions.region[bad[0].face]])));
+    throw InputError(message_prefix(model) +
+                     why_unbalanced(bad[0], region_label(regions.regions[regions.region[bad[0].face]]),
+                                    face == faces.end() ? nullptr : &*face, curves, names));
   }
   for (std::size_t i = 0; i < pieces.size(); ++i)
     if (curves[i].n != pieces[i].n && pieces[i].master < 0) pieces[i].set_edges(curves[i].n);
+}
+
+std::vector<MappedPatch> mapped_patches(const std::vector<MappedPlanarFace>& mapped,
+                                        const std::vector<CurvePiece>& pieces,
+                                        const std::vector<PatchBoundary>& patches,
+                                        const std::vector<Vec3>& points) {
+  std::vector<MappedPatch> found;
+  for (const MappedPlanarFace& face : mapped) {
+    std::vector<int> counts;  // of the parts of its outline, from that on at which the first side begins
+    for (const auto& side : face.sides)
+      for (const int piece : side) counts.push_back(pieces[piece].n);
+    const int n_edges = std::accumulate(counts.begin(), counts.end(), 0);
+    std::vector<Vec2> nodes = face.nodes;
+    if (face.begins.empty())
+      counts.resize(face.sides[0].size());
+    else
+      std::ranges::rotate(nodes, nodes.begin() + static_cast<long>(face.begins[0]));
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      const int n = static_cast<int>(patches[p].points.size());
+      if (n != n_edges) continue;
+      const int first = outline_begin(nodes, counts, patches[p], points);
+      if (first < 0) continue;
+      MappedPatch& patch = found.emplace_back(MappedPatch{static_cast<int>(p), {}, face.is_asked});
+      int at = first;
+      for (const auto& side : face.sides) {
+        if (face.begins.empty()) break;
+        patch.corners.push_back(at % n);
+        for (const int piece : side) at += pieces[piece].n;
+      }
+      break;
+    }
+  }
+  return found;
 }
 
 }  // namespace delquad

@@ -58,14 +58,21 @@ struct PatchImage {
   bool is_mirrored = true;           ///< else turned: mirrored twice
 };
 
+/// A patch that is to become a grid.
+struct MappedPatch {
+  int patch;
+  /// The points of its boundary at which its sides begin, four or three, one after the other; none: a ring.
+  std::vector<int> corners;
+  bool is_asked = true;  ///< by name, and not found
+};
+
 /// The regions that a line mesh bounds.
 struct PlanarDomain {
   Mesh boundary;                   ///< points, lines, curves, regions; of elements the quads of layers alone
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
-  /// Of those that are to be grids, by patch: the points of its boundary at which its four sides begin.
-  std::vector<std::pair<int, std::array<int, 4>>> mapped;
+  std::vector<MappedPatch> mapped;
   std::vector<PatchImage> images;
   bool has_junctions = false;  ///< some node has other than two lines
   std::vector<int> on_crack;   ///< nodes along cracks, those that were doubled and the others

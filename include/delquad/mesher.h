@@ -42,7 +42,7 @@ struct MeshProblem {
   std::vector<CurveDivision> divisions = {};  ///< sizes beside these curves follow their edges
   std::vector<PeriodicPair> periodic = {};
   SymmetrySpec symmetry = {};  ///< of planar models of curves, and of surfaces
-  MappedSpec mapped = {};      ///< of planar models of curves
+  MappedSpec mapped = {};      ///< of planar models of curves, and of surfaces
   long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   Options options = {};        ///< of the stages
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger

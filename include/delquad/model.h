@@ -78,11 +78,27 @@ struct SymmetrySpec {
   std::string where = "symmetry";          ///< who asked for it, for messages
 };
 
-/// Regions that become grids, as fine as their sides.
+/// A corner of a grid.
+struct GridCorner {
+  std::string name = {};  ///< of a point of the model; empty: the place counts
+  Vec3 at = {};           ///< within a thousandth of the outline's diagonal of a node that the outline has
+};
+
+/// Where the sides of a region's grid begin.
+struct GridCorners {
+  std::string region;               ///< name or number, as in MappedSpec
+  std::vector<GridCorner> corners;  ///< three or four, in any order
+  std::string where = "mapped";     ///< who asked for it, for messages
+};
+
+/// Regions, or faces of a surface, that become grids, as fine as their sides.
 struct MappedSpec {
   std::vector<std::string> names = {};  ///< of the regions, or numbers: "region_2"
   bool automatic = false;        ///< and all where that pays: four nearly right angles, sides that match
   std::string where = "mapped";  ///< who asked for it, for messages
+  std::vector<GridCorners> corners = {};  ///< of regions whose corners are told, named above or not
+
+  bool asks() const { return automatic || !names.empty() || !corners.empty(); }
 };
 
 /// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross

@@ -151,6 +151,36 @@ TEST_F(Cases, FlagsForGridsAndSymmetryAreToldOfAuto) {
                        {"c.toml:3", key, "\"auto\""});
 }
 
+TEST_F(Cases, GridsWithCorners) {
+  const std::string model =
+      "loop = [{ polygon = [[0, 0], [1, -0.2], [2, 0], [2, 1], [0, 1]], region = \"house\" },\n"
+      "        { rectangle = [[3, 0], [4, 1]], region = \"hall\" }]\n"
+      "embed = { point = [2, 1], name = \"tip\" }\nsize = 0.2\n";
+  const auto grids = [&](const std::string& mapped) {
+    int n = 0;
+    for (const PreparedPatch& patch : prepare_case(read(model + "mapped = " + mapped + "\n")).patches)
+      n += patch.grid.has_value();
+    return n;
+  };
+  const std::string house = "{ name = \"house\", corners = [[0, 0], [2, 0], \"tip\", [0, 1]] }";
+  EXPECT_EQ(grids(house), 1);
+  EXPECT_EQ(grids("[\"hall\", " + house + "]"), 2);
+  EXPECT_EQ(grids("\"auto\""), 2);
+  const auto refused = [&](const std::string& mapped, std::initializer_list<const char*> says) {
+    expect_input_error([&] { grids(mapped); }, says);
+  };
+  refused("[1, 2]", {"c.toml:5", "a text in quotes, a table, or a list of these"});
+  refused("{ name = \"house\" }", {"c.toml:5", "'mapped.corners'"});
+  refused("{ name = \"house\", corners = [[0, 0], 1, 2] }",
+          {"c.toml:5", "a list of texts in quotes or points"});
+  refused("{ name = \"house\", corner = [[0, 0]] }", {"c.toml:5", "corner"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0]] }", {"c.toml:5", "2 corner(s): expected 3 or 4"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0], \"top\"] }",
+          {"c.toml:5", "no point is called 'top'"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0], [1, 1]] }",
+          {"c.toml:5", "(1, 1) is no node of the outline of 'house'", "the nearest is"});
+}
+
 TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
   // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
   const PreparedProblem p =

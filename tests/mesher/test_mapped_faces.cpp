@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "delquad/mesher.h"
@@ -54,6 +56,41 @@ PlanarModel plate_of_blocks() {
   }
   for (int k = 0; k < 4; ++k)
     model.loops.push_back({{3 * k, 3 * ((k + 1) % 4) + 2, 3 * k + 1, 3 * k + 2}, "block", {}});
+  return model;
+}
+
+/// Sixteen of these side by side, each side of a square once.
+PlanarModel plate_with_16_holes() {
+  PlanarModel model;
+  const auto corner = [](int i, int j) { return Vec2{1.0 * i, 1.0 * j}; };
+  const auto segment = [&](Vec2 a, Vec2 b, const char* name) {
+    model.curves.push_back({make_segment(a, b), name, {}});
+    return static_cast<int>(model.curves.size()) - 1;
+  };
+  int across[4][5], along[5][4];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 5; ++j) across[i][j] = segment(corner(i, j), corner(i + 1, j), "side");
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j) along[i][j] = segment(corner(i, j), corner(i, j + 1), "side");
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const Vec2 centre = {i + 0.5, j + 0.5};
+      const auto on_hole = [&](int k) {
+        const double angle = -3 * kPi / 4 + k * kPi / 2;
+        return centre + Vec2{0.28 * std::cos(angle), 0.28 * std::sin(angle)};
+      };
+      const Vec2 corners[] = {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
+      const int sides[] = {across[i][j], along[i + 1][j], across[i][j + 1], along[i][j]};
+      int arcs[4], spokes[4];
+      for (int k = 0; k < 4; ++k) {
+        const double angle = -3 * kPi / 4 + k * kPi / 2;
+        model.curves.push_back({make_arc(centre, 0.28, angle, angle + kPi / 2), "hole", {}});
+        arcs[k] = static_cast<int>(model.curves.size()) - 1;
+        spokes[k] = segment(on_hole(k), corners[k], "");
+      }
+      for (int k = 0; k < 4; ++k)
+        model.loops.push_back({{sides[k], spokes[(k + 1) % 4], arcs[k], spokes[k]}, "block", {}});
+    }
   return model;
 }
 
@@ -118,7 +155,130 @@ TEST(MappedFaces, AroundAHole) {
   const MeshResult d = mesh(divided);
   EXPECT_EQ(d.mesh.quads.size(), 4u * 9 * 12);
   divided.divisions.push_back({"curve_2", 10, 1, 1, "d 3"});
-  expect_input_error([&] { mesh(divided); }, {"'block' with sides that do not match"});
+  expect_input_error([&] { mesh(divided); },
+                     {"'block' with sides that do not match", "'hole' (9 edges)", "'side' (10 edges)"});
+}
+
+bool all_convex(const Mesh& mesh) {
+  for (const auto& quad : mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 &a = mesh.points[quad[k]], &b = mesh.points[quad[(k + 1) % 4]],
+                 &c = mesh.points[quad[(k + 2) % 4]];
+      if (!(cross(b - a, c - b).z > 0)) return false;
+    }
+  return true;
+}
+
+/// Nodes on no line, by their number of quads.
+std::map<int, int> valences_inside(const Mesh& mesh) {
+  std::vector<int> quads(mesh.points.size(), 0);
+  for (const auto& quad : mesh.quads)
+    for (const int v : quad) ++quads[v];
+  for (const auto& line : mesh.lines)
+    for (const int v : line) quads[v] = 0;
+  std::map<int, int> count;
+  for (const int n : quads) ++count[n];
+  count.erase(0);
+  return count;
+}
+
+TEST(MappedFaces, APlateWith16HolesAsBlocks) {
+  const MeshResult r = mesh(mapped_problem(plate_with_16_holes(), 0.06, {{"block"}}));
+  EXPECT_TRUE(r.mesh.triangles.empty());
+  EXPECT_TRUE(all_convex(r.mesh));
+  EXPECT_EQ(irregular_inside(r.mesh, "block"), 0);
+  // Each arc has as many edges as the side of the square that faces it; all four spokes of a square agree.
+  std::vector<int> edges(r.mesh.curves.size(), 0);
+  for (const int c : r.mesh.line_curve) ++edges[c];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const int first = 40 + 8 * (4 * i + j);
+      const int sides[] = {5 * i + j, 20 + 4 * (i + 1) + j, 5 * i + j + 1, 20 + 4 * i + j};
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_EQ(edges[first + 2 * k], edges[sides[k]]);
+        EXPECT_GE(edges[sides[k]], 9);
+      }
+    }
+}
+
+TEST(MappedFaces, ThreeSidesMeetInAMiddle) {
+  PlanarModel model = polygons({{{0, 0}, {1, 0}, {0.4, 0.9}}});
+  model.loops[0].region = "wedge";
+  model.curves.push_back({make_arc({0, 0}, 1, -kPi / 2, 0), "rim", {}});
+  model.curves.push_back({make_segment({0, 0}, {0, -1}), "down", {}});
+  const int axis = static_cast<int>(model.curves.size());
+  model.curves.push_back({make_segment({0, 0}, {1, 0}), "axis", {}});
+  model.loops.push_back({{axis - 2, axis - 1, axis}, "sector", {}});
+  for (const char* word : {"DB", "DBCO"}) {
+    const MeshResult r = mesh(mapped_problem(model, 0.1, {{"wedge", "sector"}}), word);
+    EXPECT_TRUE(all_convex(r.mesh));
+    EXPECT_EQ(valences_inside(r.mesh)[3], 2);
+    EXPECT_EQ(valences_inside(r.mesh).size(), 2u);  // all others have four
+    EXPECT_GT(r.metrics.values.at("eta_worst"), 0.4);
+  }
+  MeshProblem divided = mapped_problem(model, 0.1, {{"wedge", "sector"}});
+  divided.divisions = {{"rim", 40, 1, 1, "d 1"}, {"down", 6, 1, 1, "d 2"}, {"axis", 6, 1, 1, "d 3"}};
+  expect_input_error([&] { mesh(divided); }, {"'sector'", "40", "6", "less than the two others together"});
+}
+
+TEST(MappedFaces, CornersAreTold) {
+  // A regular octagon: any four of its corners will do.
+  std::vector<Vec2> octagon;
+  for (int k = 0; k < 8; ++k) octagon.push_back({std::cos(k * kPi / 4), std::sin(k * kPi / 4)});
+  PlanarModel model = polygons({octagon});
+  model.loops[0].region = "nut";
+  model.points = {{octagon[1], "p1", {}}, {octagon[3], "p3", {}}};
+  MappedSpec spec;
+  spec.corners = {{"nut", {{"p1"}, {"p3"}, {{}, {-0.7071, -0.7071, 0}}, {{}, {0.7071, -0.7071, 0}}}, "m 7"}};
+  const MeshResult r = mesh(mapped_problem(model, 0.1, spec));
+  EXPECT_EQ(irregular_inside(r.mesh, "nut"), 0);
+  EXPECT_TRUE(all_convex(r.mesh));
+  // The corners have one quad each, all other nodes on the outline two.
+  std::vector<int> quads(r.mesh.points.size(), 0);
+  for (const auto& quad : r.mesh.quads)
+    for (const int v : quad) ++quads[v];
+  int single = 0;
+  for (std::size_t v = 0; v < quads.size(); ++v)
+    if (quads[v] == 1) {
+      ++single;
+      EXPECT_NEAR(std::abs(r.mesh.points[v].x), std::sqrt(0.5), 1e-9);
+    }
+  EXPECT_EQ(single, 4);
+  const auto refused = [&](std::vector<GridCorner> corners, std::initializer_list<const char*> says) {
+    MappedSpec wrong;
+    wrong.corners = {{"nut", std::move(corners), "m 7"}};
+    expect_input_error([&] { mesh(mapped_problem(model, 0.1, wrong)); }, says);
+  };
+  refused({{"p1"}, {"p3"}, {"p5"}}, {"m 7: no point is called 'p5'; did you mean"});
+  refused({{"p1"}, {"p3"}}, {"m 7: 'nut' is given 2 corner(s): expected 3 or 4"});
+  refused({{"p1"}, {"p3"}, {{}, {0, 0, 0}}}, {"m 7: (0, 0) is no node of the outline of 'nut'"});
+  refused({{"p1"}, {"p3"}, {"p3"}}, {"is a corner of 'nut' twice"});
+  MappedSpec unknown;
+  unknown.corners = {{"not", {{"p1"}, {"p3"}, {"p1"}}, "m 8"}};
+  expect_input_error([&] { mesh(mapped_problem(model, 0.1, unknown)); },
+                     {"m 8: no region is called 'not'; did you mean 'nut'?"});
+}
+
+TEST(MappedFaces, RingsCloseAround) {
+  PlanarModel model;
+  model.curves = {{make_circle({0.1, 0}, 1), "inner", {}}, {make_circle({0, 0}, 1.8), "outer", {}}};
+  model.loops = {{{1}, "ring", {}}, {{0}, {}, {}}};
+  for (const MappedSpec& spec : {MappedSpec{{"ring"}}, MappedSpec{{}, true}}) {
+    const MeshResult r = mesh(mapped_problem(model, 0.1, spec), "DBCO");
+    EXPECT_TRUE(all_convex(r.mesh));
+    EXPECT_EQ(valences_inside(r.mesh).size(), 1u);
+    const auto inner = std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 0);
+    EXPECT_EQ(inner, std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 1));
+    EXPECT_EQ(r.mesh.quads.size(), inner * 8u);
+  }
+}
+
+TEST(MappedFaces, WhatWouldFoldIsSmoothed) {
+  PlanarModel model = polygons({{{0, 0}, {2, 0}, {2, 1}, {1.1, 1}, {1, 0.15}, {0.9, 1}, {0, 1}}});
+  model.loops[0].region = "notch";
+  const MeshResult r = mesh(mapped_problem(model, 0.08, {{"notch"}}));
+  EXPECT_TRUE(all_convex(r.mesh));
+  EXPECT_EQ(irregular_inside(r.mesh, "notch"), 0);
 }
 
 TEST(MappedFaces, WhatCannotBeAGridIsRefused) {
@@ -138,10 +298,11 @@ TEST(MappedFaces, WhatCannotBeAGridIsRefused) {
   EXPECT_GT(mesh(mapped_problem(holed, 0.2, {{}, true})).mesh.quads.size(), 0u);
   PlanarModel arrow = polygons({{{0, 0}, {1, 1}, {0, 0.2}, {-1, 1}}});
   arrow.loops[0].region = "arrow";
-  refused(arrow, {{"arrow"}}, {"'arrow' cannot be a grid: it would fold"});
-  MeshProblem on_surface = mapped_problem(arrow, 0.2, {{"arrow"}, false, "m 1"});
-  on_surface.model = ExampleModel{"sphere"};
-  expect_input_error([&] { mesh(on_surface); }, {"m 1: grids are for planar models of curves"});
+  refused(arrow, {{"arrow"}}, {"'arrow' cannot be a grid: it would fold at ("});
+  PlanarModel half;
+  half.curves = {{make_arc({0, 0}, 1, 0, kPi), {}, {}}, {make_segment({-1, 0}, {1, 0}), {}, {}}};
+  half.loops = {{{0, 1}, "half", {}}};
+  refused(half, {{"half"}}, {"'half' cannot be a grid: its outline has 2 corner(s): expected at least 3"});
 }
 
 }  // namespace

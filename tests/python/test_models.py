@@ -30,6 +30,17 @@ def test_layers_along_curves():
         delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{**layer, "into": "air"}])
 
 
+def test_grids_by_name_and_corners():
+    octagon = [(np.cos(a), np.sin(a)) for a in np.arange(8) * np.pi / 4]
+    model = delquad.polygons([octagon])
+    names = ("region_1", [octagon[k] for k in (1, 3, 5, 7)])
+    result = delquad.mesh(model, size=0.1, mapped=[names])
+    valence = np.bincount(result.quads.ravel())
+    assert np.sum(valence == 1) == 4 and set(valence) == {1, 2, 4}
+    with pytest.raises(delquad.InputError, match="no node of the outline"):
+        delquad.mesh(model, size=0.1, mapped=[("region_1", [(0, 0), octagon[1], octagon[2]])])
+
+
 def test_curves_and_points_inside():
     square = [delquad.polyline([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], "wall")]
     model = delquad.planar([square], embed=[delquad.segment((0.2, 0.3), (0.7, 0.6), "fault"),

@@ -132,7 +132,7 @@ def mesh(
     size_on: Mapping[str, float | Mapping[str, float]] | None = None,
     divide: Mapping[str, int | Mapping[str, float]] | None = None,
     periodic: Iterable[Mapping[str, Any]] = (),
-    mapped: str | Sequence[str] = (),
+    mapped: str | Sequence[str | tuple[str, Sequence[str | npt.ArrayLike]]] = (),
     symmetry: Literal["auto"] | Sequence[tuple[npt.ArrayLike, npt.ArrayLike]] = (),
     gradation: float | None = None,
     curvature: float | None = None,

@@ -188,7 +188,8 @@ def mesh(
         second curves get the images of the nodes of the first; on surfaces faces may be named, which get whole meshes.
     symmetry: "auto", or a point and a normal of each of one or two planes (of surfaces up to three); what is behind
         them is a mirror image.
-    mapped: names of regions that become grids, or "auto" for all where that pays.
+    mapped: names of regions or faces that become grids, or "auto" for all where that pays; among names
+        (name, corners) tells three or four corners, each a point or the name of one.
     layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
         "number": n or "thickness": height, "fan": 60, "into": name or names of regions} each; see docs/meshing.md.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
@@ -223,7 +224,13 @@ def mesh(
     if symmetry:
         problem.symmetry([] if symmetry == "auto" else list(symmetry), symmetry == "auto")
     if mapped:
-        problem.mapped([] if mapped == "auto" else [mapped] if isinstance(mapped, str) else mapped, mapped == "auto")
+        grids = [mapped] if isinstance(mapped, str) else list(mapped)
+        automatic = isinstance(mapped, str) and mapped == "auto"
+        problem.mapped([] if automatic else [grid for grid in grids if isinstance(grid, str)], automatic)
+        for grid in grids:
+            if not isinstance(grid, str):
+                name, corners = grid
+                problem.mapped_corners(name, list(corners))
     for layer in layers:
         _add_layer(problem, layer)
     problem.size_limits(gradation, curvature, min_size, max_size)
