@@ -10,7 +10,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +49,8 @@ using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
 
 // Both sides of a slit are some 1e-6 of its edges apart, and refinement leaves some of these shorter.
 constexpr double kSlit = 3e-5;
+// Steps: far more than faces are dropped, or edges listed, one after the other.
+constexpr int kMostInVain = 10000;
 
 /// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. What lies
 /// across a slit does not count: where slits turn or cross, vertices on one side are in the circles of the
@@ -74,7 +79,8 @@ struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
   }
 };
 
-/// CGAL::Delaunay_mesher_2 of a marked domain, with that test.
+/// CGAL::Delaunay_mesher_2 of a marked domain, with a test of one's own.
+template <class Test>
 class Refiner {
  public:
   explicit Refiner(Cdt& cdt)
@@ -90,7 +96,7 @@ class Refiner {
   bool step() { return faces_.try_to_insert_one_point(visitor_); }
 
  private:
-  using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, GabrielBesideSlits>;
+  using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, Test>;
   using Faces = CGAL::Mesh_2::Refine_faces<Cdt, Criteria, Edges>;
 
   Criteria criteria_{kShape};
@@ -200,16 +206,38 @@ TriPatch extract(Cdt& cdt, const PatchBoundary& patch) {
   return tri;
 }
 
-}  // namespace
+/// Whether the patch is on both sides of an edge, or passes a node twice.
+bool has_slits(const PatchBoundary& patch) {
+  std::vector<int> nodes = patch.point_node;
+  std::ranges::sort(nodes);
+  return std::ranges::adjacent_find(nodes) != nodes.end();
+}
 
-TriPatch refine_patch(const PatchBoundary& patch) {
+/// None where so many steps add nothing: slivers inside may keep the weaker test from its end.
+template <class Test>
+std::optional<TriPatch> refined(const PatchBoundary& patch,
+                                int most_in_vain = std::numeric_limits<int>::max()) {
   Cdt cdt;
   const auto handle = insert_boundary(cdt, patch);
   mark_domain(cdt, patch, handle);
-  Refiner refiner(cdt);
+  Refiner<Test> refiner(cdt);
   const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
-  while (cdt.number_of_vertices() < most && refiner.step()) check_cancelled();
+  int in_vain = 0;
+  for (std::size_t n = cdt.number_of_vertices(); n < most && refiner.step();) {
+    check_cancelled();
+    const std::size_t before = std::exchange(n, cdt.number_of_vertices());
+    in_vain = n > before ? 0 : in_vain + 1;
+    if (in_vain == most_in_vain) return std::nullopt;
+  }
   return extract(cdt, patch);
+}
+
+}  // namespace
+
+TriPatch refine_patch(const PatchBoundary& patch) {
+  if (has_slits(patch))
+    if (auto tri = refined<GabrielBesideSlits>(patch, kMostInVain)) return *std::move(tri);
+  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
 }
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,7 +122,18 @@ TEST(BackgroundMesh, IsNoFinerWhereLinesCross) {
   const PlanarDomain domain = make_domain(model, [](const Vec3&) { return 0.02; });
   ASSERT_EQ(domain.patches.size(), 1u);
   const BackgroundMesh background(domain.patches);
-  EXPECT_LT(background.triangles().triangles.size(), 3 * domain.boundary.lines.size());
+  EXPECT_LT(background.triangles().triangles.size(), 4 * domain.boundary.lines.size());
+}
+
+/// Slivers where a patch has slits, too.
+TEST(BackgroundMesh, CoversUnfriendlyShapesThatMeetThemselves) {
+  for (Shape& shape : unfriendly_shapes()) {
+    SCOPED_TRACE(shape.name);
+    shape.boundary.point_node.back() = shape.boundary.point_node.front();
+    const BackgroundMesh background(std::span(&shape.boundary, 1));
+    EXPECT_EQ(check_invariants(background.triangles()), std::vector<std::string>{});
+    EXPECT_LE(background.triangles().points.size(), 8 * shape.boundary.points.size() + 1010);
+  }
 }
 
 TEST(BackgroundMesh, IsTheSameTwice) {
