@@ -39,6 +39,12 @@ struct Flattening {
 struct FlattenOptions {
   double max_area_ratio = 10;  ///< patches with a larger FlatQuality::area_ratio are divided
   double max_sigma = 1.3;      ///< the same for sigma_95
+  /// Of each fine triangle the element that it is a part of: cuts run along sides between elements, and split
+  /// nothing. Empty: they run anywhere.
+  std::vector<int> element = {};
+  /// With `element`, of each fine point: cuts go there only for want of a way around; empty: no point is
+  /// such.
+  std::vector<char> avoided = {};
 };
 
 /// Flattens all faces conformally, as if there were no embedded curves. Faces that cannot be flattened as
