@@ -199,11 +199,16 @@ void add_schema(CLI::App& app, bool& options) {
 }
 
 /// How the faces of surfaces are made.
+void add_feature_angle(CLI::App& command, MeshArguments& arguments) {
+  command.add_option(
+      "--feature-angle", arguments.feature_angle,
+      "degrees by which triangles must turn for a curve between them, and curves for a corner");
+}
+
 void add_surface(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option("--compound", arguments.compound,
                   "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
-  mesh.add_option("--feature-angle", arguments.feature_angle,
-                  "degrees by which triangles must turn for a curve between them, and curves for a corner");
+  add_feature_angle(mesh, arguments);
   mesh.add_option("--weld", arguments.weld_tolerance,
                   "join ends of open edges of a triangulation up to this part of its diagonal");
   mesh.add_option("--ignore-below", arguments.ignore_below,
@@ -285,7 +290,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
 void add_improve(CLI::App& app, MeshArguments& arguments, CommonArguments& common) {
   arguments.improve = true;
   CLI::App* improve =
-      app.add_subcommand("improve", "Make a planar mesh better that is there already, on its own boundary");
+      app.add_subcommand("improve", "Make a mesh better that is there already, on its own boundary");
   improve
       ->add_option("mesh", arguments.model,
                    "triangles, quads or both (.msh, .vtu, .inp, .mesh, .obj, .off, .stl, .ply, .3mf)")
@@ -295,6 +300,7 @@ void add_improve(CLI::App& app, MeshArguments& arguments, CommonArguments& commo
   improve->add_option("--pipeline", arguments.pipeline,
                       "letters of stages: L, then B, G or T, of triangles; C and O of quads; default: CO, or "
                       "BCO of triangles alone");
+  add_feature_angle(*improve, arguments);
   add_mesh_output(*improve, arguments, common);
 }
 

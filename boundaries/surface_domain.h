@@ -62,6 +62,11 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
                                   const std::vector<CurveDivision>& divisions = {},
                                   const PeriodicSides& periodic = {}, const MappedSpec& mapped = {});
 
+/// The same of a model whose curves are kept point by point: all their points are nodes, and no stage moves
+/// those that are on no cut. The k-th point of a patch's boundary is the vertex of its map from which the
+/// k-th side of its outline begins. Warnings name the patches with an odd boundary.
+SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size);
+
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
 /// +1/4), averaged to the map's vertices so that it is continuous.

@@ -13,6 +13,7 @@
 #include "geometry/surface/curve_chains.h"
 #include "mesh/constrained_delaunay.h"
 #include "mesher/given_domain.h"
+#include "mesher/given_surface.h"
 #include "mesher/named_domain.h"
 #include "mesher/surface_input.h"
 
@@ -74,8 +75,10 @@ SurfaceModel load(const MeshProblem& problem) {
   }
   if (const auto* lines = std::get_if<LineModel>(&problem.model))
     return as_model(make_named_domain(lines->mesh, lines->surfaces, lines->source), lines->source);
-  if (const auto* given = std::get_if<GivenMesh>(&problem.model))
-    return as_model(make_given_domain(*given).domain, given->source);
+  if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
+    if (!is_in_space(given->mesh)) return as_model(make_given_domain(*given).domain, given->source);
+    return make_given_surface(*given, problem.surface.feature_angle.value_or(kGivenFeatureAngle)).model;
+  }
   return make_surface(problem);
 }
 

@@ -18,9 +18,6 @@
 namespace delquad {
 namespace {
 
-/// Rounding of coordinates that are equal, in diagonals of the mesh.
-constexpr double kRoundingOfPlane = 1e-9;
-
 Vec2 seen_from_above(const Vec3& p) { return {p.x, p.y}; }
 
 std::string text_of_edge(const Mesh& mesh, int a, int b) {
@@ -442,24 +439,9 @@ std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge>
   return node_of;
 }
 
-void refuse_other_planes(const GivenMesh& given) {
-  const Mesh& mesh = given.mesh;
-  const double tolerance = kRoundingOfPlane * diagonal(mesh);
-  const double z = mesh.points[mesh.triangles.empty() ? mesh.quads[0][0] : mesh.triangles[0][0]].z;
-  for_each_element(mesh, [&](int, const auto& v) {
-    for (const int i : v)
-      if (const Vec3& p = mesh.points[i]; std::abs(p.z - z) > tolerance)
-        throw InputError(
-            fmt::format("{}: the point ({:.10g}, {:.10g}, {:.10g}) is not in the plane z = {:.10g}: "
-                        "only meshes of such a plane can be improved",
-                        given.source, p.x, p.y, p.z, z));
-  });
-}
-
 }  // namespace
 
 GivenDomain make_given_domain(const GivenMesh& given) {
-  refuse_other_planes(given);
   refuse_repeated_corners(given);
   const std::vector<HalfEdge> sides = sorted_half_edges(given.mesh);
   check_free_edges(given, sides);

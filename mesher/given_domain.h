@@ -14,9 +14,10 @@ struct GivenDomain {
   std::vector<Warning> warnings;
 };
 
-/// Lines, edges of one element and edges between regions bound the patches, so that they stay; so do two
-/// edges at a named point inside. Throws InputError, naming places, for what is not conforming: edges in more
-/// than two elements, hanging nodes, elements with a corner twice, outlines that cross.
+/// `given` is in a plane of constant z. Lines, edges of one element and edges between regions bound the
+/// patches, so that they stay; so do two edges at a named point inside. Throws InputError, naming places, for
+/// what is not conforming: edges in more than two elements, hanging nodes, elements with a corner twice,
+/// outlines that cross.
 GivenDomain make_given_domain(const GivenMesh& given);
 
 /// Edge lengths of squares with the areas of the elements (triangles are half a square), meaned over two

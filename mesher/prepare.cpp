@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/activity.h"
+#include "base/located.h"
 #include "base/stopwatch.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
@@ -17,6 +18,7 @@
 #include "mesher/fine_spots.h"
 #include "mesher/gap_warning.h"
 #include "mesher/given_domain.h"
+#include "mesher/given_surface.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -338,6 +340,51 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   return p;
 }
 
+/// Refuses what would change a mesh in space before words begin.
+void check_given_in_space(const MeshProblem& problem, const GivenMesh& given) {
+  check_lines_are_free(problem, given.source);
+  check_not_mapped(problem);
+  if (!problem.layers.empty())
+    throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
+  const SurfaceSpec& s = problem.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.weld_tolerance ||
+      s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
+    throw InputError(
+        (s.where.empty() ? problem.where : s.where) +
+        ": a mesh that is given keeps its faces, lines and unit: compounds, welding, gluing, mirrors, units, "
+        "embedded lines and lengths below which entities are ignored are for models");
+  if (problem.size.curvature > 0 ||
+      std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
+    throw InputError(problem.size.where + ": sizes by curvature are for models of surfaces");
+}
+
+PreparedProblem prepare_given_in_space(const MeshProblem& problem, const GivenMesh& given) {
+  check_given_in_space(problem, given);
+  const Stopwatch reading;
+  const DoingStage stage("reading");
+  GivenSurface surface = located(problem.where, [&] {
+    return make_given_surface(given, problem.surface.feature_angle.value_or(kGivenFeatureAngle));
+  });
+  const Mesh& fine = surface.model.fine;
+  std::vector<Warning> warnings(given.notes.begin(), given.notes.end());
+  auto size =
+      make_size(problem.size, {Box<Vec3>::around(fine.points), &fine}, warnings,
+                [&]() -> std::shared_ptr<const SizeField> {
+                  if (problem.size.from_boundary)
+                    throw InputError(problem.size.where +
+                                     ": 'boundary' extends the lengths of a planar boundary: expected "
+                                     "no size (that of the elements), a number or an expression");
+                  return make_nodal_size(given.mesh, sizes_of_elements(given.mesh, given.source));
+                });
+  if (!problem.size.named.empty()) size = finer_near(size, NamedParts(given.mesh).spots(problem.size.named));
+  const TimeSpent read = reading.time();
+  PreparedProblem p = prepare_given_surface(problem, std::move(surface), given.mesh, size,
+                                            [&](double quads) { check_count(quads, problem); });
+  p.times.insert(p.times.begin(), {"read", read});
+  p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
+  return p;
+}
+
 /// Refuses what is for surfaces.
 void check_planar(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
@@ -442,6 +489,9 @@ PreparedProblem with_settings_of(const MeshProblem& problem) {
 
 PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
+  if (const auto* given = std::get_if<GivenMesh>(&problem.model);
+      given != nullptr && is_in_space(given->mesh))
+    return prepare_given_in_space(problem, *given);
   const bool is_planar = std::holds_alternative<PlanarModel>(problem.model) ||
                          std::holds_alternative<LineModel>(problem.model) ||
                          std::holds_alternative<GivenMesh>(problem.model);

@@ -29,6 +29,13 @@ struct PreparedPatch {
   std::optional<PatchImage> image = {};
   std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, which no stage changes
   QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
+  std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
+};
+
+/// The curves and regions of a given mesh in space, which its words divide for their work.
+struct GivenEntities {
+  std::vector<Entity> curves, regions;
+  std::vector<int> curve_of, region_of;  ///< of each of PreparedProblem::boundary; -1: no line of the mesh
 };
 
 /// A surface of which one part is meshed, and the rest is its mirror image.
@@ -83,6 +90,7 @@ struct PreparedProblem {
   std::optional<std::pair<double, double>> dislocations;
   std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
+  std::optional<GivenEntities> given_entities;     ///< of a GivenMesh in space
   std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
   double expected_quads = 0;                       ///< integral of dA/delta^2
   std::vector<Warning> warnings;

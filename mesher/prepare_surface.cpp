@@ -156,6 +156,15 @@ std::vector<FineSpot> edges_of(const SurfaceModel& model, const std::vector<Curv
   return spots;
 }
 
+void check_surface_cross(const CrossSpec& cross) {
+  if (cross.kind != CrossKind::kSizeAware && cross.kind != CrossKind::kBoundary)
+    throw InputError(cross.where +
+                     ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
+}
+
+/// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
+constexpr double kMaxSigmaOfGiven = 1.6;
+
 void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedProblem& p) {
   const std::vector<SurfacePatch>& patches = surface->domain.patches;
   p.patches.resize(patches.size());
@@ -180,14 +189,71 @@ std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
   return maps;
 }
 
+PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
+                                      std::shared_ptr<const SizeField> size,
+                                      const std::function<void(double quads)>& check_count) {
+  check_surface_cross(problem.cross);
+  PreparedProblem p = with_settings_of(problem);
+  WantedSize wanted;
+  wanted.base = std::move(size);
+  wanted.gradation = problem.size.gradation;
+
+  const Stopwatch maps;
+  const DoingStage flattening_faces("maps");
+  SurfaceModel& model = given.model;
+  FlattenOptions options;
+  options.max_sigma = kMaxSigmaOfGiven;
+  options.element = given.element;
+  options.avoided = given.avoided;
+  Flattening flattening = located(problem.where, [&] { return flatten(model, options); });
+  Failures failures(problem);
+  add_unflattened(flattening, model, failures);
+  if (flattening.patches.empty()) throw InputError(model.source + ": no face can be meshed");
+  p.times.emplace_back("maps", maps.time());
+
+  const Stopwatch curves;
+  const DoingStage meshing_curves("boundary");
+  auto surface = std::make_shared<PreparedSurface>();
+  surface->cuts = flattening.cuts;
+  surface->size = std::make_shared<SurfaceSize>(model, wanted);
+  p.size = surface->size;
+  p.expected_quads = expected_quads(model.fine, *surface->size);
+  check_count(p.expected_quads);
+  surface->domain = make_kept_domain(model, std::move(flattening), *surface->size);
+  given.given_curve.resize(model.fine.curves.size(), -1);
+  p.given_entities = {mesh.curves, mesh.regions, given.given_curve, given.given_region};
+  p.failures = failures.take();
+  p.warnings = model.warnings;
+  p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
+  p.boundary = surface->domain.boundary;
+  p.boundary.unit = model.fine.unit;
+  p.sharp_corners = surface->domain.sharp_corners;
+  std::vector<QuadPatch> elements;
+  std::vector<std::vector<Vec3>> inside(surface->domain.patches.size());
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    elements.push_back(elements_within(given, surface->domain.patches[i], inside[i]));
+  surface->model = std::move(model);
+  p.surface = surface;
+  p.times.emplace_back("curves", curves.time());
+
+  const Stopwatch fields;
+  const DoingStage making_fields("fields");
+  prepare_patches(surface, p);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    p.patches[i].given = std::move(elements[i]);
+    p.patches[i].given_inside = std::move(inside[i]);
+  }
+  if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+  p.times.emplace_back("fields", fields.time());
+  return p;
+}
+
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,
                                 const std::vector<SizeSpot>& spots) {
   const bool size_aware = problem.cross.kind == CrossKind::kSizeAware;
-  if (!size_aware && problem.cross.kind != CrossKind::kBoundary)
-    throw InputError(problem.cross.where +
-                     ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
+  check_surface_cross(problem.cross);
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
   imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "geometry/surface/surface_model.h"
+#include "mesher/given_surface.h"
 #include "mesher/prepare.h"
 
 namespace delquad {
@@ -14,5 +15,11 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,
                                 const std::vector<SizeSpot>& spots = {});
+
+/// The same of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along
+/// sides of elements, and the elements within. `given`: its curves and regions.
+PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
+                                      std::shared_ptr<const SizeField> size,
+                                      const std::function<void(double quads)>& check_count);
 
 }  // namespace delquad

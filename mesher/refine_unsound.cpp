@@ -82,7 +82,7 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     RunResult& result) {
   // Lines that were given are kept.
-  const bool can_be_finer = prepared.surface || !prepared.curve_places.empty();
+  const bool can_be_finer = (prepared.surface && !prepared.given_entities) || !prepared.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.options).refine_unsound) return;
   StageLog before;
   double seconds = result.seconds;

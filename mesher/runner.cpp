@@ -21,6 +21,7 @@
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/across_cuts.h"
 #include "mesher/face_images.h"
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
@@ -140,7 +141,18 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
   if (patch.given.points.empty())
     throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
                                  prepared.where, stage.letter));
-  return located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+  const auto has_quads = [](const PreparedPatch& other) { return !other.given.quads.empty(); };
+  PatchMesh start;
+  // In space regions may be small, and cuts may part triangles from quads: they stay.
+  if (prepared.surface && stage.from == PatchForm::kQuads &&
+      std::ranges::any_of(prepared.patches, has_quads)) {
+    start.form = PatchForm::kQuads;
+    start.quads = patch.given;
+  } else {
+    start = located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+  }
+  start.inside = patch.given_inside;
+  return start;
 }
 
 /// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
@@ -149,7 +161,10 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
   const PreparedPatch& patch = prepared.patches[i];
   const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
   const auto run = [&] {
-    if (mesh.form != stage.from) mesh = given_to(stage, prepared, patch);
+    if (mesh.form != stage.from) {
+      mesh = given_to(stage, prepared, patch);
+      mesh.inside.clear();
+    }
     stage.run(input, mesh, log);
     check_stage_result(stage, patch.boundary, mesh);
   };
@@ -376,6 +391,37 @@ bool is_worse(const RunResult& after, const RunResult& before) {
   return worse;
 }
 
+/// Given in space, and cut for its words.
+bool is_cut_mesh(const PreparedProblem& prepared) {
+  return prepared.given_entities && !prepared.surface->cuts.empty();
+}
+
+/// The last stages once more, with other cuts. What they make is taken where it is sound and, all in all,
+/// better.
+void try_across_cuts(const PreparedProblem& prepared, const std::vector<const Stage*>& stages,
+                     const std::vector<char>& left_out, RunResult& result) {
+  const auto score = [](const RunResult& run) {
+    const auto& values = run.metrics.values;
+    return values.at("eta_mean") + values.at("eta_worst") + values.at("d4") / 100;
+  };
+  const Stopwatch watch;
+  RunResult other;
+  try {
+    other.mesh = run_across_cuts(prepared, stages, result.mesh, result.log);
+  } catch (const InputError&) {
+    return;  // what there was stays
+  }
+  result.seconds += watch.seconds();
+  measure(prepared, left_out, other);
+  const bool is_better =
+      other.soundness.sound() && (!result.soundness.sound() || score(other) > score(result));
+  if (!is_better) return;
+  result.mesh = std::move(other.mesh);
+  result.metrics = std::move(other.metrics);
+  result.soundness = std::move(other.soundness);
+  result.surface = std::move(other.surface);
+}
+
 /// What was given takes the place of what is worse.
 void keep_better(const PreparedProblem& prepared, const std::string& label,
                  const std::vector<PatchMesh>& given, const std::vector<char>& left_out, RunResult& result) {
@@ -393,6 +439,24 @@ void keep_better(const PreparedProblem& prepared, const std::string& label,
   result.mesh = std::move(before.mesh);
   result.metrics = std::move(before.metrics);
   result.soundness = std::move(before.soundness);
+  result.surface = std::move(before.surface);
+}
+
+/// The mesh gets the curves and regions that were given, and no other lines.
+void put_back_entities(const GivenEntities& given, Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const int curve = given.curve_of[mesh.line_curve[l]];
+    if (curve < 0) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = curve;
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  for (auto* regions : {&mesh.triangle_region, &mesh.quad_region})
+    for (int& region : *regions) region = given.region_of[region];
+  mesh.curves = given.curves;
+  mesh.regions = given.regions;
 }
 
 }  // namespace
@@ -410,6 +474,7 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
   const Stopwatch watch;
   const DoingStage running(stage.name.c_str());
+  if (stage.from == PatchForm::kQuads) state.of_quads.push_back(&stage);
   std::vector<PatchMesh>& patches = state.patches;
   if (stage.from == PatchForm::kQuads && patches[0].form == PatchForm::kBoundary)
     for (std::size_t i = 0; i < patches.size(); ++i)
@@ -466,9 +531,12 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   state.patches.clear();
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
+  if (is_cut_mesh(prepared) && !state.of_quads.empty() && result.failures.empty())
+    try_across_cuts(prepared, state.of_quads, left_out, result);
   if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
+  if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);
   return result;
 }
 

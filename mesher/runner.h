@@ -30,9 +30,10 @@ struct RunResult {
 /// A pipeline on its way: what the stages so far have made of each patch.
 struct MeshingState {
   std::vector<PatchMesh> patches;
-  std::vector<PatchMesh> given;      ///< what the word began from, where it began from quads
-  std::vector<std::string> reasons;  ///< of each patch, to leave its face out; empty: none
-  SurfaceNodes nodes;                ///< those on curves
+  std::vector<PatchMesh> given;             ///< what the word began from, where it began from quads
+  std::vector<const Stage*> of_quads = {};  ///< stages that began from quads
+  std::vector<std::string> reasons;         ///< of each patch, to leave its face out; empty: none
+  SurfaceNodes nodes;                       ///< those on curves
   StageLog log;
   double seconds = 0;  ///< on the clock, so far
 };

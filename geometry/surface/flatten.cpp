@@ -18,6 +18,7 @@
 #include "base/parallel.h"
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/cut_planner.h"
+#include "geometry/surface/element_cuts.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -73,18 +74,28 @@ struct Outcome {
   std::vector<char> parts = {};  ///< of each triangle, see plan_parting
 };
 
+ChartElements elements_of(const Chart& chart, const FlattenOptions& options) {
+  ChartElements elements;
+  for (const int t : chart.fine_triangle) elements.element.push_back(options.element[t]);
+  for (const int v : chart.fine_node)
+    elements.avoided.push_back(options.avoided.empty() ? 0 : options.avoided[v]);
+  return elements;
+}
+
 class ChartWork {
  public:
   ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
             double tolerance, int tries, bool stuck)
-      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), tries_(tries), stuck_(stuck) {}
+      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), tries_(tries), stuck_(stuck) {
+    if (!options.element.empty()) elements_ = elements_of(chart, options);
+  }
 
   Outcome run() const {
     Outcome outcome = plan();
     const bool wanted =
         outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
-    if (wanted && (!outcome.cut || stuck_))
-      return {std::move(outcome.map), std::nullopt, true, plan_parting(chart_)};
+    if (wanted && outcome.parts.empty() && (!outcome.cut || stuck_))
+      return {std::move(outcome.map), std::nullopt, true, part()};
     return outcome;
   }
 
@@ -103,12 +114,14 @@ class ChartWork {
 
   Outcome flatten_with_holes() const {
     if (chart_.loops.size() > kManyLoops)
-      if (Outcome division = divide(std::nullopt); division.cut) return division;
-    const double limit = chart_.loops.size() == 2 ? kMaxUncutAnnulus : kMaxUncutHoles;
+      if (Outcome division = divide(std::nullopt); division.cut || !division.parts.empty()) return division;
+    const double limit = elements_                  ? options_.max_area_ratio
+                         : chart_.loops.size() == 2 ? kMaxUncutAnnulus
+                                                    : kMaxUncutHoles;
     std::optional<Map> map = checked(chart_, spectral_map(chart_), "spectral");
     if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
       return {std::move(map), {}, false};
-    auto seam = plan_seam(chart_, ends_);
+    auto seam = elements_ ? path_from(chart_.loops[1], chart_.loops[0]) : plan_seam(chart_, ends_);
     if (chart_.loops.size() == 2 && seam) return {std::move(map), std::move(seam), false};
     Outcome division = divide(std::move(map));
     if (seam && !(division.cut && division.cut->length < kShortDivision * seam->length))
@@ -125,7 +138,8 @@ class ChartWork {
     }
     if (!map || map->quality.area_ratio > kMinTipRatio) {
       for (int tip : sharp_tips(chart_))
-        if (auto cut = plan_tip_cut(chart_, tip, ends_)) return {std::move(map), std::move(cut), false};
+        if (auto cut = elements_ ? path_to_boundary(tip) : plan_tip_cut(chart_, tip, ends_))
+          return {std::move(map), std::move(cut), false};
     }
     if (map && acceptable(map->quality, options_.max_area_ratio)) return {std::move(map), {}, false};
     return divide(std::move(map));
@@ -139,14 +153,33 @@ class ChartWork {
     return fits_a != fits_b ? fits_a : cost(a) < cost(b);
   }
 
-  Outcome divide(std::optional<Map> map) const { return {std::move(map), plan_division(chart_), true}; }
+  Outcome divide(std::optional<Map> map) const {
+    if (elements_) return {std::move(map), std::nullopt, true, part()};
+    return {std::move(map), plan_division(chart_), true};
+  }
+  std::vector<char> part() const {
+    return elements_ ? plan_division(chart_, *elements_) : plan_parting(chart_);
+  }
+
+  std::optional<CutPath> path_from(const std::vector<int>& from, const std::vector<int>& to) const {
+    std::vector<char> begins(chart_.points.size(), 0), ends(chart_.points.size(), 0);
+    for (const int v : from) begins[v] = 1;
+    for (const int v : to) ends[v] = 1;
+    return path_beside_elements(chart_, *elements_, begins, ends);
+  }
+  std::optional<CutPath> path_to_boundary(int tip) const {
+    std::vector<int> boundary(static_cast<std::size_t>(chart_.n_boundary));
+    std::iota(boundary.begin(), boundary.end(), 0);
+    return path_from({tip}, boundary);
+  }
 
   const Chart& chart_;
   const std::vector<CutEnd>& ends_;
   const FlattenOptions& options_;
   double tolerance_;
-  int tries_;   ///< cuts that were made because its map distorted
-  bool stuck_;  ///< its last cut could not be made
+  int tries_;                              ///< cuts that were made because its map distorted
+  bool stuck_;                             ///< its last cut could not be made
+  std::optional<ChartElements> elements_;  ///< none: cuts run anywhere
 };
 
 FlatPatch to_patch(const Chart& chart, Map map) {
@@ -352,7 +385,7 @@ class Flattener {
         continue;
       }
       Chart& chart = mapped[i].chart;
-      std::vector<char> parts = plan_parting(chart);
+      std::vector<char> parts = parting(chart);
       if (parts.empty()) {
         failed_[chart.face] = 1;
         continue;
@@ -360,6 +393,11 @@ class Flattener {
       for (const int t : chart.fine_triangle) open_[t] = 1;
       planned.push_back({std::move(chart), {std::nullopt, std::nullopt, true, std::move(parts)}});
     }
+  }
+
+  std::vector<char> parting(const Chart& chart) const {
+    if (options_.element.empty()) return plan_parting(chart);
+    return plan_division(chart, elements_of(chart, options_));
   }
 
   std::vector<CutEnd> cut_ends() const {
@@ -491,7 +529,15 @@ class Flattener {
     return norm(y - x) <= kMaxMove * norm(mesh_.points[b] - mesh_.points[a]) ? y : x;
   }
 
+  /// Where elements are given, they stay as they are in spite of cuts and distortion.
   void report(const Flattening& result) {
+    if (options_.element.empty()) report_cuts(result);
+    for (int f : result.failed)
+      model_.warnings.push_back({"faces that could not be flattened", 0,
+                                 fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
+  }
+
+  void report_cuts(const Flattening& result) {
     for (const SurfaceCut& c : result.cuts)
       model_.warnings.push_back(
           {"new curves that divide faces or cut them open", c.length,
@@ -503,9 +549,6 @@ class Flattener {
             {"maps of faces that distort", p.quality.area_ratio * p.quality.sigma_95,
              fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
                          mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95)});
-    for (int f : result.failed)
-      model_.warnings.push_back({"faces that could not be flattened", 0,
-                                 fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
   }
 
   SurfaceModel& model_;

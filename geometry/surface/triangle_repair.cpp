@@ -300,13 +300,7 @@ void check_contents(const Mesh& mesh, const std::string& source) {
 
 }  // namespace
 
-Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
-                      std::vector<Warning>& warnings) {
-  check_contents(mesh, source);
-  close_gaps(mesh, weld_tolerance, warnings);
-  take_out_flat_triangles(mesh, warnings);
-  if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
-  take_out_twins(mesh, warnings);
+void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
   tell_branches(mesh, source, warnings);
   orient_triangles(mesh, source, warnings);
   const std::vector<int> side_of_line = settle_lines(mesh, warnings);
@@ -314,6 +308,16 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
   for (size_t i = 0; i < side_of_line.size(); ++i) {
     mesh.lines[i] = {side_start(mesh, side_of_line[i]), side_end(mesh, side_of_line[i])};
   }
+}
+
+Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
+                      std::vector<Warning>& warnings) {
+  check_contents(mesh, source);
+  close_gaps(mesh, weld_tolerance, warnings);
+  take_out_flat_triangles(mesh, warnings);
+  if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
+  take_out_twins(mesh, warnings);
+  settle_triangles(mesh, source, warnings);
   const int unused = drop_unused_points(mesh);
   if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");
   report_gaps(mesh, warnings);

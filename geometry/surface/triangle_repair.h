@@ -29,4 +29,8 @@ namespace delquad {
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 
+/// The repairs of orientation, of lines, and of vertices where fans touch, whose copies come last: triangles
+/// and points stay, and their order. Each edge must be in one triangle or more, none of them without area.
+void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings);
+
 }  // namespace delquad

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -165,9 +167,18 @@ std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const st
   return region_of_face;
 }
 
-/// Cuts become the lines of the model, joined into curves.
-void make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::vector<int>& cut,
-                 double angle) {
+/// What lies along a standing line of one of n given curves (kNewCut: of none), beyond all cuts; and back.
+int standing_kind(int n_curves, int curve) { return n_curves + 1 + curve; }
+bool is_standing_kind(int n_curves, int kind) { return kind >= n_curves; }
+int given_curve_of(int n_curves, int kind) {
+  return is_standing_kind(n_curves, kind) ? kind - n_curves - 1 : kind;
+}
+
+/// Cuts, and `standing` lines besides (sides with what lies along them), become the lines of the model,
+/// joined into curves. Returns of each what lay along it, those of standing lines beyond those of cuts: see
+/// standing_kind().
+std::vector<int> make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::vector<int>& cut,
+                             double angle, const std::vector<std::pair<int, int>>& standing = {}) {
   Mesh& mesh = model.fine;
   mesh.lines.clear();
   std::vector<int> given;
@@ -178,21 +189,103 @@ void make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::v
     mesh.lines.push_back({side_start(mesh, s), side_end(mesh, s)});
     given.push_back(cut[s]);
   }
+  const int n_curves = static_cast<int>(mesh.curves.size());
+  for (const auto& [side, curve] : standing) {
+    mesh.lines.push_back({side_start(mesh, side), side_end(mesh, side)});
+    given.push_back(standing_kind(n_curves, curve));
+  }
   std::vector<char> corner(mesh.points.size(), 0);
   mark_turns(mesh, angle, std::vector<char>(mesh.points.size(), 1), corner);
-  std::vector<int> given_of_curve;
-  for (const auto& chain : chain_lines(model, given, std::move(corner)))
-    given_of_curve.push_back(given[chain[0]]);
+  for (const NamedPoint& named : mesh.named_points) corner[named.point] = 1;
+  std::vector<int> given_of_curve, kinds;
+  for (const auto& chain : chain_lines(model, given, std::move(corner))) {
+    kinds.push_back(given[chain[0]]);
+    given_of_curve.push_back(given_curve_of(n_curves, kinds.back()));
+  }
   mesh.curves = entities_of_pieces(mesh.curves, given_of_curve);
+  return kinds;
+}
+
+/// Lines that stand in faces: given ones that end there, and what has to go on from these and from named
+/// points that are on no line, as one edge alone would enclose nothing.
+class StandingLines {
+ public:
+  StandingLines(const Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& element,
+                const std::vector<int>& cut, std::vector<std::pair<int, int>> given)
+      : mesh_(mesh), lines_(std::move(given)), sides_at_(mesh.points.size()), count_(mesh.points.size(), 0) {
+    for (int s = 0; s < static_cast<int>(twin.size()); ++s) {
+      if (twin[s] >= 0 && element[s / 3] == element[twin[s] / 3]) continue;
+      for (const int v : {side_start(mesh, s), side_end(mesh, s)}) {
+        if (twin[s] < 0 || s < twin[s]) sides_at_[v].push_back(s);
+        count_[v] += cut[s] != kNoCut;
+      }
+    }
+    for (const auto& [side, curve] : lines_) count(side);
+    const std::size_t n_given = lines_.size();
+    for (std::size_t i = 0; i < n_given; ++i) {
+      const int side = lines_[i].first, a = side_start(mesh, side), b = side_end(mesh, side);
+      if (count_[a] == 1 && count_[b] == 1) extend(b, a);
+    }
+    for (const NamedPoint& named : mesh.named_points) {
+      const int v = named.point;
+      if (count_[v] > 0) continue;
+      const int side = sides_at_[v].front();
+      add(side);
+      extend(v, other_end(side, v));
+    }
+  }
+  std::vector<std::pair<int, int>> take() && { return std::move(lines_); }
+
+ private:
+  int other_end(int side, int v) const {
+    return side_start(mesh_, side) == v ? side_end(mesh_, side) : side_start(mesh_, side);
+  }
+  void count(int side) {
+    ++count_[side_start(mesh_, side)];
+    ++count_[side_end(mesh_, side)];
+  }
+  void add(int side) {
+    lines_.emplace_back(side, kNewCut);
+    count(side);
+  }
+  /// Goes on from v, away from `from`.
+  void extend(int v, int from) {
+    const auto ahead = [&](int side) {
+      const int w = other_end(side, v);
+      const Vec3 in = mesh_.points[v] - mesh_.points[from], out = mesh_.points[w] - mesh_.points[v];
+      return w == from ? -2 : dot(in, out) / (norm(in) * norm(out));
+    };
+    add(*std::ranges::max_element(sides_at_[v], {}, ahead));
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::pair<int, int>> lines_;
+  std::vector<std::vector<int>> sides_at_;  ///< that are no diagonals, one for each edge
+  std::vector<int> count_;                  ///< of cuts and lines, by point
+};
+
+double checked_angle(const TriangulatedOptions& options) {
+  if (!(options.feature_angle > 0 && options.feature_angle <= 180))
+    throw std::invalid_argument("feature angle: expected above 0 to 180 degrees");
+  return options.feature_angle * std::numbers::pi / 180;
+}
+
+/// Takes what noise makes from the cuts, and tells of it; `loose`: as of drop_loose_ends().
+void drop_noise_and_ends(SurfaceModel& model, const std::vector<int>& twin, const std::vector<double>& angles,
+                         std::vector<int>& cut, std::vector<std::pair<int, int>>& loose) {
+  drop_loose_ends(model.fine, twin, cut, loose);
+  const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
+  drop_loose_ends(model.fine, twin, cut, loose);
+  if (noise.islands > 0)
+    model.warnings.push_back(
+        fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",
+                    counted(static_cast<int>(noise.islands), "island"), noise.edges, show_point(noise.at)));
 }
 
 }  // namespace
 
 SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options) {
-  if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
-    throw std::invalid_argument("feature angle: expected above 0 to 180 degrees");
-  }
-  const double angle = options.feature_angle * std::numbers::pi / 180;
+  const double angle = checked_angle(options);
   SurfaceModel model;
   model.source = options.source;
   if (!(options.weld_tolerance >= 0)) throw std::invalid_argument("weld tolerance: expected 0 or more");
@@ -202,19 +295,48 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   const std::vector<double> angles = side_angles(model.fine, twin);
   std::vector<int> cut = find_cuts(model.fine, twin, angles, angle);
   std::vector<std::pair<int, int>> loose;
-  drop_loose_ends(model.fine, twin, cut, loose);
-  const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
-  drop_loose_ends(model.fine, twin, cut, loose);
+  drop_noise_and_ends(model, twin, angles, cut, loose);
   keep_features(model.fine, options.kept_features, angles, cut);
-  if (noise.islands > 0)
-    model.warnings.push_back(
-        fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",
-                    counted(static_cast<int>(noise.islands), "island"), noise.edges, show_point(noise.at)));
   model.loose = join_loose_lines(model.fine, std::move(loose), options.source);
   model.fine.regions = entities_of_pieces(model.fine.regions, number_faces(model.fine, twin, cut));
   make_curves(model, twin, cut, angle);
   report_edges(model);
   return model;
+}
+
+KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
+                          const TriangulatedOptions& options) {
+  const double angle = checked_angle(options);
+  KeptModel kept;
+  SurfaceModel& model = kept.model;
+  model.source = options.source;
+  settle_triangles(triangles, options.source, model.warnings);
+  model.fine = std::move(triangles);
+  Mesh& fine = model.fine;
+  const std::vector<int> twin = side_twins(fine);
+  std::vector<double> angles = side_angles(fine, twin);
+  for (std::size_t s = 0; s < twin.size(); ++s)
+    if (twin[s] >= 0 && element[s / 3] == element[twin[s] / 3]) angles[s] = 0;
+  std::vector<int> cut = find_cuts(fine, twin, angles, angle);
+  std::vector<std::pair<int, int>> loose;
+  drop_noise_and_ends(model, twin, angles, cut, loose);
+  loose = StandingLines(fine, twin, element, cut, std::move(loose)).take();
+  kept.given_region = number_faces(fine, twin, cut);
+  fine.regions = entities_of_pieces(fine.regions, kept.given_region);
+  const int n_curves = static_cast<int>(fine.curves.size());
+  const std::vector<int> kinds = make_curves(model, twin, cut, angle, loose);
+  std::map<std::pair<int, int>, int> side_of;
+  for (const auto& [side, curve] : loose)
+    side_of[std::minmax({side_start(fine, side), side_end(fine, side)})] = side;
+  for (const int kind : kinds) kept.given_curve.push_back(given_curve_of(n_curves, kind));
+  for (std::size_t l = 0; l < fine.lines.size(); ++l) {
+    const int curve = fine.line_curve[l];
+    if (l > 0 && fine.line_curve[l - 1] == curve) continue;
+    if (!is_standing_kind(n_curves, kinds[curve])) continue;
+    const int side = side_of.at(std::minmax({fine.lines[l][0], fine.lines[l][1]}));
+    model.embedded.push_back({curve, fine.triangle_region[side / 3]});
+  }
+  return kept;
 }
 
 }  // namespace delquad

@@ -37,4 +37,17 @@ struct TriangulatedOptions {
 /// Throws InputError for what cannot be repaired; invalid_argument for a feature angle out of range.
 SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options = {});
 
+/// A model whose triangulation is a mesh that was given, point by point.
+struct KeptModel {
+  SurfaceModel model;
+  /// The curve or region of the mesh that each of the model's is a part of; -1: of none.
+  std::vector<int> given_curve, given_region;
+};
+
+/// The same of a mesh that needs no repair but that of settle_triangles(), and keeps its points and
+/// triangles. Triangles with the same `element` stay in one face. Given lines that end inside faces become
+/// embedded curves there, and so do two sides at a named point that is on no line.
+KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
+                          const TriangulatedOptions& options = {});
+
 }  // namespace delquad

@@ -176,11 +176,12 @@ struct TriangleModel {
 };
 
 /// A mesh to improve: words may begin from its triangles (B, G, T, L) or quads (C, O). Its nodes on the
-/// outline, on lines and between regions stay, and so do all names. Quads are halved where a word begins from
-/// triangles; triangles among quads stay where it begins from quads. Where nothing is said, the size is that
-/// of the elements.
+/// outline, on lines and between regions stay, in space also those on sharp edges and where more than two
+/// elements meet, and so do all names. In space its elements, quads as two triangles, are the surface. Quads
+/// are halved where a word begins from triangles; triangles among quads stay where it begins from quads.
+/// Where nothing is said, the size is that of the elements.
 struct GivenMesh {
-  Mesh mesh;                            ///< conforming, in a plane of constant z
+  Mesh mesh;                            ///< conforming
   std::string source = "mesh";          ///< for messages
   std::vector<std::string> notes = {};  ///< of its reader, for warnings
 };

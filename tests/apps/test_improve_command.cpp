@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "io/mesh_io.h"
 #include "tests/apps/program.h"
 #include "tests/support/grid_mesh.h"
@@ -65,6 +67,37 @@ TEST(ImproveCommand, ModelsAndExperimentsBeginFromMeshes) {
   const ProgramResult refused = delquad({"run", mixed, "-o", folder / "none"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_TRUE(contains(refused.err, "'C' starts from quads")) << refused.err;
+}
+
+/// A part of a cylinder.
+Mesh bad_shell() {
+  Mesh mesh = bad_grid();
+  for (Vec3& p : mesh.points) p = {std::sin(p.x), p.y, std::cos(p.x)};
+  mesh.regions = {{2, {"shell"}}};
+  return mesh;
+}
+
+TEST(ImproveCommand, MeshesInSpace) {
+  for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
+    const TemporaryFolder folder;
+    write_mesh(folder / name, bad_shell());
+    const ProgramResult result = delquad({"improve", folder / name, "-o", folder / "out.msh"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
+    EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
+    EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.97) << name;
+    EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 64u);
+  }
+  const TemporaryFolder folder;
+  write_mesh(folder / "a.vtu", bad_shell());
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"CO\", \"O\"]\n[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\n"
+                               "start = true\n");
+  const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(delquad({"rerun", folder / "results/a/CO/record.json"}).exit_code, 0);
+  EXPECT_EQ(delquad({"info", write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n")}).exit_code,
+            0);
 }
 
 }  // namespace

@@ -289,10 +289,6 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   twice.quads[5] = {6, 7, 12, 12};
   expect_input_error([&] { improve_given(twice, "CO"); }, {"corner twice"});
 
-  Mesh bent = grid;
-  bent.points[12].z = 4;
-  expect_input_error([&] { improve_given(bent, "CO"); }, {"(0.5, 0.5, 4)", "plane z = 3"});
-
   expect_input_error([&] { improve_given({}, "CO"); }, {"neither triangles nor quads"});
   MeshProblem lines;
   lines.model = polygons({{{0, 0}, {1, 0}, {0, 1}}});

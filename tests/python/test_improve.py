@@ -25,3 +25,15 @@ def test_triangles_and_files(tmp_path):
         delquad.improve(triangles, word="CO")
     with pytest.raises(TypeError, match="expected a delquad.Mesh"):
         delquad.improve(3)
+
+
+def test_meshes_in_space(tmp_path):
+    start = delquad.mesh(delquad.example("bracket"), size=5.0, word="DB")
+    better = delquad.improve(start, word="O")
+    assert better.sound and len(better.quads) == len(start.quads)
+    assert better.metrics["eta_mean"] > start.metrics["eta_mean"]
+    assert better.curves == start.curves and better.regions == start.regions and better.unit == "mm"
+    start.write(tmp_path / "start.msh")
+    assert delquad.improve(tmp_path / "start.msh", feature_angle=30).sound
+    with pytest.raises(delquad.InputError, match="keeps its faces"):
+        delquad.improve(start, compound="all")

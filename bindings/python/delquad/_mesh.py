@@ -259,12 +259,13 @@ def mesh(
 
 
 def improve(given, size=None, *, word=None, **settings):
-    """Makes a planar mesh better that is there already, and returns a Result.
+    """Makes a mesh better that is there already, planar or in space, and returns a Result.
 
     given: a Mesh, or the path of a file; its points on the outline, on lines and between regions stay.
     size: as for mesh(); else what the mesh has.
     word: from quads stages such as "CO" (as if nothing is said), from triangles "BCO" (where there are no quads).
-    settings: cross, gradation, options, threads and others of mesh() that are for planar domains.
+    settings: cross, gradation, options, threads and others of mesh() that are for planar domains; in space
+        feature_angle, too.
 
     Where given quads would become worse, they are kept, and the warnings say so. Raises what mesh() raises.
     """

@@ -1,0 +1,249 @@
+#include "mesher/given_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/box_tree.h"
+#include "geometry/surface/orient_triangles.h"
+#include "geometry/surface/triangulated_model.h"
+#include "mesh/drop_unused_points.h"
+#include "mesh/half_edges.h"
+
+namespace delquad {
+namespace {
+
+/// Rounding of coordinates, in diagonals of the mesh.
+constexpr double kGivenRounding = 1e-9;
+/// Angles below this, in radians, leave an element no area.
+constexpr double kFlatAngle = 1e-9;
+
+std::string text_of_place(const Vec3& p) { return fmt::format("({:.10g}, {:.10g}, {:.10g})", p.x, p.y, p.z); }
+
+[[noreturn]] void refuse_element(const GivenMesh& given, const Vec3& at, const char* why) {
+  throw InputError(fmt::format("{}: an element at {} {}", given.source, text_of_place(at), why));
+}
+
+/// The least angle of a triangle, less than 0 where it is turned against `up`.
+double least_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& up) {
+  const std::array<Vec3, 3> p{a, b, c};
+  const double sign = dot(cross(b - a, c - a), up) < 0 ? -1 : 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
+    least = std::min(least, sign * std::atan2(norm(cross(u, w)), dot(u, w)));
+  }
+  return least;
+}
+
+using Halves = std::array<std::array<int, 3>, 2>;  ///< corners of a quad
+
+/// By the diagonal that leaves the better worst angle; turned over where neither leaves a good one.
+std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p) {
+  constexpr Halves kOne{{{0, 1, 2}, {0, 2, 3}}}, kOther{{{0, 1, 3}, {1, 2, 3}}};
+  const Vec3 up = cross(p[2] - p[0], p[3] - p[1]);
+  const auto worst = [&](const Halves& halves) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : halves) least = std::min(least, least_angle(p[a], p[b], p[c], up));
+    return least;
+  };
+  const double one = worst(kOne), other = worst(kOther);
+  return one >= other ? std::pair{kOne, one} : std::pair{kOther, other};
+}
+
+/// Refuses what no word can begin from, element by element.
+void check_given_elements(const GivenMesh& given) {
+  const Mesh& mesh = given.mesh;
+  std::vector<std::pair<std::array<int, 4>, int>> by_corners;
+  for_each_element(mesh, [&](int element, const auto& v) {
+    std::array<int, 4> corners{-1, -1, -1, -1};
+    std::ranges::copy(v, corners.begin());
+    std::ranges::sort(corners);
+    const Vec3& at = mesh.points[v[0]];
+    for (const int i : v)
+      if (const Vec3& p = mesh.points[i]; !std::isfinite(p.x + p.y + p.z))
+        refuse_element(given, p, "has a coordinate that is not finite");
+    if (std::ranges::adjacent_find(corners.end() - static_cast<std::ptrdiff_t>(v.size()), corners.end()) !=
+        corners.end())
+      refuse_element(given, at, "has a corner twice");
+    by_corners.emplace_back(corners, element);
+  });
+  std::ranges::sort(by_corners);
+  const auto twin = std::ranges::adjacent_find(by_corners, {}, &std::pair<std::array<int, 4>, int>::first);
+  if (twin != by_corners.end()) refuse_element(given, mesh.points[twin->first.back()], "is there twice");
+}
+
+/// An edge of one element must not have nodes of others between its ends.
+void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> sides) {
+  const Mesh& mesh = given.mesh;
+  std::vector<std::array<int, 2>> edges;
+  std::set<int> ends;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 1) return;
+    edges.push_back({edge[0].lo, edge[0].hi});
+    ends.insert({edge[0].lo, edge[0].hi});
+  });
+  const std::vector<int> nodes(ends.begin(), ends.end());
+  std::vector<Box<Vec3>> boxes;
+  for (const int v : nodes) boxes.push_back({mesh.points[v], mesh.points[v]});
+  const BoxTree<Vec3> tree(boxes);
+  const double tolerance = kGivenRounding * diagonal(mesh);
+  for (const auto& [a, b] : edges) {
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b], along = q - p, middle = 0.5 * (p + q);
+    const double length = norm(along), limit = length * length / 4;
+    if (!(length > 0))
+      throw InputError(fmt::format("{}: the edge at {} has no length", given.source, text_of_place(p)));
+    tree.nearest(middle, limit, [&](int i) {
+      const Vec3 from_start = mesh.points[nodes[i]] - p;
+      const double s = dot(from_start, along) / length;
+      if (s <= tolerance || s >= length - tolerance) return;
+      if (norm(from_start - (s / length) * along) > tolerance) return;
+      throw InputError(fmt::format(
+          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node",
+          given.source, text_of_place(mesh.points[nodes[i]]), text_of_place(p), text_of_place(q)));
+    });
+  }
+}
+
+/// Lines that are edges, once each, and points of elements. Tells of what goes.
+void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> sides, Mesh& mesh,
+                              std::vector<Warning>& warnings) {
+  std::set<std::pair<int, int>> seen;
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto [a, b] = mesh.lines[l];
+    if (sides_of_edge(sides, a, b).empty() || !seen.insert(std::minmax({a, b})).second) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  if (kept < mesh.lines.size())
+    warnings.push_back(
+        fmt::format("{}: {} lines are left out: they are no edges of elements, or are there twice",
+                    given.source, mesh.lines.size() - kept));
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  mesh.periodic.clear();
+  if (const int unused = drop_unused_points(mesh); unused > 0)
+    warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
+}
+
+}  // namespace
+
+bool is_in_space(const Mesh& mesh) {
+  const double tolerance = kGivenRounding * diagonal(mesh);
+  bool differs = false;
+  double z = std::numeric_limits<double>::quiet_NaN();
+  for_each_element(mesh, [&](int, const auto& v) {
+    for (const int i : v) {
+      if (std::isnan(z)) z = mesh.points[i].z;
+      differs = differs || std::abs(mesh.points[i].z - z) > tolerance;
+    }
+  });
+  return differs;
+}
+
+GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
+  check_given_elements(given);
+  Mesh mesh = given.mesh;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  refuse_hanging_nodes(given, sides);
+  std::vector<Warning> warnings;
+  drop_what_no_element_has(given, sides, mesh, warnings);
+
+  GivenSurface surface;
+  std::vector<std::array<int, 3>> corner_of;  // of each fine triangle, which corners of its element it has
+  const auto add_half = [&](const std::array<int, 3>& corners, const auto& v, int region) {
+    mesh.triangles.push_back({v[corners[0]], v[corners[1]], v[corners[2]]});
+    mesh.triangle_region.push_back(region);
+    surface.element.push_back(static_cast<int>(surface.corners.size()));
+    corner_of.push_back(corners);
+  };
+  const Mesh elements = mesh;
+  mesh.triangles.clear();
+  mesh.triangle_region.clear();
+  mesh.quads.clear();
+  mesh.quad_region.clear();
+  for (std::size_t t = 0; t < elements.triangles.size(); ++t) {
+    const auto& v = elements.triangles[t];
+    const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+    if (!(least_angle(a, b, c, cross(b - a, c - a)) > kFlatAngle)) refuse_element(given, a, "has no area");
+    add_half({0, 1, 2}, v, elements.triangle_region[t]);
+    surface.corners.push_back({-1, -1, -1, -1});
+  }
+  for (std::size_t q = 0; q < elements.quads.size(); ++q) {
+    const auto& v = elements.quads[q];
+    const std::array<Vec3, 4> p{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
+    const auto [halves, angle] = halves_in_space(p);
+    if (!(std::abs(angle) > kFlatAngle)) refuse_element(given, p[0], "has no area");
+    for (const auto& half : halves) add_half(half, v, elements.quad_region[q]);
+    surface.corners.push_back({-1, -1, -1, -1});
+  }
+  const std::vector<std::array<int, 3>> before = mesh.triangles;
+  std::vector<Warning> turned;  // elements may run either way round
+  orient_triangles(mesh, given.source, turned);
+  std::vector<char> is_turned(before.size(), 0);
+  for (std::size_t t = 0; t < before.size(); ++t)
+    if (mesh.triangles[t][1] != before[t][1]) {
+      is_turned[t] = 1;
+      std::swap(corner_of[t][1], corner_of[t][2]);
+    }
+  TriangulatedOptions options;
+  options.source = given.source;
+  options.feature_angle = feature_angle;
+  const std::string unit = mesh.unit;
+  KeptModel kept = make_kept_model(std::move(mesh), surface.element, options);
+  surface.model = std::move(kept.model);
+  surface.model.fine.unit = unit;
+  surface.model.warnings.insert(surface.model.warnings.begin(), warnings.begin(), warnings.end());
+  surface.given_curve = std::move(kept.given_curve);
+  surface.given_region = std::move(kept.given_region);
+  for (std::size_t t = 0; t < before.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      surface.corners[surface.element[t]][corner_of[t][k]] = surface.model.fine.triangles[t][k];
+  for (std::size_t t = 0; t < before.size(); ++t) {
+    if (!is_turned[t] || (t > 0 && surface.element[t] == surface.element[t - 1])) continue;
+    auto& v = surface.corners[surface.element[t]];
+    std::reverse(v.begin(), v.begin() + (v[3] < 0 ? 3 : 4));
+  }
+  return surface;
+}
+
+QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside) {
+  const TriPatch& flat = patch.map.flat;
+  QuadPatch result;
+  result.points = patch.boundary.points;
+  result.n_boundary = static_cast<int>(result.points.size());
+  std::vector<int> point(flat.points.size(), -1);
+  int next = 0;
+  for (const auto& loop : patch.outline)
+    for (const CurveSide& side : loop) point[side.from] = next++;
+  for (std::size_t i = 0; i < flat.points.size(); ++i) {
+    if (point[i] >= 0) continue;
+    point[i] = static_cast<int>(result.points.size());
+    result.points.push_back(flat.points[i]);
+    inside.push_back(surface.model.fine.points[patch.map.fine_node[i]]);
+  }
+  // Both halves of a quad are here.
+  std::map<int, std::array<int, 4>> elements;
+  for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
+    const int element = surface.element[patch.map.fine_triangle[t]];
+    auto& v = elements.try_emplace(element, std::array{-1, -1, -1, -1}).first->second;
+    for (const int i : flat.triangles[t]) {
+      const auto& corners = surface.corners[element];
+      v[std::ranges::find(corners, patch.map.fine_node[i]) - corners.begin()] = point[i];
+    }
+  }
+  for (const auto& [element, v] : elements)
+    if (v[3] < 0)
+      result.triangles.push_back({v[0], v[1], v[2]});
+    else
+      result.quads.push_back(v);
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "boundaries/surface_domain.h"
+#include "delquad/extend.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// Degrees, as for triangulations.
+inline constexpr double kGivenFeatureAngle = 40;
+
+/// A mesh in space as a surface: its elements, quads as two triangles, are the fine triangulation.
+struct GivenSurface {
+  SurfaceModel model;
+  std::vector<int> element;  ///< of each fine triangle, triangles first
+  /// By element its corners, points of the fine triangulation; the last of a triangle is -1.
+  std::vector<std::array<int, 4>> corners;
+  std::vector<int> given_curve, given_region;  ///< as in KeptModel
+  std::vector<char> avoided = {};              ///< as in FlattenOptions
+};
+
+/// Whether its elements are not all in one plane of constant z.
+bool is_in_space(const Mesh& mesh);
+
+/// Faces end at lines, edges of one element or of more than two, edges between regions and those sharper than
+/// the feature angle (degrees): all nodes there stay, and so does each named point. Throws InputError, naming
+/// places, for what is not conforming: hanging nodes, elements that are there twice, have a corner twice or
+/// no area; and for surfaces with one side only.
+GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
+
+/// What a patch holds, its boundary's points first; `inside` receives the places of the others.
+QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside);
+
+}  // namespace delquad
