@@ -427,6 +427,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   if (problem.seed != 0) turn(problem, domain, given, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);
+  p.curve_shapes = std::move(domain.curve_shapes);
   p.times.emplace_back("curves", watch.time());
   prepare_patches(problem, cross, std::move(domain), std::move(given), p);
   return p;
@@ -441,6 +442,7 @@ PreparedProblem with_settings_of(const MeshProblem& problem) {
   p.options = problem.options;
   p.max_elements = problem.max_elements;
   p.keep_going = problem.keep_going;
+  p.order = problem.order;
   return p;
 }
 

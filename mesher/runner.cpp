@@ -21,6 +21,7 @@
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesher/curved_mesh.h"
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
@@ -443,6 +444,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
   if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
+  curve_mesh(prepared, state.nodes, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
   return result;
