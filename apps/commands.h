@@ -43,6 +43,9 @@ int report_command(const ReportArguments& arguments);
 /// `options`: those of the stages as a table, in place of the schema.
 int schema_command(bool options);
 
+/// What kinds of mesh files there are.
+int formats_command();
+
 struct RerunArguments {
   std::filesystem::path record;
   std::filesystem::path data = kDataFolder;
@@ -69,6 +72,8 @@ struct MeshArguments {
   std::string cross, compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   std::optional<double> ignore_below;                     ///< a length
+  std::optional<int> order;                               ///< of the elements; else as the model says
+  bool keep_numbers = false;                              ///< of nodes, as stages made them
   bool glue = false;                                      ///< else as the model says
   std::vector<std::string> mapped;                        ///< names of regions, or "auto"
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"

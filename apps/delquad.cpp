@@ -192,6 +192,11 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   report->add_option("-o,--output", arguments.output, "file to write (.html)")->required();
 }
 
+void add_formats(CLI::App& app) {
+  app.add_subcommand("formats",
+                     "List the kinds of mesh files: what is read, what is written, up to which order");
+}
+
 void add_schema(CLI::App& app, bool& options) {
   CLI::App* schema =
       app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
@@ -230,9 +235,13 @@ void add_sizes(CLI::App& mesh, MeshArguments& arguments) {
 
 /// What comes out, and how.
 void add_mesh_output(CLI::App& mesh, MeshArguments& arguments, CommonArguments& common) {
-  mesh.add_option("-o,--output", arguments.output,
-                  "mesh to write (.msh, .vtu, .obj, .inp, .mesh), or a picture of it (.svg)")
+  mesh.add_option(
+          "-o,--output", arguments.output,
+          "mesh to write (.msh, .vtu, .inp, ...: 'delquad formats' lists all), or a picture of it (.svg)")
       ->required();
+  mesh.add_option("--order", arguments.order,
+                  "of the elements: 2 to 4 are curved along the model (.msh, .vtu; 2 also .inp)")
+      ->check(CLI::Range(1, kMostOrder));
   mesh.add_option("--json", arguments.json, "record to write");
   mesh.add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()
@@ -246,6 +255,8 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments, CommonArguments& 
                   "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
                   "(the default), or 'all'; deal.II takes none inside")
       ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
+  mesh.add_flag("--keep-numbers", arguments.keep_numbers,
+                "do not number the nodes anew for a small bandwidth");
   mesh.add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
   add_time_limit(mesh, common);
 }
@@ -426,6 +437,7 @@ int run_command_line(int argc, char** argv) {
   add_report(app, report);
   bool only_options = false;
   add_schema(app, only_options);
+  add_formats(app);
   add_mesh(app, mesh, common);
   add_improve(app, improve, common);
   add_metrics(app, metrics, common);
@@ -458,6 +470,7 @@ int run_command_line(int argc, char** argv) {
   if (app.got_subcommand("suite")) return run_suite(app, suite);
   if (app.got_subcommand("report")) return report_command(report);
   if (app.got_subcommand("schema")) return schema_command(only_options);
+  if (app.got_subcommand("formats")) return formats_command();
   if (const auto code = run_on_records(app, records)) return *code;
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("improve")) return mesh_command(improve);

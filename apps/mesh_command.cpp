@@ -162,6 +162,8 @@ int mesh_command(const MeshArguments& arguments) {
   c.max_elements = arguments.max_elements;
   c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
+  if (arguments.order) c.order = *arguments.order;
+  check_mesh_format(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
@@ -190,6 +192,7 @@ int mesh_command(const MeshArguments& arguments) {
   {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
+    if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
     const Stopwatch writing;
     write_mesh(arguments.output, result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());

@@ -58,6 +58,7 @@ struct Case {
   MappedSpec mapped;
   SymmetrySpec symmetry;
   CrossText cross;
+  int order = 1;  ///< of the elements
   Options options;
   long long max_elements = MeshProblem{}.max_elements;
   bool keep_going = false;  ///< leave faces out that cannot be meshed, instead of refusing the model

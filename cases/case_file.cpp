@@ -290,6 +290,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("periodic")) target.periodic.clear();
   for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {table.expression("cross"), table.where("cross")};
+  target.order = static_cast<int>(integer_between(table, "order", 1, kMostOrder, target.order));
   target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   for (const OptionGroup& group : option_groups())
     if (const auto given = table.optional_table(group.name)) read_options(*given, group, target.options);

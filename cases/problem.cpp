@@ -163,6 +163,7 @@ MeshProblem make_problem(const Case& c) {
   problem.symmetry = c.symmetry;
   problem.cross = make_cross(c.cross);
   problem.seed = c.seed;
+  problem.order = c.order;
   problem.options = c.options;
   problem.max_elements = c.max_elements;
   problem.keep_going = c.keep_going;

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "io/entity_names.h"
+#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {
@@ -27,15 +29,6 @@ constexpr double kNegligible = 1e-13;
 /// What a label is the name of.
 enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName };
 
-/// A label as Abaqus takes it: letters, digits and underscores, beginning with a letter; letters of other
-/// alphabets become underscores.
-std::string plain(const std::string& name) {
-  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
-  std::string label = name.empty() || !is_letter(name[0]) ? "SET_" : "";
-  for (const char c : name) label += is_letter(c) || (c >= '0' && c <= '9') ? c : '_';
-  return label;
-}
-
 std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
   std::vector<UniqueLabels::Key> keys;
   for (const Entity& entity : entities) {
@@ -54,7 +47,7 @@ UniqueLabels make_labels(const Mesh& mesh) {
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
     return a.first <= kRegionTag && b.first > kRegionTag;
   });
-  return UniqueLabels(keys, {plain, true, kLongestName});
+  return UniqueLabels(keys, {plain_label, true, kLongestName});
 }
 
 std::string number(double x, double negligible) {
@@ -72,9 +65,7 @@ using Sets = std::map<std::string, std::vector<int>>;
 class InpWriter {
  public:
   InpWriter(TextWriter& out, const Mesh& mesh) : out_(out), mesh_(mesh), labels_(make_labels(mesh)) {
-    const bool flat = std::all_of(mesh.points.begin(), mesh.points.end(),
-                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
-    planar_ = flat && area_from_above() >= 0;
+    planar_ = is_planar(mesh);  // plane elements of a face that looks down would be inverted
   }
 
   void write() {
@@ -83,8 +74,16 @@ class InpWriter {
     write_renamed();
     write_nodes();
     int n = 0;
-    write_elements(planar_ ? "CPS3" : "S3", mesh_.triangles, n);
-    write_elements(planar_ ? "CPS4" : "S4", mesh_.quads, n);
+    write_elements(
+        planar_ ? "CPS3" : "S3", mesh_.triangles.size(),
+        n, [&](size_t i) -> const auto& { return mesh_.triangles[i]; });
+    if (mesh_.order == 1)
+      write_elements(
+          planar_ ? "CPS4" : "S4", mesh_.quads.size(),
+          n, [&](size_t i) -> const auto& { return mesh_.quads[i]; });
+    else
+      write_elements(planar_ ? "CPS8" : "S8R", mesh_.quads.size(), n,
+                     [&](size_t i) { return eight_nodes(i); });
     collect_regions();
     collect_curves();
     for (const NamedPoint& named : mesh_.named_points)
@@ -96,16 +95,6 @@ class InpWriter {
   }
 
  private:
-  /// Twice the area; less than 0 for a face that looks down, of which plane elements would be inverted.
-  double area_from_above() const {
-    double area = 0;
-    for_each_element(mesh_, [&](int, const auto& v) {
-      for (size_t k = 0; k < v.size(); ++k)
-        area += cross(mesh_.points[v[k]], mesh_.points[v[(k + 1) % v.size()]]).z;
-    });
-    return area;
-  }
-
   void write_renamed() {
     for (const auto& [key, label] : labels_.renamed())
       out_ << "** "
@@ -117,8 +106,12 @@ class InpWriter {
 
   void write_nodes() {
     const double negligible = kNegligible * diagonal(mesh_);
+    std::vector<char> inside(mesh_.points.size(), 0);
+    for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
+      inside[nodes_of_quad(mesh_, q)[4]] = 1;
     out_ << "*NODE\n";
     for (size_t i = 0; i < mesh_.points.size(); ++i) {
+      if (inside[i]) continue;
       const Vec3& p = mesh_.points[i];
       out_ << i + 1;
       for (const double x : {p.x, p.y, p.z}) out_ << ", " << number(x, negligible);
@@ -126,15 +119,22 @@ class InpWriter {
     }
   }
 
-  template <size_t N>
-  void write_elements(const char* type, const std::vector<std::array<int, N>>& elements, int& n) {
-    if (elements.empty()) return;
+  template <class NodesOf>
+  void write_elements(const char* type, size_t count, int& n, const NodesOf& nodes_of) {
+    if (count == 0) return;
     out_ << "*ELEMENT, TYPE=" << type << '\n';
-    for (const auto& element : elements) {
+    for (size_t i = 0; i < count; ++i) {
       out_ << ++n;
-      for (const int v : element) out_ << ", " << v + 1;
+      for (const int v : nodes_of(i)) out_ << ", " << v + 1;
       out_ << '\n';
     }
+  }
+
+  /// Corners and middles of sides; the node inside has no place in elements of Abaqus.
+  std::vector<int> eight_nodes(size_t quad) const {
+    std::vector<int> nodes = nodes_of_quad(mesh_, quad, gmsh_places(2));
+    nodes.pop_back();
+    return nodes;
   }
 
   std::vector<std::string> labels_of(const Entity& entity, int dim) const {
@@ -159,6 +159,8 @@ class InpWriter {
     };
     collect(mesh_.triangles, mesh_.triangle_region);
     collect(mesh_.quads, mesh_.quad_region);
+    for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
+      for (const int v : eight_nodes(q)) nodes[mesh_.quad_region[q]].push_back(v + 1);
     for (size_t r = 0; r < mesh_.regions.size(); ++r) {
       if (elements[r].empty()) continue;
       for (const std::string& label : labels_of(mesh_.regions[r], 2)) {
@@ -172,7 +174,8 @@ class InpWriter {
   void collect_curves() {
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
     for (size_t i = 0; i < mesh_.lines.size(); ++i) {
-      const std::vector<int> nodes = {mesh_.lines[i][0] + 1, mesh_.lines[i][1] + 1};
+      std::vector<int> nodes = nodes_of_line(mesh_, i);
+      for (int& v : nodes) ++v;
       const auto at_line = sides_of_edge(sides, mesh_.lines[i][0], mesh_.lines[i][1]);
       for (const std::string& label : labels_of(mesh_.curves[mesh_.line_curve[i]], 1)) {
         add(node_sets_, label, nodes);

@@ -1,6 +1,9 @@
+#include "io/mesh_formats.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
@@ -10,11 +13,6 @@
 namespace delquad {
 
 namespace {
-
-[[noreturn]] void unknown(const std::filesystem::path& path, const char* known) {
-  throw InputError(path.string() + ": unknown kind of mesh file '" + path.extension().string() +
-                   "': expected " + known);
-}
 
 void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh) {
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
@@ -31,18 +29,14 @@ void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
   (planar ? draw_mesh : draw_surface)(path, mesh, path.stem().string());
 }
 
-constexpr const char* kMsh = ".msh";
-using Writer = void (*)(const std::filesystem::path&, const Mesh&);
-
-/// Of all formats without options.
-const std::map<std::string, Writer>& writers() {
-  static const std::map<std::string, Writer> all = {{".vtu", write_vtu_with_eta},
-                                                    {".obj", write_obj},
-                                                    {".inp", write_inp},
-                                                    {".mesh", write_medit},
-                                                    {".svg", write_picture}};
-  return all;
+/// Readers that note nothing.
+template <Mesh (*read)(const std::filesystem::path&)>
+Mesh read_plainly(const std::filesystem::path& path, ReadNotes*) {
+  return read(path);
 }
+Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes*) { return read_msh(path); }
+
+constexpr const char* kMsh = ".msh";
 
 /// kind_of_file() looks behind .gz, but nothing is written packed.
 std::string kind_to_write(const std::filesystem::path& path) {
@@ -50,35 +44,109 @@ std::string kind_to_write(const std::filesystem::path& path) {
   return kind_of_file("x" + path.extension().string()) == kind ? kind : ".gz";
 }
 
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
-  const std::string kind = kind_of_file(path);
-  if (kind == kMsh) return read_msh(path);
-  if (kind == ".obj") return read_obj(path, notes);
-  if (kind == ".off") return read_off(path, notes);
-  if (kind == ".stl") return read_stl(path);
-  if (kind == ".ply") return read_ply(path, notes);
-  if (kind == ".3mf") return read_3mf(path, notes);
-  if (kind == ".vtu") return read_vtu(path);
-  if (kind == ".inp") return read_inp(path);
-  if (kind == ".mesh") return read_medit(path);
-  unknown(path, ".msh, .obj, .off, .stl, .ply, .3mf, .vtu, .inp or .mesh");
+const MeshFormat* find_format(const std::string& kind) {
+  for (const MeshFormat& format : mesh_formats())
+    if (std::ranges::find(format.extensions, kind) != format.extensions.end()) return &format;
+  return nullptr;
 }
 
-void check_mesh_format(const std::filesystem::path& path, const MshOptions& options) {
+/// ".msh, .vtu or .obj": the first extension of all formats that can do it.
+template <class Can>
+std::string extensions_of(const Can& can) {
+  std::vector<std::string> all;
+  for (const MeshFormat& format : mesh_formats())
+    if (can(format)) all.push_back(format.extensions[0]);
+  if (all.size() < 2) return fmt::format("{}", fmt::join(all, ""));
+  const std::string last = all.back();
+  all.pop_back();
+  return fmt::format("{} or {}", fmt::join(all, ", "), last);
+}
+
+[[noreturn]] void unknown(const std::filesystem::path& path, const std::string& known) {
+  throw InputError(path.string() + ": unknown kind of mesh file '" + path.extension().string() +
+                   "': expected " + known);
+}
+
+#ifdef DELQUAD_HAS_EXODUS
+constexpr const char* kExodusPackage = "";
+#else
+constexpr const char* kExodusPackage = "libexodusii-dev";
+#endif
+#ifdef DELQUAD_HAS_CGNS
+constexpr const char* kCgnsPackage = "";
+#else
+constexpr const char* kCgnsPackage = "libcgns-dev";
+#endif
+#ifdef DELQUAD_HAS_MED
+constexpr const char* kMedPackage = "";
+#else
+constexpr const char* kMedPackage = "libmedc-dev";
+#endif
+#ifdef DELQUAD_HAS_HDF5
+constexpr const char* kHdf5Package = "";
+#else
+constexpr const char* kHdf5Package = "libhdf5-dev";
+#endif
+
+}  // namespace
+
+bool can_write(const MeshFormat& format) { return format.write != nullptr || format.extensions[0] == kMsh; }
+
+const std::vector<MeshFormat>& mesh_formats() {
+  static const std::vector<MeshFormat> all = {
+      {{kMsh}, "Gmsh 2.2 and 4.1, text or bytes", read_msh_alone, nullptr, kMostOrder},
+      {{".vtu"}, "VTK XML, ParaView", read_plainly<read_vtu>, write_vtu_with_eta, kMostOrder},
+      {{".obj"}, "Wavefront", read_obj, write_obj, 1},
+      {{".inp"}, "Abaqus, CalculiX", read_plainly<read_inp>, write_inp, 2},
+      {{".mesh"}, "Medit", read_plainly<read_medit>, write_medit, 1},
+      {{".vtk"}, "VTK legacy, text", nullptr, write_vtk, kMostOrder},
+      {{".e", ".exo", ".ex2"}, "Exodus II: MOOSE, Cubit", nullptr, write_exodus, 2, kExodusPackage},
+      {{".cgns"}, "CGNS", nullptr, write_cgns, 2, kCgnsPackage},
+      {{".med"}, "MED: Code_Aster, Salome", nullptr, write_med, 2, kMedPackage},
+      {{".xdmf"}, "XDMF with numbers in HDF5: dolfinx, ParaView", nullptr, write_xdmf, 2, kHdf5Package},
+      {{".ucd", ".avs"}, "AVS unstructured cell data: deal.II", nullptr, write_ucd, 1},
+      {{".mfem"}, "MFEM 1.0", nullptr, write_mfem, kMostOrder},
+      {{".su2"}, "SU2", nullptr, write_su2, 1},
+      {{".bdf", ".nas"}, "Nastran bulk data", nullptr, write_nastran, 2},
+      {{".k", ".key"}, "LS-DYNA keywords", nullptr, write_ls_dyna, 1},
+      {{".off"}, "Object File Format", read_off, nullptr, 1},
+      {{".stl"}, "stereolithography", read_plainly<read_stl>, nullptr, 1},
+      {{".ply"}, "Polygon File Format", read_ply, nullptr, 1},
+      {{".3mf"}, "3D Manufacturing Format", read_3mf, nullptr, 1},
+      {{".svg"}, "a picture", nullptr, write_picture, kMostOrder},
+  };
+  return all;
+}
+
+Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
+  const MeshFormat* format = find_format(kind_of_file(path));
+  if (format == nullptr || format->read == nullptr)
+    unknown(path, extensions_of([](const MeshFormat& f) { return f.read != nullptr; }));
+  return format->read(path, notes);
+}
+
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order) {
   const std::string kind = kind_to_write(path);
-  if (kind == kMsh) return;
-  if (!writers().count(kind)) unknown(path, ".msh, .vtu, .obj, .inp, .mesh or .svg");
-  if (options.binary)
+  const MeshFormat* format = find_format(kind);
+  if (format == nullptr || !can_write(*format)) unknown(path, extensions_of(can_write));
+  if (!format->package.empty())
+    throw InputError(
+        fmt::format("{}: this program was built without the library for '{}': install Debian's package {} "
+                    "and build it again",
+                    path.string(), kind, format->package));
+  if (order > format->most_order)
+    throw InputError(fmt::format(
+        "{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
+        extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; })));
+  if (kind != kMsh && options.binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  check_mesh_format(path, options);
+  check_mesh_format(path, options, mesh.order);
   const std::string kind = kind_to_write(path);
   if (kind == kMsh) return write_msh(path, mesh, options);
-  writers().at(kind)(path, mesh);
+  find_format(kind)->write(path, mesh);
 }
 
 }  // namespace delquad

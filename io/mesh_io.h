@@ -112,10 +112,34 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 /// them (letters, digits, underscores); comments have the table. Of plane elements a curve's surface has the
 /// sides, of shells the nodes, and the sides are ELSETs for edge loads ("_curve_5_E2").
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
+/// VTK's older format, as text. Cells have tags as in VTU; names are field arrays "region_NAME" of tags.
+void write_vtk(const std::filesystem::path& path, const Mesh& mesh);
+/// Unstructured cell data of AVS, as deal.II reads it, too: the material of a cell is the number of its name,
+/// which comments tell.
+void write_ucd(const std::filesystem::path& path, const Mesh& mesh);
+/// SU2's own format, of planar meshes: a marker for each name of the boundary.
+void write_su2(const std::filesystem::path& path, const Mesh& mesh);
+/// MFEM's own format (1.0): attributes are the numbers of names, which comments tell.
+void write_mfem(const std::filesystem::path& path, const Mesh& mesh);
+/// Nastran's bulk data: CQUAD4, CQUAD8 and CTRIA3, a property for each name of regions, SETs of the nodes of
+/// curves and points; comments tell the names.
+void write_nastran(const std::filesystem::path& path, const Mesh& mesh);
+/// LS-DYNA's keywords: shells, a part for each name of regions, node sets of curves and points, all with
+/// their titles.
+void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh);
+/// Exodus II: a block for each name of regions, node and side sets of curves, node sets of points.
+void write_exodus(const std::filesystem::path& path, const Mesh& mesh);
+/// CGNS: one zone, a section for each name of regions and curves, boundary conditions on curves and points.
+void write_cgns(const std::filesystem::path& path, const Mesh& mesh);
+/// MED 4: a family and a group for each name.
+void write_med(const std::filesystem::path& path, const Mesh& mesh);
+/// XDMF 3, the numbers in an HDF5 file of the same name beside it; grids "mesh" (quads), "triangles" and
+/// "lines" with the numbers of names, which are Information elements.
+void write_xdmf(const std::filesystem::path& path, const Mesh& mesh);
 /// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
 void write_medit(const std::filesystem::path& path, const Mesh& mesh);
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
-/// has no such option.
-void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {});
+/// has no such option, or no elements of that order.
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
 
 }  // namespace delquad

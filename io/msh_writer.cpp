@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {
@@ -90,6 +92,18 @@ std::vector<Block> make_blocks(const Mesh& mesh, const std::vector<Entity>& poin
   add(mesh.lines, mesh.line_curve, first_curve, &Block::lines, &chosen);
   add(mesh.triangles, mesh.triangle_region, first_region, &Block::triangles);
   add(mesh.quads, mesh.quad_region, first_region, &Block::quads);
+  const auto own = [&](const std::vector<int>& nodes, int b) {
+    for (const int v : nodes) {
+      blocks[b].cover(mesh.points[v]);
+      owner[v] = std::min(owner[v], b);
+    }
+  };
+  if (mesh.order > 1) {
+    for (size_t i = 0; i < mesh.lines.size(); ++i)
+      if (chosen[i]) own(nodes_of_line(mesh, i), first_curve + mesh.line_curve[i]);
+    for (size_t i = 0; i < mesh.quads.size(); ++i)
+      own(nodes_of_quad(mesh, i), first_region + mesh.quad_region[i]);
+  }
   for (size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] != kNone) blocks[owner[i]].nodes.push_back(static_cast<int>(i));
   }
@@ -257,23 +271,26 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   out.line("$Elements");
   out.size(n_blocks).size(count).size(1).size(count).end_line();
   size_t tag = 0;
-  const auto write = [&](const Block& block, const auto& elements, const std::vector<int>& list, int type) {
+  const auto write = [&](const Block& block, const std::vector<int>& list, int type, const auto& nodes_of) {
     if (list.empty()) return;
     out.integer(block.dim).integer(block.entity->tag).integer(type).size(list.size()).end_line();
     for (const int i : list) {
       out.size(++tag);
-      for (const int v : elements[i]) out.size(v + 1);
+      for (const int v : nodes_of(static_cast<size_t>(i))) out.size(v + 1);
       out.end_line();
     }
   };
+  constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
+  const size_t order = static_cast<size_t>(mesh.order) - 1;
+  const std::vector<int> places = gmsh_places(mesh.order);
   for (const Block& block : blocks) {
     if (!block.points.empty()) {
       out.integer(0).integer(block.entity->tag).integer(15).size(1).end_line();
       out.size(++tag).size(block.points[0] + 1).end_line();
     }
-    write(block, mesh.lines, block.lines, 1);
-    write(block, mesh.triangles, block.triangles, 2);
-    write(block, mesh.quads, block.quads, 3);
+    write(block, block.lines, kLines[order], [&](size_t i) { return nodes_ends_first(mesh, i); });
+    write(block, block.triangles, 2, [&](size_t i) { return mesh.triangles[i]; });
+    write(block, block.quads, kQuads[order], [&](size_t i) { return nodes_of_quad(mesh, i, places); });
   }
   out.end_section("$EndElements");
 }

@@ -4,6 +4,7 @@
 #include "io/irregular_vertices.h"
 #include "io/picture.h"
 #include "io/svg.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 
@@ -38,13 +39,13 @@ class ElementPaths {
 
   /// `colour_class` from 0 to kMeshColours - 1, -1: no colour.
   template <size_t N>
-  void add(const std::array<int, N>& v, int colour_class) {
+  void add(const std::array<int, N>& v, int colour_class, const std::vector<Vec3>& outline) {
     constexpr int kLeast = -8, kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
     const double size = pixel_size(mesh_, v, picture_.scale());
     const int step =
         size > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(size))), kLeast, kMost) : kLeast;
     std::vector<svg::Spot> corners;
-    for (const int i : v) corners.push_back(picture_.spot(mesh_.points[i]));
+    for (const Vec3& x : outline) corners.push_back(picture_.spot(x));
     paths_[{-step, colour_class}].polygon(corners);
   }
 
@@ -86,9 +87,11 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
   Picture picture(mesh.points, title);
   ElementPaths elements(mesh, picture);
   const std::vector<double> eta = quad_etas(mesh);
-  for (const auto& v : mesh.triangles) elements.add(v, -1);
+  for (const auto& v : mesh.triangles)
+    elements.add(v, -1, {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]});
   for (size_t q = 0; q < mesh.quads.size(); ++q) {
-    elements.add(mesh.quads[q], std::min(static_cast<int>(eta[q] * kMeshColours), kMeshColours - 1));
+    elements.add(mesh.quads[q], std::min(static_cast<int>(eta[q] * kMeshColours), kMeshColours - 1),
+                 outline_of_quad(mesh, q));
   }
   elements.draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostElementsWithEdges);
   constexpr double kOutlineWidth = 1.1;

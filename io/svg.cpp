@@ -9,6 +9,7 @@
 
 #include "io/mesh_io.h"
 #include "io/xml.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 
 namespace delquad::svg {
@@ -112,9 +113,17 @@ void Picture::add(const Path& path, std::string_view fill, std::string_view stro
 void Picture::add_outline(const Mesh& mesh, double stroke_width) {
   Path path;
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 1) path.segment(spot(mesh.points[edge[0].lo]), spot(mesh.points[edge[0].hi]));
+    if (edge.size() == 1 && mesh.order == 1)
+      path.segment(spot(mesh.points[edge[0].lo]), spot(mesh.points[edge[0].hi]));
   });
-  for (const auto& [a, b] : mesh.lines) path.segment(spot(mesh.points[a]), spot(mesh.points[b]));
+  constexpr int kPieces = 8;  // of a curved line
+  const int pieces = mesh.order == 1 ? 1 : kPieces;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    std::vector<Vec3> nodes;
+    for (const int v : nodes_of_line(mesh, l)) nodes.push_back(mesh.points[v]);
+    const auto at = [&](int k) { return spot(value_on_line(nodes, static_cast<double>(k) / pieces)); };
+    for (int k = 0; k < pieces; ++k) path.segment(at(k), at(k + 1));
+  }
   add(path, "none", "#000", stroke_width);
 }
 

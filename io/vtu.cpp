@@ -1,3 +1,4 @@
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <stdexcept>
@@ -5,6 +6,7 @@
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "io/xml.h"
+#include "mesh/element_nodes.h"
 
 namespace delquad {
 
@@ -62,16 +64,18 @@ struct Cells {
   std::vector<std::uint8_t> types;
   std::vector<std::int32_t> curves, regions;  ///< tags; 0: none
 
-  template <size_t N>
-  void add(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
-           const std::vector<Entity>& all, std::uint8_t type) {
-    for (size_t i = 0; i < elements.size(); ++i) {
-      connectivity.insert(connectivity.end(), elements[i].begin(), elements[i].end());
+  /// `nodes_of`: of an element by its index.
+  template <class NodesOf>
+  void add(const std::vector<int>& entity_of, const std::vector<Entity>& all, bool are_lines,
+           std::uint8_t type, const NodesOf& nodes_of) {
+    for (size_t i = 0; i < entity_of.size(); ++i) {
+      const auto& nodes = nodes_of(i);
+      connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
       types.push_back(type);
       const int tag = all[entity_of[i]].tag;
-      curves.push_back(N == 2 ? tag : 0);
-      regions.push_back(N == 2 ? 0 : tag);
+      curves.push_back(are_lines ? tag : 0);
+      regions.push_back(are_lines ? 0 : tag);
     }
   }
 };
@@ -136,11 +140,19 @@ void write_file(TextWriter& out, const Mesh& mesh, const Cells& cells,
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data) {
-  constexpr std::uint8_t kVtkLine = 3, kVtkTriangle = 5, kVtkQuad = 9;  // VTK cell types
+  // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
+  constexpr std::array<std::uint8_t, 4> kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
+  constexpr std::uint8_t kTriangle = 5;
+  const size_t order = static_cast<size_t>(mesh.order) - 1;
   Cells cells;
-  cells.add(mesh.lines, mesh.line_curve, mesh.curves, kVtkLine);
-  cells.add(mesh.triangles, mesh.triangle_region, mesh.regions, kVtkTriangle);
-  cells.add(mesh.quads, mesh.quad_region, mesh.regions, kVtkQuad);
+  cells.add(mesh.line_curve, mesh.curves, true, kLines[order],
+            [&](size_t i) { return nodes_ends_first(mesh, i); });
+  cells.add(
+      mesh.triangle_region, mesh.regions, false,
+      kTriangle, [&](size_t i) -> const auto& { return mesh.triangles[i]; });
+  const std::vector<int> places = mesh.order == 2 ? gmsh_places(2) : vtk_places(mesh.order);
+  cells.add(mesh.quad_region, mesh.regions, false, kQuads[order],
+            [&](size_t i) { return nodes_of_quad(mesh, i, places); });
   for (const auto& [name, values] : cell_data) {
     if (values.size() != cells.types.size()) {
       throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +

@@ -107,6 +107,8 @@ void check_all_used(const Mesh& mesh, Report& wrong) {
     for (const int i : v) used[i] = 1;
   });
   for (const auto& v : mesh.lines) used[v[0]] = used[v[1]] = 1;
+  for (const auto* nodes : {&mesh.line_nodes, &mesh.quad_nodes})
+    for (const int i : *nodes) used[i] = 1;
   for (size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) wrong.push_back(fmt::format("vertex {}: nothing uses it", i));
   }

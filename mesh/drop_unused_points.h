@@ -16,6 +16,8 @@ inline int drop_unused_points(Mesh& mesh) {
     for (auto& e : mesh.lines) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.triangles) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.quads) std::for_each(e.begin(), e.end(), visit);
+    for (auto* nodes : {&mesh.line_nodes, &mesh.quad_nodes})
+      std::for_each(nodes->begin(), nodes->end(), visit);
   };
   each_vertex([&](int v) { index[v] = 0; });
   int kept = 0;

@@ -150,6 +150,9 @@ void check_problem(const MeshProblem& problem) {
   if (problem.max_elements < 1)
     throw InputError(
         fmt::format("{}: at most {} elements: expected 1 or above", problem.where, problem.max_elements));
+  if (problem.order < 1 || problem.order > kMostOrder)
+    throw InputError(
+        fmt::format("{}: elements of order {}: expected 1 to {}", problem.where, problem.order, kMostOrder));
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
   for (const LayerSpec& layer : problem.layers) layer_heights(layer);
   const bool is_planar =

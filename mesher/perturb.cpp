@@ -113,6 +113,8 @@ void rotate(const Rotation& rotation, PlanarDomain& domain) {
     }
   for (PatchBoundary& patch : domain.patches)
     for (Vec2& p : patch.points) p = rotation(p);
+  for (auto& shapes : domain.curve_shapes)
+    for (auto& shape : shapes) shape = std::make_shared<RotatedCurve>(std::move(shape), rotation);
   for (CurvePlace& place : domain.places)
     if (place.curve) place.curve = std::make_shared<RotatedCurve>(std::move(place.curve), rotation);
 }

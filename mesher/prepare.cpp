@@ -470,6 +470,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   if (problem.seed != 0) turn(problem, domain, given, p);
   p.boundary = std::move(domain.boundary);
   p.curve_places = std::move(domain.places);
+  p.curve_shapes = std::move(domain.curve_shapes);
   p.times.emplace_back("curves", watch.time());
   prepare_patches(problem, cross, std::move(domain), std::move(given), p);
   return p;
@@ -484,11 +485,25 @@ PreparedProblem with_settings_of(const MeshProblem& problem) {
   p.options = problem.options;
   p.max_elements = problem.max_elements;
   p.keep_going = problem.keep_going;
+  p.order = problem.order;
   return p;
 }
 
-PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
-  check_problem(problem);
+namespace {
+
+/// Refuses what images of meshes have no nodes for.
+void check_order(const PreparedProblem& p) {
+  if (p.order == 1 || !p.surface) return;
+  const char* other = p.given_entities                     ? "a mesh that is given"
+                      : p.surface->mirrored                ? "planes of symmetry of a surface"
+                      : !p.boundary.periodic_faces.empty() ? "periodic faces"
+                                                           : nullptr;
+  if (other != nullptr)
+    throw InputError(
+        fmt::format("{}: elements of order {} do not go with {}: expected order 1", p.where, p.order, other));
+}
+
+PreparedProblem prepare_unchecked(const MeshProblem& problem, const Refinement& refinement) {
   if (const auto* given = std::get_if<GivenMesh>(&problem.model);
       given != nullptr && is_in_space(given->mesh))
     return prepare_given_in_space(problem, *given);
@@ -496,6 +511,15 @@ PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement
                          std::holds_alternative<LineModel>(problem.model) ||
                          std::holds_alternative<GivenMesh>(problem.model);
   return is_planar ? prepare_planar(problem, refinement) : prepare_surface_problem(problem, refinement);
+}
+
+}  // namespace
+
+PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
+  check_problem(problem);
+  PreparedProblem prepared = prepare_unchecked(problem, refinement);
+  check_order(prepared);
+  return prepared;
 }
 
 }  // namespace delquad

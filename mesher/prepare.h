@@ -73,6 +73,9 @@ struct PreparedProblem {
   long long max_elements = 0;
   bool keep_going = false;
   Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
+  int order = 1;  ///< of the elements, see Mesh::order
+  /// Of each curve of a planar domain those of the model that lie there; empty where the lines are kept.
+  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
   std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
   std::vector<PreparedPatch> patches;
   std::vector<PatchBoundary> outlines;  ///< of the patches with their layers; empty: there are no layers

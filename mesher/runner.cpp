@@ -22,6 +22,7 @@
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
 #include "mesher/across_cuts.h"
+#include "mesher/curved_mesh.h"
 #include "mesher/face_images.h"
 #include "mesher/given_domain.h"
 #include "mesher/lift_bad_quads.h"
@@ -534,6 +535,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   if (is_cut_mesh(prepared) && !state.of_quads.empty() && result.failures.empty())
     try_across_cuts(prepared, state.of_quads, left_out, result);
   if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
+  curve_mesh(prepared, state.nodes, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
   if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);

@@ -93,10 +93,21 @@ class CurveMesher {
     domain.mapped = mapped_patches(mapped_, pieces_, domain.patches, domain.boundary.points);
     if (domain.has_junctions) drop_stray_lines(domain);
     if (n_axes_ > 0) drop_axes(domain);
+    for (const auto& curves : domain.model_curves) domain.curve_shapes.push_back(shapes_of(curves));
     return domain;
   }
 
  private:
+  /// Of curves of the model; where there are none, of all cracks.
+  std::vector<std::shared_ptr<const Curve>> shapes_of(const std::vector<int>& curves) const {
+    std::vector<std::shared_ptr<const Curve>> shapes;
+    for (const int c : curves) shapes.push_back(model_.curves[c].shape);
+    if (curves.empty())
+      for (const ModelCurve& curve : model_.curves)
+        if (curve.is_crack) shapes.push_back(curve.shape);
+    return shapes;
+  }
+
   /// An axis of symmetry is no curve of the model; where one lies on it, that counts.
   bool is_axis(int model_curve) const {
     return model_curve >= static_cast<int>(model_.curves.size()) - n_axes_;

@@ -79,6 +79,8 @@ struct PlanarDomain {
   /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second
   /// lips of cracks.
   std::vector<std::vector<int>> model_curves;
+  /// Their shapes; of a second lip those of all cracks.
+  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes = {};
   std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
   /// Where there are layers: the patches with these. `patches` are what is left to be meshed.
   std::vector<PatchBoundary> outlines = {};

@@ -87,6 +87,9 @@ struct PeriodicFaces {
       nodes;  ///< each beside that of which it is the image; those on curves first
 };
 
+/// The highest polynomial degree of elements.
+inline constexpr int kMostOrder = 4;
+
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
 /// Indices count from 0.
 struct Mesh {
@@ -97,6 +100,13 @@ struct Mesh {
   std::vector<int> triangle_region;  ///< index into `regions` of each triangle
   std::vector<std::array<int, 4>> quads;
   std::vector<int> quad_region;
+  /// Polynomial degree of the elements, 1 to 4. Above 1 they are curved: `lines` and `quads` are their
+  /// corners, and these are their further nodes, one element after the other. Of a line order - 1, from its
+  /// first end to its second; of a quad order - 1 for each side, as the quad runs round, then (order - 1)^2
+  /// inside, in rows along the first side. They lie at equal distances of the element's parameters. Such
+  /// meshes have no triangles.
+  int order = 1;
+  std::vector<int> line_nodes = {}, quad_nodes = {};
   std::vector<Entity> curves;
   std::vector<Entity> regions;
   std::vector<NamedPoint> named_points;
@@ -112,6 +122,13 @@ double diagonal(const Mesh& mesh);
 /// in an element, each edge in at most two elements which run along it in opposite directions, no element
 /// used twice, every line an edge of some element (when there are elements), no vertex that nothing uses.
 std::vector<std::string> check_invariants(const Mesh& mesh);
+
+/// The greatest difference of the numbers of two nodes of one element; 0 without elements.
+int bandwidth(const Mesh& mesh);
+/// Numbers the nodes anew by the reversed order of Cuthill and McKee [1969], so that matrices have their
+/// entries near the diagonal. All else keeps its order. Nothing changes where the bandwidth would not become
+/// less.
+void reduce_bandwidth(Mesh& mesh);
 
 /// What a reader did to the file's content that its user should know, one sentence each.
 using ReadNotes = std::vector<std::string>;

@@ -45,6 +45,7 @@ struct MeshProblem {
   MappedSpec mapped = {};      ///< of planar models of curves, and of surfaces
   long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   Options options = {};        ///< of the stages
+  int order = 1;               ///< of the elements, 1 to 4: above 1 they are curved, see Mesh::order
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;     ///< leave faces out that cannot be meshed, instead of refusing the model
   bool allow_unsound = false;  ///< return meshes that are not sound, instead of throwing UnsoundError

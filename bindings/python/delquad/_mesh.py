@@ -164,6 +164,7 @@ def mesh(
     options=None,
     name=None,
     seed=None,
+    order=1,
     max_elements=_MAX_ELEMENTS,
     keep_going=False,
     allow_unsound=False,
@@ -246,6 +247,7 @@ def mesh(
         problem.name(name)
     if seed is not None:
         problem.seed(seed)
+    problem.order(order)
     problem.max_elements(max_elements)
     problem.keep_going(keep_going)
     if progress:

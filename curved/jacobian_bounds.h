@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// What is certain of the scaled Jacobian of a curved quad: (x_u x x_v) . n / (|x_u| |x_v|), where n is the
+/// mean normal of the element (of a planar one: up or down, as it runs). It is in [-1, 1], and 1 where the
+/// element's lines cross at right angles, square to n. Positive everywhere: the element does not fold, seen
+/// along n.
+struct JacobianBounds {
+  double proven = -1;  ///< it is nowhere less
+  double found = 1;    ///< it is so little at some place; at least `proven`
+  bool positive() const { return proven > 0; }
+};
+
+/// Bounds by Bernstein coefficients of numerator and squared denominators, halved until they are close to
+/// each other [Johnen, Remacle, Geuzaine 2013, section 3; they bound the Jacobian alone]. `nodes` as
+/// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive.
+JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order);
+
+/// Integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.
+Vec3 mean_normal(std::span<const Vec3> nodes, int order);
+
+}  // namespace delquad

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// A kind of mesh file.
+struct MeshFormat {
+  std::vector<std::string> extensions;  ///< in small letters, with the dot; the usual one first
+  std::string description;
+  Mesh (*read)(const std::filesystem::path&, ReadNotes*);  ///< null: it is not read
+  void (*write)(const std::filesystem::path&,
+                const Mesh&);  ///< null: it is not written, but for MSH, which has options
+  int most_order;              ///< of elements that are written
+  std::string package =
+      {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
+};
+
+bool can_write(const MeshFormat& format);
+
+/// In the order of the documentation.
+const std::vector<MeshFormat>& mesh_formats();
+
+}  // namespace delquad

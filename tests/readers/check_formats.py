@@ -1,0 +1,369 @@
+#!/usr/bin/python3
+"""Writes meshes in the formats of solvers, reads them by their libraries and compares nodes, elements and names with the MSH file of the same mesh.
+
+check_formats.py PROGRAM
+
+Models: planar with two materials and a sensor, at orders 1 and 2, and a closed surface. Exit code 1 when one differs, 77 when meshio is not installed.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+try:
+    import meshio
+    import numpy
+except ImportError:
+    print("meshio is not installed (python3-meshio)")
+    sys.exit(77)
+
+PLATE = """loop = [
+  { rectangle = [[0, 0], [2, 1]], boundary = ["bottom side", "right", "top", "left"], region = "steel" },
+  { circle = { centre = [0.8, 0.5], radius = 0.2 }, boundary = "interface", region = "a name of a region that is longer than thirty-two letters" },
+]
+embed = [{ point = [1.5, 0.5], name = "sensor" }]
+size = 0.2
+"""
+TETRAHEDRON = "OFF\n4 4 6\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+
+class Absent(Exception):
+    """The library that would read a format is not installed."""
+
+
+class Found:
+    """Points, elements of four to nine nodes, lines of two or three, and items by name: what a file holds."""
+
+    def __init__(self, points):
+        points = numpy.asarray(points, float)
+        self.points = points if points.shape[1] == 3 else numpy.c_[points, numpy.zeros(len(points))]
+        self.elements, self.lines, self.points_of = {}, {}, {}
+
+    def add(self, kind, name, nodes):
+        kind.setdefault(name, []).extend(tuple(int(v) for v in row) for row in nodes)
+
+
+def read_msh(path):
+    mesh = meshio.read(path)
+    found = Found(mesh.points)
+    name_of = {(dim, tag): name for name, (tag, dim) in mesh.field_data.items()}
+    for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+        dim = {"vertex": 0, "line": 1, "line3": 1}.get(block.type, 2)
+        for row, tag in zip(block.data, tags):
+            found.add((found.points_of, found.lines, found.elements)[dim], name_of[(dim, tag)], [row])
+    return found
+
+
+def read_exodus(path):
+    try:
+        import netCDF4
+    except ImportError as error:
+        raise Absent("python3-netcdf4") from error
+    data = netCDF4.Dataset(path)
+
+    def names(variable, n):
+        return [bytes(row.compressed()).decode().strip("\0") for row in data.variables[variable][:]] if n else []
+
+    found = Found(numpy.array([data.variables["coord" + axis][:] for axis in "xyz" if "coord" + axis in data.variables]).T)
+    numbers = []
+    for k, name in enumerate(names("eb_names", True)):
+        connect = data.variables[f"connect{k + 1}"]
+        assert connect.elem_type.startswith("QUAD"), connect.elem_type
+        numbers += [row - 1 for row in connect[:]]
+        found.add(found.elements, name, connect[:] - 1)
+    for k, name in enumerate(names("ns_names", "ns_names" in data.variables)):
+        found.points_of[name] = sorted((int(v),) for v in data.variables[f"node_ns{k + 1}"][:] - 1)
+    for k, name in enumerate(names("ss_names", "ss_names" in data.variables)):
+        for element, side in zip(data.variables[f"elem_ss{k + 1}"][:] - 1, data.variables[f"side_ss{k + 1}"][:] - 1):
+            row = numbers[element]
+            ends = [row[side], row[(side + 1) % 4]] + ([row[4 + side]] if len(row) > 4 else [])
+            found.add(found.lines, name, [ends])
+    return found
+
+
+def read_cgns(path):
+    try:
+        import h5py
+    except ImportError as error:
+        raise Absent("python3-h5py") from error
+    data = h5py.File(path)["Base"]["Zone1"]
+    found = Found(numpy.array([data["GridCoordinates"]["Coordinate" + axis][" data"][:] for axis in "XYZ"
+                               if "Coordinate" + axis in data["GridCoordinates"]]).T)
+    kinds = {3: ("lines", 2), 4: ("lines", 3), 7: ("elements", 4), 9: ("elements", 9)}
+    for name, section in data.items():
+        if section.attrs["label"].decode() != "Elements_t":
+            continue
+        kind, n = kinds[int(section[" data"][0])]
+        found.add(getattr(found, kind), name, section["ElementConnectivity"][" data"][:].reshape(-1, n) - 1)
+    for name, condition in data["ZoneBC"].items() if "ZoneBC" in data else []:
+        if "PointList" in condition:
+            found.points_of[name] = [(int(v) - 1,) for v in condition["PointList"][" data"][:].ravel()]
+    return found
+
+
+def read_med(path):
+    try:
+        import h5py
+    except ImportError as error:
+        raise Absent("python3-h5py") from error
+    file = h5py.File(path)
+    step = next(iter(file["ENS_MAA"]["mesh"].values()))
+    n = int(step["NOE"]["COO"].attrs["NBR"])
+    found = Found(step["NOE"]["COO"][:].reshape(-1, n).T if False else step["NOE"]["COO"][:].reshape(n, -1, order="C"))
+    names = {}
+    for families in file["FAS"]["mesh"].values():
+        for family in families.values() if "NUM" not in families.attrs else []:
+            text = bytes(numpy.asarray(family["GRO"]["NOM"][0], numpy.int8).view(numpy.uint8)).split(b"\0")[0].decode().strip()
+            names[int(family.attrs["NUM"])] = text
+    for v, family in enumerate(step["NOE"]["FAM"][:]):
+        if family:
+            found.add(found.points_of, names[int(family)], [(v,)])
+    for kind, cells in step["MAI"].items():
+        count = int(cells["NOD"].attrs["NBR"])
+        rows = cells["NOD"][:].reshape(-1, count).T - 1
+        for row, family in zip(rows, cells["FAM"][:]):
+            found.add(found.lines if kind.startswith("SE") else found.elements, names[int(family)], [row])
+    return found
+
+
+def read_xdmf(path):
+    try:
+        import h5py
+    except ImportError as error:
+        raise Absent("python3-h5py") from error
+    tree = xml.etree.ElementTree.parse(path)
+    names = {info.get("Name"): info.get("Value") for info in tree.iter("Information")}
+
+    def item(node):
+        file, name = node.find("DataItem").text.split(":")
+        return h5py.File(os.path.join(os.path.dirname(path), file))[name][:]
+
+    found = None
+    for grid in tree.iter("Grid"):
+        found = found or Found(item(grid.find("Geometry")))
+        attribute = grid.find("Attribute")
+        kind = found.lines if attribute.get("Name") == "curve" else found.elements
+        for row, number in zip(item(grid.find("Topology")), item(attribute)):
+            found.add(kind, names[f"{attribute.get('Name')} {number}"], [row])
+    return found
+
+
+def read_vtk(path):
+    try:
+        import vtk
+    except ImportError as error:
+        raise Absent("python3-vtk9") from error
+    reader = vtk.vtkUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.ReadAllFieldsOn()
+    reader.Update()
+    grid = reader.GetOutput()
+    found = Found([grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())])
+    fields, names = grid.GetFieldData(), {}
+    for k in range(fields.GetNumberOfArrays()):
+        kind, name = fields.GetArrayName(k).split("_", 1)
+        names[(kind, int(fields.GetArray(k).GetTuple1(0)))] = name
+    for i in range(grid.GetNumberOfCells()):
+        cell = grid.GetCell(i)
+        kind = "curve" if cell.GetCellDimension() == 1 else "region"
+        tag = int(grid.GetCellData().GetArray(kind).GetTuple1(i))
+        row = [cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())]
+        found.add(found.lines if kind == "curve" else found.elements, names.get((kind, tag), f"{kind}_{tag}"), [row])
+    return found
+
+
+def named_comments(path, pattern):
+    with open(path, encoding="utf-8") as text:
+        return {key: name for key, name in re.findall(pattern, text.read(), re.MULTILINE)}
+
+
+def read_ucd(path):
+    mesh = meshio.read(path, file_format="avsucd")
+    found = Found(mesh.points)
+    elements, lines = named_comments(path, r"^# material (\d+): (.*)$"), named_comments(path, r"^# material (\d+) of lines: (.*)$")
+    for block, materials in zip(mesh.cells, mesh.cell_data["avsucd:material"]):
+        for row, material in zip(block.data, materials):
+            if block.type == "line":
+                found.add(found.lines, lines[str(material)], [row])
+            else:
+                found.add(found.elements, elements[str(material)], [row])
+    return found
+
+
+def read_su2(path):
+    mesh = meshio.read(path)
+    found = Found(mesh.points)
+    with open(path, encoding="utf-8") as text:
+        tags = re.findall(r"MARKER_TAG= (.*)\nMARKER_ELEMS= (\d+)\n((?:3 .*\n)*)", text.read())
+    for tag, n, rows in tags:
+        assert int(n) == rows.count("\n")
+        found.add(found.lines, tag, [row.split()[1:] for row in rows.splitlines()])
+    for block in mesh.cells:
+        if block.type == "quad":
+            found.add(found.elements, "", block.data)
+    return found
+
+
+def read_bdf(path):
+    mesh = meshio.read(path, file_format="nastran")
+    found = Found(mesh.points)
+    names = named_comments(path, r"^\$ property (\d+): (.*)$")
+    for block, properties in zip(mesh.cells, mesh.cell_data["nastran:ref"]):
+        for row, number in zip(block.data, properties):
+            found.add(found.elements, names[str(int(number))], [row])
+    return found
+
+
+def read_mfem(path):
+    """By MFEM's description of its format: attribute, kind, corners; places of corners or, of all elements, of their nodes."""
+    with open(path, encoding="utf-8") as text:
+        content = text.read()
+    regions, curves = named_comments(path, r"^# attribute (\d+): (.*)$"), named_comments(path, r"^# boundary attribute (\d+): (.*)$")
+    words = iter(re.sub(r"#.*", "", content).split("\n\n", 1)[1].split())
+    sections = {"elements": [], "boundary": []}
+    corners, points = 0, None
+    for word in words:
+        if word in sections:
+            for _ in range(int(next(words))):
+                attribute, kind = int(next(words)), int(next(words))
+                sections[word].append((attribute, [int(next(words)) for _ in range({1: 2, 3: 4}[kind])]))
+        elif word == "vertices":
+            corners = int(next(words))
+            if "\nnodes\n" not in content:
+                dim = int(next(words))
+                points = [[float(next(words)) for _ in range(dim)] for _ in range(corners)]
+        elif word == "Ordering:":
+            next(words)
+            values = [float(word) for word in words]
+            dim = int(re.search(r"VDim: (\d)", content)[1])
+            rows = numpy.array(values).reshape(len(sections["elements"]), -1, dim)
+            order = int(round(rows.shape[1] ** .5)) - 1
+            # Nodes that elements share have the same place.
+            places, index = numpy.unique(rows.reshape(-1, dim), axis=0, return_inverse=True)
+            index = index.reshape(len(rows), -1)
+            corner = [0, order, -1, -1 - order]
+            place_of = {v: index[e][corner[k]] for e, (_, row) in enumerate(sections["elements"]) for k, v in enumerate(row)}
+            found = Found(places)
+            square = [0, 2, 8, 6, 1, 5, 7, 3, 4]
+            for e, (attribute, _) in enumerate(sections["elements"]):
+                found.add(found.elements, regions[str(attribute)], [index[e][square]])
+            for attribute, row in sections["boundary"]:
+                found.add(found.lines, curves[str(attribute)], [[place_of[v] for v in row]])
+            return found
+    found = Found(points)
+    for attribute, row in sections["elements"]:
+        found.add(found.elements, regions[str(attribute)], [row])
+    for attribute, row in sections["boundary"]:
+        found.add(found.lines, curves[str(attribute)], [row])
+    return found
+
+
+def read_k(path):
+    with open(path, encoding="utf-8") as text:
+        parts = [part.splitlines() for part in text.read().split("*")]
+    cards = {}
+    for part in parts:
+        if part:
+            cards.setdefault(part[0], []).append([line for line in part[1:] if not line.startswith("$")])
+    nodes = cards["NODE"][0]
+    found = Found([[float(line[8 + 16 * k:24 + 16 * k]) for k in range(3)] for line in nodes])
+    names = {int(lines[1]): lines[0] for lines in cards["PART"]}
+    for line in cards["ELEMENT_SHELL"][0]:
+        _, part, *row = [int(line[8 * k:8 * k + 8]) for k in range(6)]
+        found.add(found.elements, names[part], [[v - 1 for v in row]])
+    for lines in cards.get("SET_NODE_LIST_TITLE", []):
+        found.points_of[lines[0]] = sorted((int(line[10 * k:10 * k + 10]) - 1,) for line in lines[2:] for k in range(len(line) // 10))
+    return found
+
+
+def places(found, rows, digits):
+    """Sorted places of the nodes of each element, rounded: the same whatever the numbering."""
+    return sorted(tuple(sorted(tuple(numpy.round(found.points[v], digits) + 0.0) for v in row)) for row in rows)
+
+
+def differences(found, wanted, planar_boundary_only, digits, label):
+    result = []
+    for kind in ("elements", "lines"):
+        have, want = getattr(found, kind), getattr(wanted, kind)
+        if kind == "lines" and not have:
+            continue  # the format has node sets in their place
+        for name, rows in want.items():
+            if kind == "lines" and planar_boundary_only and name == "interface":
+                continue
+            text = label(name)
+            mine = have.get(text, have.get("")) if kind == "elements" else have.get(text)
+            if "" in have and kind == "elements":
+                rows = [row for all_rows in want.values() for row in all_rows]
+            if mine is None:
+                result.append(f"no {kind} '{text}' in {sorted(have)}")
+                continue
+            n = min(len(mine[0]), len(rows[0]))
+            twice = kind == "lines" and len(mine) == 2 * len(rows)  # a side of both elements
+            a = places(found, [row[:n] for row in mine], digits)
+            b = places(wanted, [row[:n] for row in rows], digits)
+            if twice:
+                a = a[::2]
+            if a != b:
+                result.append(f"{kind} '{text}' are others: {len(mine)} for {len(rows)}")
+    for name, rows in wanted.points_of.items():
+        if found.points_of and places(found, rows[:0], digits) != places(found, found.points_of.get(label(name), [None])[:0], digits):
+            result.append(f"point '{name}'")
+        if found.points_of and places(found, found.points_of[label(name)], digits) != places(wanted, rows, digits):
+            result.append(f"point '{name}' is elsewhere")
+    return result
+
+
+def plain(name):
+    return re.sub(r"[^A-Za-z0-9_]", "_", name)
+
+
+def cut(name):
+    return name[:22]
+
+
+# Reader, whether it has order 2, digits of coordinates, how names are changed, whether it has lines of the boundary alone.
+FORMATS = {"e": (read_exodus, True, 12, str, False), "cgns": (read_cgns, True, 12, cut, False), "med": (read_med, True, 12, str, False),
+           "xdmf": (read_xdmf, True, 12, str, False), "vtk": (read_vtk, True, 12, lambda name: name.replace(" ", "_"), False),
+           "ucd": (read_ucd, False, 12, str, False), "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
+           "mfem": (read_mfem, True, 12, str, True), "k": (read_k, False, 6, str, False)}
+
+
+def check(program, folder, model, arguments, order, kind):
+    reader, has_curved, digits, label, boundary_only = FORMATS[kind]
+    if order > 1 and not has_curved or kind == "su2" and model.endswith(".off"):
+        return None
+    path = os.path.join(folder, f"{os.path.splitext(os.path.basename(model))[0]}_{order}.{kind}")
+    msh = os.path.join(folder, "reference.msh")
+    for out in (msh, path):
+        made = subprocess.run([program, "mesh", model, "-o", out, "--order", str(order), *arguments], capture_output=True, text=True, check=False)
+        if "built without the library" in made.stderr:
+            return f"skipped: {made.stderr.strip()}"
+        if made.returncode:
+            return "not made: " + made.stderr
+    try:
+        return "; ".join(differences(reader(path), read_msh(msh), boundary_only, digits, label))
+    except Absent as package:
+        return f"skipped: {package} is not installed"
+
+
+def main():
+    program, failed = sys.argv[1], 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text, arguments in (("plate.toml", PLATE, []), ("closed.off", TETRAHEDRON, ["--size", ".5"])):
+            model = os.path.join(folder, name)
+            with open(model, "w", encoding="utf-8") as file:
+                file.write(text)
+            for order in (1, 2):
+                for kind in FORMATS:
+                    wrong = check(program, folder, model, arguments, order, kind)
+                    if wrong is None:
+                        continue
+                    print(f"{name}, order {order}, {kind}: {wrong or 'as it was written'}")
+                    failed += bool(wrong) and not wrong.startswith("skipped")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
