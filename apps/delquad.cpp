@@ -408,6 +408,13 @@ void be_quiet(const CLI::App& app, bool only_prints) {
     throw InputError("-q: /dev/null cannot be opened: " + std::generic_category().message(errno));
 }
 
+/// The exit code, where it is one of these commands, which tell what there is.
+std::optional<int> run_on_nothing(const CLI::App& app, bool only_options) {
+  if (app.got_subcommand("schema")) return schema_command(only_options);
+  if (app.got_subcommand("formats")) return formats_command();
+  return std::nullopt;
+}
+
 /// The exit code, where it is one of these commands.
 std::optional<int> run_on_records(const CLI::App& app, const RecordsArguments& arguments) {
   if (app.got_subcommand("tables")) return tables_command(arguments.tables);
@@ -469,8 +476,7 @@ int run_command_line(int argc, char** argv) {
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("suite")) return run_suite(app, suite);
   if (app.got_subcommand("report")) return report_command(report);
-  if (app.got_subcommand("schema")) return schema_command(only_options);
-  if (app.got_subcommand("formats")) return formats_command();
+  if (const auto code = run_on_nothing(app, only_options)) return *code;
   if (const auto code = run_on_records(app, records)) return *code;
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("improve")) return mesh_command(improve);
