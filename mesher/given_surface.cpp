@@ -43,17 +43,20 @@ double least_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& up) 
 
 using Halves = std::array<std::array<int, 3>, 2>;  ///< corners of a quad
 
-/// By the diagonal that leaves the better worst angle; turned over where neither leaves a good one.
-std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p) {
-  constexpr Halves kOne{{{0, 1, 2}, {0, 2, 3}}}, kOther{{{0, 1, 3}, {1, 2, 3}}};
+/// By the diagonal that leaves the better worst angle, if both are free; turned over where neither leaves a
+/// good one.
+std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p, bool first_is_free,
+                                          bool second_is_free) {
+  constexpr Halves kFirst{{{0, 1, 2}, {0, 2, 3}}}, kSecond{{{0, 1, 3}, {1, 2, 3}}};
   const Vec3 up = cross(p[2] - p[0], p[3] - p[1]);
   const auto worst = [&](const Halves& halves) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [a, b, c] : halves) least = std::min(least, least_angle(p[a], p[b], p[c], up));
     return least;
   };
-  const double one = worst(kOne), other = worst(kOther);
-  return one >= other ? std::pair{kOne, one} : std::pair{kOther, other};
+  const double first = worst(kFirst), second = worst(kSecond);
+  const bool takes_first = first_is_free == second_is_free ? first >= second : first_is_free;
+  return takes_first ? std::pair{kFirst, first} : std::pair{kSecond, second};
 }
 
 /// Refuses what no word can begin from, element by element.
@@ -132,6 +135,83 @@ void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> 
     warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
 }
 
+/// The elements as triangles, and what these are of them.
+class Triangulation {
+ public:
+  Triangulation(const GivenMesh& given, const Mesh& elements) : source_(given.source), mesh_(elements) {
+    mesh_.triangles.clear();
+    mesh_.triangle_region.clear();
+    mesh_.quads.clear();
+    mesh_.quad_region.clear();
+    for (std::size_t t = 0; t < elements.triangles.size(); ++t) {
+      const auto& v = elements.triangles[t];
+      const Vec3 &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
+      if (!(least_angle(a, b, c, cross(b - a, c - a)) > kFlatAngle)) refuse_element(given, a, "has no area");
+      add({0, 1, 2}, v, elements.triangle_region[t]);
+      n_corners_.push_back(3);
+    }
+    const std::vector<HalfEdge> sides = sorted_half_edges(elements);
+    std::set<std::pair<int, int>> diagonals;
+    for (std::size_t q = 0; q < elements.quads.size(); ++q) {
+      const auto& v = elements.quads[q];
+      const std::array<Vec3, 4> p{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]],
+                                  mesh_.points[v[3]]};
+      const auto is_free = [&](int k) {
+        return sides_of_edge(sides, v[k], v[k + 2]).empty() &&
+               !diagonals.contains(std::minmax({v[k], v[k + 2]}));
+      };
+      const auto [halves, angle] = halves_in_space(p, is_free(0), is_free(1));
+      if (!(std::abs(angle) > kFlatAngle)) refuse_element(given, p[0], "has no area");
+      diagonals.insert(std::minmax({v[halves[1][0]], v[halves[0][2]]}));
+      for (const auto& half : halves) add(half, v, elements.quad_region[q]);
+      n_corners_.push_back(4);
+    }
+  }
+
+  /// Neighbours agree afterwards; elements may run either way round.
+  void turn() {
+    const std::vector<std::array<int, 3>> before = mesh_.triangles;
+    std::vector<Warning> turned;
+    orient_triangles(mesh_, source_, turned);
+    for (std::size_t t = 0; t < before.size(); ++t)
+      if (mesh_.triangles[t][1] != before[t][1]) {
+        is_turned_[t] = 1;
+        std::swap(corner_of_[t][1], corner_of_[t][2]);
+      }
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  const std::vector<int>& element() const { return element_; }
+  /// See GivenSurface. `fine` has the same triangles, perhaps on other points.
+  std::vector<std::array<int, 4>> corners_in(const Mesh& fine) const {
+    std::vector<std::array<int, 4>> corners(n_corners_.size(), {-1, -1, -1, -1});
+    for (std::size_t t = 0; t < element_.size(); ++t)
+      for (int k = 0; k < 3; ++k) corners[element_[t]][corner_of_[t][k]] = fine.triangles[t][k];
+    for (std::size_t t = 0; t < element_.size(); ++t) {
+      if (!is_turned_[t] || (t > 0 && element_[t] == element_[t - 1])) continue;
+      auto& v = corners[element_[t]];
+      std::reverse(v.begin(), v.begin() + n_corners_[element_[t]]);
+    }
+    return corners;
+  }
+
+ private:
+  void add(const std::array<int, 3>& corners, const auto& v, int region) {
+    mesh_.triangles.push_back({v[corners[0]], v[corners[1]], v[corners[2]]});
+    mesh_.triangle_region.push_back(region);
+    element_.push_back(static_cast<int>(n_corners_.size()));
+    corner_of_.push_back(corners);
+    is_turned_.push_back(0);
+  }
+
+  const std::string& source_;
+  Mesh mesh_;
+  std::vector<int> element_;                   ///< of each triangle
+  std::vector<std::array<int, 3>> corner_of_;  ///< of each triangle, which corners of its element it has
+  std::vector<char> is_turned_;                ///< by triangle
+  std::vector<int> n_corners_;                 ///< of each element
+};
+
 }  // namespace
 
 bool is_in_space(const Mesh& mesh) {
@@ -154,62 +234,21 @@ GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
   refuse_hanging_nodes(given, sides);
   std::vector<Warning> warnings;
   drop_what_no_element_has(given, sides, mesh, warnings);
+  Triangulation fine(given, mesh);
+  fine.turn();
 
   GivenSurface surface;
-  std::vector<std::array<int, 3>> corner_of;  // of each fine triangle, which corners of its element it has
-  const auto add_half = [&](const std::array<int, 3>& corners, const auto& v, int region) {
-    mesh.triangles.push_back({v[corners[0]], v[corners[1]], v[corners[2]]});
-    mesh.triangle_region.push_back(region);
-    surface.element.push_back(static_cast<int>(surface.corners.size()));
-    corner_of.push_back(corners);
-  };
-  const Mesh elements = mesh;
-  mesh.triangles.clear();
-  mesh.triangle_region.clear();
-  mesh.quads.clear();
-  mesh.quad_region.clear();
-  for (std::size_t t = 0; t < elements.triangles.size(); ++t) {
-    const auto& v = elements.triangles[t];
-    const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-    if (!(least_angle(a, b, c, cross(b - a, c - a)) > kFlatAngle)) refuse_element(given, a, "has no area");
-    add_half({0, 1, 2}, v, elements.triangle_region[t]);
-    surface.corners.push_back({-1, -1, -1, -1});
-  }
-  for (std::size_t q = 0; q < elements.quads.size(); ++q) {
-    const auto& v = elements.quads[q];
-    const std::array<Vec3, 4> p{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
-    const auto [halves, angle] = halves_in_space(p);
-    if (!(std::abs(angle) > kFlatAngle)) refuse_element(given, p[0], "has no area");
-    for (const auto& half : halves) add_half(half, v, elements.quad_region[q]);
-    surface.corners.push_back({-1, -1, -1, -1});
-  }
-  const std::vector<std::array<int, 3>> before = mesh.triangles;
-  std::vector<Warning> turned;  // elements may run either way round
-  orient_triangles(mesh, given.source, turned);
-  std::vector<char> is_turned(before.size(), 0);
-  for (std::size_t t = 0; t < before.size(); ++t)
-    if (mesh.triangles[t][1] != before[t][1]) {
-      is_turned[t] = 1;
-      std::swap(corner_of[t][1], corner_of[t][2]);
-    }
   TriangulatedOptions options;
   options.source = given.source;
   options.feature_angle = feature_angle;
-  const std::string unit = mesh.unit;
-  KeptModel kept = make_kept_model(std::move(mesh), surface.element, options);
+  KeptModel kept = make_kept_model(fine.mesh(), fine.element(), options);
   surface.model = std::move(kept.model);
-  surface.model.fine.unit = unit;
+  surface.model.fine.unit = given.mesh.unit;
   surface.model.warnings.insert(surface.model.warnings.begin(), warnings.begin(), warnings.end());
   surface.given_curve = std::move(kept.given_curve);
   surface.given_region = std::move(kept.given_region);
-  for (std::size_t t = 0; t < before.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      surface.corners[surface.element[t]][corner_of[t][k]] = surface.model.fine.triangles[t][k];
-  for (std::size_t t = 0; t < before.size(); ++t) {
-    if (!is_turned[t] || (t > 0 && surface.element[t] == surface.element[t - 1])) continue;
-    auto& v = surface.corners[surface.element[t]];
-    std::reverse(v.begin(), v.begin() + (v[3] < 0 ? 3 : 4));
-  }
+  surface.corners = fine.corners_in(surface.model.fine);
+  surface.element = fine.element();
   return surface;
 }
 

@@ -36,4 +36,4 @@ def test_meshes_in_space(tmp_path):
     start.write(tmp_path / "start.msh")
     assert delquad.improve(tmp_path / "start.msh", feature_angle=30).sound
     with pytest.raises(delquad.InputError, match="keeps its faces"):
-        delquad.improve(start, compound="all")
+        delquad.improve(start, compounds="all")
