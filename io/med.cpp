@@ -8,6 +8,7 @@
 #include "mesh/element_nodes.h"
 
 #ifdef DELQUAD_HAS_MED
+#define OMPI_SKIP_MPICXX  // no C++ bindings, which warn
 #include <med.h>
 #endif
 

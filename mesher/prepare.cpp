@@ -343,7 +343,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
 /// Refuses what would change a mesh in space before words begin.
 void check_given_in_space(const MeshProblem& problem, const GivenMesh& given) {
   check_lines_are_free(problem, given.source);
-  check_not_mapped(problem);
+  check_curves_are_meshed(problem);
   if (!problem.layers.empty())
     throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
   const SurfaceSpec& s = problem.surface;
