@@ -93,12 +93,12 @@ def read_cgns(path):
                                if "Coordinate" + axis in data["GridCoordinates"]]).T)
     kinds = {3: ("lines", 2), 4: ("lines", 3), 7: ("elements", 4), 9: ("elements", 9)}
     for name, section in data.items():
-        if section.attrs["label"].decode() != "Elements_t":
+        if section.attrs.get("label", b"").decode() != "Elements_t":
             continue
         kind, n = kinds[int(section[" data"][0])]
         found.add(getattr(found, kind), name, section["ElementConnectivity"][" data"][:].reshape(-1, n) - 1)
     for name, condition in data["ZoneBC"].items() if "ZoneBC" in data else []:
-        if "PointList" in condition:
+        if isinstance(condition, h5py.Group) and "PointList" in condition:
             found.points_of[name] = [(int(v) - 1,) for v in condition["PointList"][" data"][:].ravel()]
     return found
 
@@ -111,7 +111,7 @@ def read_med(path):
     file = h5py.File(path)
     step = next(iter(file["ENS_MAA"]["mesh"].values()))
     n = int(step["NOE"]["COO"].attrs["NBR"])
-    found = Found(step["NOE"]["COO"][:].reshape(-1, n).T if False else step["NOE"]["COO"][:].reshape(n, -1, order="C"))
+    found = Found(step["NOE"]["COO"][:].reshape(-1, n).T)
     names = {}
     for families in file["FAS"]["mesh"].values():
         for family in families.values() if "NUM" not in families.attrs else []:
@@ -158,6 +158,7 @@ def read_vtk(path):
     reader = vtk.vtkUnstructuredGridReader()
     reader.SetFileName(path)
     reader.ReadAllFieldsOn()
+    reader.ReadAllScalarsOn()
     reader.Update()
     grid = reader.GetOutput()
     found = Found([grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())])
