@@ -207,8 +207,10 @@ TEST(MeshFormats, AreToldByExtension) {
   }
   write_mesh(folder / "a.vtu", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.vtu").find("Name=\"eta\""), std::string::npos);
-  expect_input_error([&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
-                     {"a.stl", "'.stl'", ".msh, .vtu, .obj, .inp, .mesh or .svg"});
+  expect_input_error(
+      [&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
+      {"a.stl", "'.stl'",
+       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
   expect_input_error(
       [&] {
@@ -216,7 +218,7 @@ TEST(MeshFormats, AreToldByExtension) {
       },
       {"a.obj", "binary", ".msh"});
   expect_input_error([&] { read_mesh(folder / "a.xyz"); },
-                     {"a.xyz", ".msh, .obj, .off, .stl, .ply, .3mf, .vtu, .inp or .mesh"});
+                     {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .off, .stl, .ply or .3mf"});
   write_mesh(folder / "a.svg", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.svg").find("<svg"), std::string::npos);
 }

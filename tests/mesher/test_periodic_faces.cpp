@@ -329,7 +329,10 @@ TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
   Mesh dented = testing_support::box(4);
   for (Vec3& p : dented.points)
     if (p.x == 1 && p.y == 0.5 && p.z == 0.5) p.x = 1.01;
-  refused({kCellPairs[0]}, {"p 1: the faces do not match", "0.01 away from"}, dented);
+  refused(
+      {kCellPairs[0]},
+      {"p 1: the faces do not match", "the image of face 1 at (0, 0.5, 0.5) is 0.0099", "away from face 2"},
+      dented);
 }
 
 TEST(PeriodicFaces, FacesTakeTheNameFromCurves) {
