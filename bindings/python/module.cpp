@@ -256,7 +256,10 @@ void define_size(py::class_<Problem>& c) {
              for (const py::object& corner : corners) {
                if (py::isinstance<py::str>(corner))
                  grid.corners.push_back({corner.cast<std::string>(), {}});
-               else
+               else if (py::hasattr(corner, "__len__") && py::len(corner) == 2) {
+                 const Vec2 at = read_vec2(corner, "mapped: a corner");
+                 grid.corners.push_back({{}, {at.x, at.y, 0}});
+               } else
                  grid.corners.push_back({{}, read_vec3(corner, "mapped: a corner")});
              }
              p.problem.mapped.corners.push_back(std::move(grid));
