@@ -306,9 +306,6 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
   for (const ChainPair& pair : curves.images.pairs)
     domain.chain_stays[pair.chain] = domain.chain_stays[pair.master] = 1;
-  for (const MappedFace& grid : grids)
-    for (const auto& side : grid.sides)
-      for (const int chain : side) domain.chain_stays[chain] = 1;
   domain.cut_face = std::move(curves.cut_face);
   return domain;
 }

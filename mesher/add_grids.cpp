@@ -12,15 +12,19 @@
 #include "mesher/mapped_grid.h"
 #include "mesher/stages.h"
 #include "metrics/shape.h"
+#include "metrics/size_efficiency.h"
 
 namespace delquad {
 namespace {
 
-/// What is found of itself is a grid where eta is at least so much in the mean, and at worst.
-constexpr double kLeastMeanEta = 0.7, kLeastEta = 0.3;
+/// What is found of itself is a grid where eta is at least so much in the mean, and at worst, and the lengths
+/// of edges fit the size so well in the mean: about what a free mesh has.
+constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
 
 struct GridQuality {
   double mean = 0, worst = 1;
+  double fit = 0;  ///< of the sides: length / delta, or its inverse where that is less
+  bool pays() const { return mean >= kLeastMeanEta && worst >= kLeastEta && fit >= kLeastFit; }
 };
 
 class GridOfPatch {
@@ -43,9 +47,7 @@ class GridOfPatch {
     if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
       smooth_grid(grid, *patch_.cross, *patch_.size);
     if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
-    if (mapped_.is_asked) return grid;
-    const GridQuality quality = quality_of(grid);
-    if (quality.mean < kLeastMeanEta || quality.worst < kLeastEta) return std::nullopt;
+    if (!mapped_.is_asked && !quality_of(grid).pays()) return std::nullopt;
     return grid;
   }
 
@@ -93,6 +95,10 @@ class GridOfPatch {
       const double eta = eta_of(element_shape(corners, area_vector(corners)).angle);
       quality.mean += eta / static_cast<double>(grid.quads.size());
       quality.worst = std::min(quality.worst, eta);
+      for (const int k : {0, 1, 2, 3}) {
+        const double length = adimensional_length(corners[k], corners[(k + 1) % 4], *problem_.size);
+        quality.fit += std::min(length, 1 / length) / static_cast<double>(4 * grid.quads.size());
+      }
     }
     return quality;
   }
@@ -120,7 +126,13 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
             region_label(p.boundary.regions[p.patches[mapped[i].patch].region]), at.x, at.y, at.z));
       },
       [&](std::size_t i) { return static_cast<double>(p.patches[mapped[i].patch].boundary.points.size()); });
-  for (std::size_t i = 0; i < mapped.size(); ++i) p.patches[mapped[i].patch].grid = std::move(grids[i]);
+  for (std::size_t i = 0; i < mapped.size(); ++i) {
+    PreparedPatch& patch = p.patches[mapped[i].patch];
+    patch.grid = std::move(grids[i]);
+    patch.grid_stays = mapped[i].is_asked;
+    if (!patch.grid || !patch.grid_stays || p.curve_places.empty()) continue;
+    for (const int node : patch.boundary.point_node) p.curve_places[node] = {};
+  }
 }
 
 }  // namespace delquad

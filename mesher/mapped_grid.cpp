@@ -17,8 +17,9 @@ namespace {
 /// Stations on each line across a ring at which the size is asked for, and lines at most.
 constexpr int kRingStations = 16;
 constexpr std::size_t kMostRingLines = 64;
-/// Passes of the optimisation of a grid, at most.
-constexpr int kGridPasses = 8;
+/// Passes of the optimisation of a grid, at most, and steps in each: lines that bend where grids meet take
+/// many to become smooth.
+constexpr int kGridPasses = 6, kGridSteps = 200;
 
 /// Some points of a grid, one after the other.
 using Chain = std::vector<int>;
@@ -269,6 +270,7 @@ void smooth_grid(QuadPatch& grid, const CrossField& cross, const ParametricSize&
   std::vector<Vec2> points = tracks.points();
   OptimisationOptions options;
   options.passes = kGridPasses;
+  options.iterations = kGridSteps;
   options.alignment = 0;  // the sides have told where the quads point
   optimise_on_tracks(points, tracks.quads(), tracks, options);
   tracks.store(points);

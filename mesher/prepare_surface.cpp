@@ -323,6 +323,10 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const DoingStage making_fields("fields");
   prepare_patches(surface, p);
   add_grids(problem.mapped, surface->domain.mapped, p);
+  for (std::size_t i = 0; i < p.patches.size(); ++i)
+    if (p.patches[i].grid && p.patches[i].grid_stays)
+      for (const auto& loop : surface->domain.patches[i].outline)
+        for (const CurveSide& side : loop) surface->domain.chain_stays[side.chain] = 1;
   if (size_aware) make_crosses_size_aware(p);
   if (cut) {
     p.size = folded_size(p.size, cut->planes);

@@ -263,7 +263,7 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
   const DoingStage lifting("lifting");
   std::vector<char> patch_left_out;
   for (const PreparedPatch& patch : prepared.patches)
-    patch_left_out.push_back(left_out[patch.region] || patch.grid);
+    patch_left_out.push_back(left_out[patch.region] || (patch.grid && patch.grid_stays));
   LiftingSummary summary =
       lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();
@@ -489,7 +489,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         patches[i].inside.clear();
         if (prepared.patches[i].image) return;
         if (const auto& grid = prepared.patches[i].grid) {
-          patches[i] = grid_as(stage.to, *grid);
+          if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
           return;
         }
         if (reason.empty()) reason = run_on_patch(stage, prepared, i, patches[i], logs[i]);
@@ -500,9 +500,12 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
       });
   for (const StageLog& one : logs) state.log.add(one);
   check_insertion(prepared, state.log);
-  std::vector<char> left_out;
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    left_out.push_back(!state.reasons[i].empty() || prepared.patches[i].grid || prepared.patches[i].image);
+  std::vector<char> left_out, held;  // what stays when points of quads move: fewer grids
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PreparedPatch& patch = prepared.patches[i];
+    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image);
+    held.push_back(left_out.back() && (!patch.grid || patch.grid_stays || patch.image));
+  }
   const AllPatches all{prepared, prepared.options, patches, left_out, state.nodes};
   if (prepared.surface && repair_options(prepared.options).part_twins) {
     const Stopwatch parting;
@@ -511,7 +514,10 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
     add_summary(state.log, parted);
     state.log.add_time("parting", parting.time());
   }
-  if (stage.finish) stage.finish(all, state.log);
+  if (stage.finish)
+    stage.finish(
+        {prepared, prepared.options, patches, stage.from == PatchForm::kQuads ? held : left_out, state.nodes},
+        state.log);
   for (std::size_t i = 0; i < patches.size(); ++i)
     if (const auto& image = prepared.patches[i].image) {
       patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);

@@ -215,17 +215,13 @@ class CurveMesher {
             has_whiskers() ? whisker_curve() : -1};
   }
 
-  /// Of each piece, whether its nodes stay in all stages: they were asked for, are paired, or a face that is
-  /// a grid has them.
+  /// Of each piece, whether its nodes stay in all stages: they were asked for, or are paired.
   std::vector<char> staying() const {
     std::vector<char> stays(pieces_.size(), 0);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (pieces_[i].is_divided) stays[i] = 1;
       if (pieces_[i].master >= 0) stays[i] = stays[pieces_[i].master] = 1;
     }
-    for (const MappedPlanarFace& face : mapped_)
-      for (const auto& side : face.sides)
-        for (const int piece : side) stays[piece] = 1;
     return stays;
   }
 

@@ -125,6 +125,7 @@ TEST(MappedFaces, ARingIsAGrid) {
       const auto along = std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 0);
       EXPECT_EQ(along, std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 2));
       EXPECT_EQ(r.mesh.quads.size(), along * 10u);
+      if (spec.automatic && word != "DB") continue;  // O has moved it
       // The grid is that of polar coordinates.
       for (const Vec3& x : r.mesh.points) {
         const double step = norm(x) * 10;
@@ -261,7 +262,7 @@ TEST(MappedFaces, CornersAreTold) {
 
 TEST(MappedFaces, RingsCloseAround) {
   PlanarModel model;
-  model.curves = {{make_circle({0.1, 0}, 1), "inner", {}}, {make_circle({0, 0}, 1.8), "outer", {}}};
+  model.curves = {{make_circle({0.05, 0}, 1.3), "inner", {}}, {make_circle({0, 0}, 1.8), "outer", {}}};
   model.loops = {{{1}, "ring", {}}, {{0}, {}, {}}};
   for (const MappedSpec& spec : {MappedSpec{{"ring"}}, MappedSpec{{}, true}}) {
     const MeshResult r = mesh(mapped_problem(model, 0.1, spec), "DBCO");
@@ -269,7 +270,7 @@ TEST(MappedFaces, RingsCloseAround) {
     EXPECT_EQ(valences_inside(r.mesh).size(), 1u);
     const auto inner = std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 0);
     EXPECT_EQ(inner, std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 1));
-    EXPECT_EQ(r.mesh.quads.size(), inner * 8u);
+    EXPECT_EQ(r.mesh.quads.size(), inner * 5u);
   }
 }
 
