@@ -3,7 +3,6 @@
 #include "cases/case_file.h"
 #include "cases/surface_spec.h"
 #include "mesher/surface_input.h"
-#include "sweep/experiment.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -80,26 +79,6 @@ TEST(SurfaceSpecs, WhatDoesNothingForCadIsRefused) {
   expect_input_error([&] { made("mirror = { point = [0, 0, 0], normal = [0, 0, 1] }\n"); },
                      {"m.toml:2", "CAD"});
   expect_input_error([&] { made("feature_angle = 20\n"); }, {"m.toml:2", "CAD"});
-}
-
-TEST(SurfaceSpecs, DataIsForExperimentsAndExcludesOtherModels) {
-  const TemporaryFolder folder;
-  expect_input_error([&] { read_model_case(write_text(folder / "m.toml", "data = \"part.step\"\n")); },
-                     {"m.toml:1", "experiments"});
-  const auto experiment = [&](const std::string& keys) {
-    return Experiment::read(write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys),
-                            "there");
-  };
-  const Experiment e = experiment("data = \"cad/part.step\"\n");
-  EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
-  EXPECT_TRUE(e.read_variant(0).may_be_absent);
-  write_text(folder / "part.step", "");
-  EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
-  expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
-                     {"e.toml:", "exclude each other"});
-  expect_input_error([&] { experiment("data = \"part.stp\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"); },
-                     {"e.toml:4", "exclude each other"});
-  expect_input_error([&] { experiment("data = \"part.toml\"\n"); }, {"e.toml:4", "no data"});
 }
 
 }  // namespace

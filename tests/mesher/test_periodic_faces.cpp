@@ -231,6 +231,63 @@ TEST(PeriodicFaces, CurvedFacesMatch) {
   EXPECT_NEAR(volume(r.mesh), 1, 0.01);
 }
 
+/// The unit cube without balls of radius r around its corners. Regions 1 to 6 as those of box(), then the
+/// pores.
+Mesh cell_with_corner_pores(double r, int n) {
+  TriangulatedShape shape;
+  // On the ball around a corner, from which the cube lies in the directions of `signs`.
+  const auto on_ball = [&](const Vec3& corner, const Vec3& signs, const Vec3& weights) {
+    const Vec3 d = (r / norm(weights)) * weights;
+    return corner + Vec3{signs.x * d.x, signs.y * d.y, signs.z * d.z};
+  };
+  const auto unit = [](int axis) { return Vec3{double(axis == 0), double(axis == 1), double(axis == 2)}; };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, 1}) {
+      shape.region();
+      const Vec3 u = unit((axis + 1) % 3), v = unit((axis + 2) % 3), low = double(side) * unit(axis);
+      std::vector<Vec3> outline;
+      for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        for (int k = 0; k <= n; ++k) {
+          const double along_u = (i == j) ? k : n - k;  // the outline runs around the face
+          outline.push_back(on_ball(low + double(i) * u + double(j) * v,
+                                    (1.0 - 2 * i) * u + (1.0 - 2 * j) * v, along_u * u + (n - along_u) * v));
+        }
+      for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Vec3 &a = outline[k], &b = outline[(k + 1) % outline.size()], middle = low + 0.5 * (u + v);
+        side == 1 ? shape.triangle(middle, a, b) : shape.triangle(middle, b, a);
+      }
+    }
+  for (int c = 0; c < 8; ++c) {
+    shape.region();
+    const Vec3 corner{double(c & 1), double(c >> 1 & 1), double(c >> 2)};
+    const Vec3 signs{1 - 2 * corner.x, 1 - 2 * corner.y, 1 - 2 * corner.z};
+    const auto at = [&](int i, int j) {
+      return on_ball(corner, signs, {double(i), double(j), double(n - i - j)});
+    };
+    const auto triangle = [&](const Vec3& a, const Vec3& b, const Vec3& d) {
+      signs.x* signs.y* signs.z > 0 ? shape.triangle(a, d, b) : shape.triangle(a, b, d);
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        triangle(at(i, j), at(i + 1, j), at(i, j + 1));
+        if (i + j + 1 < n) triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+  }
+  return shape.mesh;
+}
+
+TEST(PeriodicFaces, CellsWithPoresAtTheCornersMatch) {
+  for (const double radius : {0.15, 0.3}) {
+    const Mesh cell = cell_with_corner_pores(radius, 6);
+    const MeshResult result = mesh(problem_of(TriangleModel{cell}, radius / 3, kCellPairs), "DBCO");
+    EXPECT_TRUE(result.mesh.triangles.empty());
+    expect_images(result.mesh, 3);
+    // Chords make pores smaller.
+    const double pores = 4.0 / 3 * kPi * std::pow(radius, 3);
+    EXPECT_NEAR(volume(result.mesh), 1 - pores, 0.15 * pores);
+  }
+}
+
 TEST(PeriodicFaces, FacesOfSheetsRunTheSameWay) {
   Mesh sheets = testing_support::box(3);
   std::vector<std::array<int, 3>> kept;

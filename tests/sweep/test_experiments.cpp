@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cases/case_file.h"
 #include "metrics/metrics.h"
 #include "sweep/experiment.h"
 #include "sweep/run_experiment.h"
@@ -109,6 +110,26 @@ TEST(Experiments, RatiosAreNoted) {
             "[ratio]\nmetric = \"n_vertex\"\nnumerator = \"F\"\ndenominator = \"D\"\nexpected = 1\n"));
       },
       {"e.toml:2", "'n_vertices'"});
+}
+
+TEST(Experiments, DataExcludesOtherModels) {
+  const testing_support::TemporaryFolder folder;
+  expect_input_error([&] { read_model_case(testing_support::write_text(folder / "m.toml", "data = \"part.step\"\n")); },
+                     {"m.toml:1", "experiments"});
+  const auto experiment = [&](const std::string& keys) {
+    return Experiment::read(testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys),
+                            "there");
+  };
+  const Experiment e = experiment("data = \"cad/part.step\"\n");
+  EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
+  EXPECT_TRUE(e.read_variant(0).may_be_absent);
+  testing_support::write_text(folder / "part.step", "");
+  EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
+  expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
+                     {"e.toml:", "exclude each other"});
+  expect_input_error([&] { experiment("data = \"part.stp\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"); },
+                     {"e.toml:4", "exclude each other"});
+  expect_input_error([&] { experiment("data = \"part.toml\"\n"); }, {"e.toml:4", "no data"});
 }
 
 }  // namespace
