@@ -21,6 +21,10 @@ struct JacobianBounds {
 /// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive.
 JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order);
 
+/// Of an element of order 2 bounds that hold with its middle node and without, as formats of eight nodes
+/// have it; of other orders the same as jacobian_bounds().
+JacobianBounds element_bounds(std::span<const Vec3> nodes, int order);
+
 /// Integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.
 Vec3 mean_normal(std::span<const Vec3> nodes, int order);
 

@@ -282,7 +282,7 @@ class CurvedUntangler {
   JacobianBounds bounds_of_quad(int q) const {
     std::vector<Vec3> places;
     for (const int v : nodes_of_quad(mesh_, static_cast<std::size_t>(q))) places.push_back(mesh_.points[v]);
-    return jacobian_bounds(places, mesh_.order);
+    return element_bounds(places, mesh_.order);
   }
 
   /// False where nothing moved.
@@ -345,7 +345,7 @@ std::vector<JacobianBounds> jacobian_bounds(const Mesh& mesh) {
       check_cancelled();
       places.clear();
       for (const int v : nodes_of_quad(mesh, q)) places.push_back(mesh.points[v]);
-      bounds[q] = jacobian_bounds(places, mesh.order);
+      bounds[q] = element_bounds(places, mesh.order);
     }
   });
   return bounds;

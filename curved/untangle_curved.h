@@ -16,7 +16,7 @@ struct UntanglingSummary {
   int improved = 0;  ///< those of a greater proven scaled Jacobian after it
 };
 
-/// Bounds of all quads of a curved mesh.
+/// Bounds of all quads of a curved mesh, by element_bounds().
 std::vector<JacobianBounds> jacobian_bounds(const Mesh& mesh);
 
 /// Moves nodes of curved quads that are inverted or poor, and of those around, to where the elements' maps

@@ -95,6 +95,44 @@ TEST(JacobianBounds, KnowFlatAndFoldedElements) {
   EXPECT_LT(jacobian_bounds(nodes, 2).found, 0.2);
 }
 
+/// The usual shape functions of eight nodes: nothing of what is tested.
+Vec3 place_of_eight(const std::vector<Vec3>& nodes, double u, double v) {
+  const double r = 2 * u - 1, s = 2 * v - 1;
+  Vec3 sum;
+  for (int k = 0; k < 9; ++k) {
+    const double i = k % 3 - 1, j = k / 3 - 1;
+    double weight = 0;
+    if (i != 0 && j != 0) weight = 0.25 * (1 + r * i) * (1 + s * j) * (r * i + s * j - 1);
+    if (i == 0 && j != 0) weight = 0.5 * (1 - r * r) * (1 + s * j);
+    if (i != 0 && j == 0) weight = 0.5 * (1 + r * i) * (1 - s * s);
+    sum = sum + weight * nodes[k];
+  }
+  return sum;
+}
+
+TEST(JacobianBounds, HoldWithoutTheMiddleNode) {
+  int lower = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::vector<Vec3> nodes = random_element(2, 0.12, seed);
+    for (Vec3& p : nodes) p.z = 0;
+    const JacobianBounds bounds = element_bounds(nodes, 2);
+    const auto at = [&](double u, double v) { return place_of_eight(nodes, u, v); };
+    double least = 1;
+    constexpr int kSamples = 40;
+    constexpr double kStep = 1e-5;
+    for (int j = 0; j <= kSamples; ++j)
+      for (int i = 0; i <= kSamples; ++i) {
+        const double u = 1.0 * i / kSamples, v = 1.0 * j / kSamples;
+        const Vec3 xu = at(u + kStep, v) - at(u - kStep, v), xv = at(u, v + kStep) - at(u, v - kStep);
+        least = std::min(least, cross(xu, xv).z / (norm(xu) * norm(xv)));
+      }
+    EXPECT_LE(bounds.proven, least + 1e-6) << seed;
+    EXPECT_LE(bounds.proven, jacobian_bounds(nodes, 2).proven);
+    lower += bounds.proven < jacobian_bounds(nodes, 2).proven;
+  }
+  EXPECT_GT(lower, 10);
+}
+
 TEST(Bernstein, ProductsAndDerivativesAreThoseOfTheMaps) {
   for (int order = 1; order <= kMostOrder; ++order) {
     const std::vector<Vec3> nodes = random_element(order, 0.2, 7);
