@@ -11,6 +11,10 @@ namespace delquad {
 
 namespace {
 
+/// Sizes that grow at the slope of the envelope lie on it up to rounding; samples there would be looked at in
+/// vain by every search.
+constexpr double kTie = 1e-9;
+
 bool by_place(const SizeEnvelope::Sample& a, const SizeEnvelope::Sample& b) {
   return std::tie(a.at.x, a.at.y, a.delta) < std::tie(b.at.x, b.at.y, b.delta);
 }
@@ -23,11 +27,10 @@ SizeEnvelope::SizeEnvelope(std::vector<Sample> samples, double slope)
   const auto same_place = [](const Sample& a, const Sample& b) { return a.at == b.at; };
   samples_.erase(std::unique(samples_.begin(), samples_.end(), same_place), samples_.end());
   build();
-  // What lies above the envelope is no part of it.
   std::vector<Sample> kept;
   for (const Sample& s : samples_) {
     check_cancelled();
-    if (limit(s.at, s.delta) == s.delta) kept.push_back(s);
+    if (!is_explained(s)) kept.push_back(s);
   }
   samples_ = std::move(kept);
   build();
@@ -45,13 +48,25 @@ void SizeEnvelope::build() {
   }
 }
 
+bool SizeEnvelope::is_explained(const Sample& s) const {
+  double limit = (1 + kTie) * s.delta;
+  tree_.search(
+      limit, [&](const BoxTree<Vec2>::Node& node) { return bound(node, s.at); },
+      [&](int i) {
+        const Sample& other = samples_[i];
+        if (other.delta < s.delta && other.delta + slope_ * norm(s.at - other.at) <= limit) limit = -INFINITY;
+      });
+  return limit < 0;
+}
+
+double SizeEnvelope::bound(const BoxTree<Vec2>::Node& node, Vec2 x) const {
+  return least_[static_cast<std::size_t>(&node - tree_.nodes().data())] +
+         slope_ * std::sqrt(node.box.distance2(x));
+}
+
 double SizeEnvelope::limit(Vec2 x, double delta) const {
   tree_.search(
-      delta,
-      [&](const BoxTree<Vec2>::Node& node) {
-        const auto index = static_cast<std::size_t>(&node - tree_.nodes().data());
-        return least_[index] + slope_ * std::sqrt(node.box.distance2(x));
-      },
+      delta, [&](const BoxTree<Vec2>::Node& node) { return bound(node, x); },
       [&](int i) { delta = std::min(delta, samples_[i].delta + slope_ * norm(x - samples_[i].at)); });
   return delta;
 }

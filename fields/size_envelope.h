@@ -22,6 +22,9 @@ class SizeEnvelope {
 
  private:
   void build();
+  /// Whether a smaller sample gives as little there: it is no part of the envelope.
+  bool is_explained(const Sample& s) const;
+  double bound(const BoxTree<Vec2>::Node& node, Vec2 x) const;
 
   double slope_;
   std::vector<Sample> samples_;

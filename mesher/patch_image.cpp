@@ -40,4 +40,15 @@ PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const
   return mesh;
 }
 
+void move_image_nodes(const PreparedProblem& prepared, const PatchImage& image, std::vector<Vec3>& points) {
+  const auto &from = prepared.patches[image.master].boundary.point_node,
+             &to = prepared.patches[image.patch].boundary.point_node;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const Vec3 &now = points[from[k]], &before = prepared.boundary.points[from[k]];
+    if (now.x == before.x && now.y == before.y) continue;
+    const Vec2 place = image.motion({now.x, now.y});
+    points[to[image.point[k]]] = {place.x, place.y, now.z};
+  }
+}
+
 }  // namespace delquad

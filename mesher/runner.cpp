@@ -521,6 +521,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   for (std::size_t i = 0; i < patches.size(); ++i)
     if (const auto& image = prepared.patches[i].image) {
       patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);
+      move_image_nodes(prepared, *image, state.nodes.points);
       state.reasons[i] = state.reasons[image->master];
     }
   state.seconds += watch.seconds();

@@ -95,13 +95,27 @@ std::vector<double> candidate_angles(const PlanarModel& model, Vec2 centre) {
   return angles;
 }
 
+/// A point in a region without an image.
+const ModelPoint* point_without_image(const PlanarModel& model, const NearCurves& curves,
+                                      const Symmetry& symmetry, int plane) {
+  const auto has_image = [&](const ModelPoint& p) {
+    const Vec2 image = symmetry.reflect({plane}, p.at);
+    return curves.has(p.at, symmetry.tolerance()) ||
+           std::ranges::any_of(model.points, [&](const ModelPoint& other) {
+             return norm(other.at - image) <= symmetry.tolerance();
+           });
+  };
+  const auto found = std::ranges::find_if_not(model.points, has_image);
+  return found == model.points.end() ? nullptr : &*found;
+}
+
 bool has_symmetry(const PlanarModel& model, const NearCurves& curves, const Symmetry& symmetry, int plane) {
   for (const ModelCurve& curve : model.curves)
     for (int k = 0; k < kProbesOfCurve; ++k) {
       const Vec2 x = curve.shape->point((k + 0.37) / kProbesOfCurve);
       if (!curves.has(symmetry.reflect({plane}, x), symmetry.tolerance())) return false;
     }
-  return true;
+  return point_without_image(model, curves, symmetry, plane) == nullptr;
 }
 
 SymmetryPlane plane_at(Vec2 centre, double axis_angle) {
@@ -146,6 +160,7 @@ std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
 
 Symmetry find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
   const double tolerance = kTouch * extent_of(model);
+  const NearCurves curves(model);
   if (!spec.automatic) {
     const auto& planes = spec.planes;
     const auto angle = [](const Vec3& n) { return std::atan2(n.y, n.x); };
@@ -153,10 +168,17 @@ Symmetry find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
         (planes.size() == 2 &&
          std::abs(std::cos(angle(planes[0].normal) - angle(planes[1].normal))) > kPerpendicular))
       throw InputError(spec.where + ": expected one plane of symmetry, or two that are perpendicular");
-    return Symmetry(planes, tolerance);
+    Symmetry symmetry(planes, tolerance);
+    for (int k = 0; k < symmetry.n_planes(); ++k)
+      if (const ModelPoint* p = point_without_image(model, curves, symmetry, k)) {
+        const Vec2 image = symmetry.reflect({k}, p->at);
+        throw InputError(fmt::format(
+            "{}: the model is not symmetric: the point '{}' ({}) has no mirror image at ({:.10g}, {:.10g})",
+            spec.where, p->name, p->where, image.x, image.y));
+      }
+    return symmetry;
   }
   const Vec2 centre = centroid(model);
-  const NearCurves curves(model);
   std::vector<SymmetryPlane> found;
   for (const double angle : candidate_angles(model, centre)) {
     const Symmetry one({plane_at(centre, angle)}, tolerance);

@@ -68,6 +68,31 @@ TEST(Symmetry, EveryNodeHasItsMirrorImage) {
   }
 }
 
+TEST(Symmetry, EdgesAtSinglePointsAreMirrored) {
+  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
+  for (const double x : {0.53, 3.47})
+    for (const double y : {0.41, 1.59}) model.points.push_back({{x, y}, "sensor", {}});
+  for (const SymmetrySpec& spec : {SymmetrySpec{{{{2, 1, 0}, {0, 1, 0}}}}, SymmetrySpec{{}, true}}) {
+    const MeshResult r = mesh(symmetric_problem(model, 0.1, spec), "DBCO");
+    EXPECT_EQ(r.mesh.named_points.size(), 4u);
+    expect_mirrored(r.mesh, about_y1);
+    if (spec.automatic) expect_mirrored(r.mesh, about_x2);
+  }
+  model.points[0].at = {0.6, 0.41};
+  model.points[0].where = "m 3";
+  expect_input_error(
+      [&] {
+        mesh(symmetric_problem(model, 0.1, {{{{2, 1, 0}, {0, 1, 0}}}, false, "s 1"}));
+      },
+      {"s 1: the model is not symmetric: the point 'sensor' (m 3) has no mirror image at (0.6, 1.59)"});
+  // The other points' planes are none of this one.
+  expect_input_error(
+      [&] {
+        mesh(symmetric_problem(model, 0.1, {{}, true, "s 1"}));
+      },
+      {"s 1: no plane of symmetry was found"});
+}
+
 TEST(Symmetry, PlanesAreFound) {
   const MeshResult r = mesh(symmetric_problem(symmetric_plate(), 0.1, {{}, true}));
   expect_mirrored(r.mesh, about_x2);

@@ -146,7 +146,7 @@ MeshProblem case_of(const char* name) {
   return c;
 }
 
-TEST(Records, HaveEveryCounterOfEveryStep) {
+TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   const MeshProblem c = case_of("lens");
   const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
                                                    make_constant_size(0.3), [](double) {});
@@ -172,7 +172,7 @@ TEST(Records, HaveEveryCounterOfEveryStep) {
   EXPECT_FALSE(record.contains("unsound"));
 }
 
-TEST(Records, StepsThatAreSwitchedOffAreNotThere) {
+TEST(StageRecords, StepsThatAreSwitchedOffAreNotThere) {
   MeshProblem c = case_of("lens");
   c.options.set("repair.part_twins", false).set("repair.lift_bad_quads", false);
   const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
@@ -263,7 +263,7 @@ TEST_F(Tube, ACleanUpThatIsTakenBackIsNotCountedAsDone) {
   EXPECT_LT(patch_.quads.quads.size(), before.size());
 }
 
-TEST(Records, SayWhatMadeTheSizeLess) {
+TEST(StageRecords, SayWhatMadeTheSizeLess) {
   MeshProblem c = case_of("lens");
   c.size.curvature = 24;
   const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
