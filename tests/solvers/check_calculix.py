@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip or shell.
+PROBLEM: patch, shell_patch, strip, shell or periodic.
 
 CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
 checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
@@ -266,7 +266,50 @@ def shell(delquad, folder):
     return good
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell)}
+def cell_model(x, periodic):
+    """A cell with a hole around (x, 0.5)."""
+    text = f"""loop = [
+  {{ rectangle = [[0, 0], [2, 1]], boundary = ["bottom", "periodic_1", "top", "left"], region = "cell" }},
+  {{ circle = {{ centre = [{x}, 0.5], radius = 0.2 }}, boundary = "hole", hole = true }},
+]
+size = 0.05
+order = 2
+"""
+    return text + periodic * 'periodic = [{ from = "left", to = "periodic_1", translate = [2, 0] }]\n'
+
+
+def periodic(delquad, folder):
+    """A row of cells, pulled: where the hole is in its cell makes no difference to the force. One cell has equations for its pairs of
+    nodes, the other has its hole in the middle, and sides that stay straight. A curve has the name that the pairs' set would have."""
+    pull, found = 1e-3, {}
+    for x, has_pairs in ((0.5, True), (1.0, False)):
+        inp = mesh(delquad, folder, "cell.toml", cell_model(x, has_pairs), "cell.inp")
+        nodes = inp_nodes(inp)
+        far, lines = max(nodes) + 1, []  # a node whose displacement is the stretch of the cell
+        if has_pairs:
+            with open(inp, encoding="utf-8") as file:
+                pairs = re.findall(r"^\*\* PERIODIC_1_2: (\d+), (\d+)$", file.read(), re.MULTILINE)
+            images = members(inp, "NSET", "PERIODIC_1_2")
+            assert sorted(int(n) for n, _ in pairs) == images == members(inp, "NSET", "periodic_1") and len(images) > 30
+            assert sorted(int(n) for _, n in pairs) == members(inp, "NSET", "PERIODIC_1_MASTER")
+            lines = ["*NODE", f"{far}, 0., 0., 0."]
+            for node, master in pairs:
+                assert math.dist(nodes[int(node)], nodes[int(master)]) == 2 and nodes[int(node)][0] == 2
+                lines += ["*EQUATION", "3", f"{node}, 1, 1., {master}, 1, -1., {far}, 1, -1.", "*EQUATION", "2", f"{node}, 2, 1., {master}, 2, -1."]
+            fixed = [f"{pairs[0][1]}, 1, 2", f"{far}, 1, 1, {pull}"]
+        else:
+            fixed = ["left, 1", "periodic_1, 1, 1, %r" % pull, f"{members(inp, 'NSET', 'left')[0]}, 2"]
+        with open(os.path.join(folder, "pairs.inp"), "w", encoding="utf-8") as file:
+            file.write("\n".join(["*INCLUDE, INPUT=cell.inp", *lines, ""]))
+        rows, = solve(folder, os.path.join(folder, "pairs.inp"), "SOLID SECTION, ELSET=cell",
+                      ["*BOUNDARY", *fixed, "*NODE PRINT, NSET=left", "RF"], THIN)
+        found[has_pairs] = -math.fsum(row[1] for row in rows)
+    off = found[True] / found[False] - 1
+    print(f"force of a cell with equations {found[True]:.7g}, by symmetry {found[False]:.7g}: {off:+.1e}")
+    return abs(off) < 1e-4
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic)}
 
 
 def main():
