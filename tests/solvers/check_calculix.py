@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip, shell or periodic.
+PROBLEM: patch, shell_patch, strip, shell, periodic or materials.
 
 CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
 checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
@@ -309,7 +309,41 @@ def periodic(delquad, folder):
     return abs(off) < 1e-4
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic)}
+BAR = """loop = [
+  { rectangle = [[0, 0], [1, 1]], boundary = ["", "", "", "left"], region = "steel" },
+  { rectangle = [[1, 0], [2, 1]], boundary = ["", "right", "", "weld"], region = "half as stiff" },
+]
+embed = [{ point = [0.55, 0.4], name = "sensor" }]
+size = 0.11
+"""
+
+
+def materials(delquad, folder):
+    """A bar of two materials between smooth walls, pulled: a linear displacement in each, which a sensor and the weld show. Plane
+    strain, as a change of types makes it: in plane stress CalculiX's nodes at the weld have one thickness for both materials."""
+    good, pull = True, 100.0
+    unit = pull * (1 + POISSON) * (1 - 2 * POISSON) / (1 - POISSON) / YOUNG
+    for order in "12":
+        inp = mesh(delquad, folder, "bar.toml", BAR, "bar.inp", "--order", order)
+        with open(inp, encoding="utf-8") as file:
+            text = file.read()
+        with open(inp, "w", encoding="utf-8") as file:
+            file.write(text.replace("TYPE=CPS", "TYPE=CPE"))
+        deck = os.path.join(folder, "second.inp")
+        with open(deck, "w", encoding="utf-8") as file:
+            file.write(f"*INCLUDE, INPUT=bar.inp\n*MATERIAL, NAME=SECOND\n*ELASTIC\n{YOUNG / 2}, {POISSON}\n"
+                       f"*SOLID SECTION, ELSET=half_as_stiff, MATERIAL=SECOND\n{THIN}\n")
+        names = ["sensor", "weld", "right"]
+        blocks = solve(folder, deck, "SOLID SECTION, ELSET=steel",
+                       ["*BOUNDARY", "left, 1", "steel, 2", "half_as_stiff, 2", "*DSLOAD", f"right, P, {-pull}",
+                        *(line for name in names for line in (f"*NODE PRINT, NSET={name}", "U"))], THIN)
+        off = max(abs(row[1] / (x * unit) - 1) for rows, x in zip(blocks, (0.55, 1, 3)) for row in rows)
+        print(f"order {order}: {' '.join(str(len(rows)) for rows in blocks)} nodes, displacements {off:.1e} from exact")
+        good &= off < PRINTED and len(blocks[0]) == 1 and len(blocks[1]) == len(blocks[2]) > 5
+    return good
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials)}
 
 
 def main():
