@@ -16,7 +16,7 @@ PLATE = """loop = [
   { circle = { centre = [1.3, 0.55], radius = 0.25 }, boundary = "large hole", hole = true },
 ]
 """
-SIZES = [0.03, 0.021, 0.015]
+SIZES = [0.03, 0.015]
 
 
 def main():
