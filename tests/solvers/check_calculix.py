@@ -257,7 +257,8 @@ def shell(delquad, folder):
         rows, = solve(folder, os.path.join(folder, "sets.inp"), section, held + pull + forces)
         off = max(abs(a + b) for a, b in zip(total([row[1:] for row in rows]), LOAD)) / max(LOAD)
         moment = total([cross(nodes[n], each) for n in pulled])
-        turning = max(abs(a + b) for a, b in zip(total([cross(nodes[int(row[0])], row[1:]) for row in rows]), moment)) / max(map(abs, moment))
+        against = total([cross(nodes[int(row[0])], row[1:]) for row in rows])
+        turning = max(abs(a + b) for a, b in zip(against, moment)) / max(map(abs, moment))
         rows, = solve(folder, os.path.join(folder, "sets.inp"), section, held + ["*DLOAD", "ALL_OF_IT, P, 1."] + forces, 0.1)
         found, wanted = total([row[1:] for row in rows]), math.pi * 15 ** 2
         print(f"order {order}: forces {off:.1e} and moments {turning:.1e} out of balance, pressure holds {found}, a disc {wanted:.6g}")
@@ -296,7 +297,8 @@ def periodic(delquad, folder):
             lines = ["*NODE", f"{far}, 0., 0., 0."]
             for node, master in pairs:
                 assert math.dist(nodes[int(node)], nodes[int(master)]) == 2 and nodes[int(node)][0] == 2
-                lines += ["*EQUATION", "3", f"{node}, 1, 1., {master}, 1, -1., {far}, 1, -1.", "*EQUATION", "2", f"{node}, 2, 1., {master}, 2, -1."]
+                lines += ["*EQUATION", "3", f"{node}, 1, 1., {master}, 1, -1., {far}, 1, -1."]
+                lines += ["*EQUATION", "2", f"{node}, 2, 1., {master}, 2, -1."]
             fixed = [f"{pairs[0][1]}, 1, 2", f"{far}, 1, 1, {pull}"]
         else:
             fixed = ["left, 1", "periodic_1, 1, 1, %r" % pull, f"{members(inp, 'NSET', 'left')[0]}, 2"]

@@ -2,7 +2,8 @@
 """Poisson's equation on curved meshes, with conditions by the names of curves: check_poisson.py DELQUAD PROBLEM
 
 PROBLEM: annulus or plate. Errors in L2 must fall with order p + 1 of the elements' order p on
-curved elements, and must not where the sides of the same elements are straight. Linear fields are exact. Exit code 77: numpy, scipy or meshio are missing.
+curved elements, and must not where the sides of the same elements are straight. Linear fields are
+exact. Exit code 77: numpy, scipy or meshio are missing.
 """
 import os
 import subprocess

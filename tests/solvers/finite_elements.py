@@ -151,7 +151,8 @@ def solve_poisson(mesh, source, fixed, flux=None):
         u[nodes] = value(*mesh.points[nodes].T) if callable(value) else value
         free[nodes] = False
     right = (load - matrix @ u)[free]
-    u[free] = scipy.sparse.linalg.splu(matrix[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(right)
+    factors = scipy.sparse.linalg.splu(matrix[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+    u[free] = factors.solve(right)
     return u
 
 
