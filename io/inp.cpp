@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -27,7 +28,7 @@ constexpr size_t kLongestNumber = 20;
 constexpr double kNegligible = 1e-13;
 
 /// What a label is the name of.
-enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName };
+enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kPairs };
 
 std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
   std::vector<UniqueLabels::Key> keys;
@@ -38,6 +39,13 @@ std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int 
   return keys;
 }
 
+/// Both node sets of a pair of curves or of faces: images, and what they are images of.
+std::array<std::string, 2> pair_names(const char* kind, size_t pair) {
+  const std::string name = kind + std::to_string(pair + 1);
+  return {name, name + "_MASTER"};
+}
+constexpr const char *kCurvePair = "PERIODIC_", *kFacePair = "PERIODIC_FACE_";
+
 UniqueLabels make_labels(const Mesh& mesh) {
   std::vector<UniqueLabels::Key> keys = keys_of(mesh.curves, 1), of_regions = keys_of(mesh.regions, 2);
   keys.insert(keys.end(), of_regions.begin(), of_regions.end());
@@ -47,6 +55,10 @@ UniqueLabels make_labels(const Mesh& mesh) {
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
     return a.first <= kRegionTag && b.first > kRegionTag;
   });
+  for (const auto& [kind, count] :
+       {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
+    for (size_t i = 0; i < count; ++i)
+      for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kPairs, name);
   return UniqueLabels(keys, {plain_label, true, kLongestName});
 }
 
@@ -89,8 +101,11 @@ class InpWriter {
     for (const NamedPoint& named : mesh_.named_points)
       for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
     for (auto* sets : {&element_sets_, &sides_}) write_sets("ELSET", *sets);
+    collect_pairs(kCurvePair, mesh_.periodic);
+    collect_pairs(kFacePair, mesh_.periodic_faces);
     write_sets("NSET", node_sets_);
-    write_periodic();
+    write_pairs(kCurvePair, mesh_.periodic);
+    write_pairs(kFacePair, mesh_.periodic_faces);
     write_surfaces();
   }
 
@@ -100,6 +115,7 @@ class InpWriter {
       out_ << "** "
            << (key.first == kPointName   ? "point"
                : key.first == kCurveName ? "curve"
+               : key.first == kPairs     ? "set"
                                          : "region")
            << " \"" << one_line(key.second) << "\" is " << label << '\n';
   }
@@ -207,23 +223,22 @@ class InpWriter {
     }
   }
 
-  /// Two node sets for each pair of curves and of faces, in the same order, as equations between sets take
-  /// them.
-  void write_periodic() {
-    write_pairs("PERIODIC_", mesh_.periodic);
-    write_pairs("PERIODIC_FACE_", mesh_.periodic_faces);
+  template <class Pair>
+  void collect_pairs(const char* kind, const std::vector<Pair>& pairs) {
+    for (size_t i = 0; i < pairs.size(); ++i)
+      for (const auto& nodes : pairs[i].nodes)
+        for (const int side : {0, 1})
+          add(node_sets_, labels_.of({kPairs, pair_names(kind, i)[side]}), {nodes[side] + 1});
   }
 
+  /// Which node is the image of which: sets have no order in both programs (CalculiX knows no UNSORTED), and
+  /// equations of CalculiX take nodes one by one.
   template <class Pair>
-  void write_pairs(const char* name, const std::vector<Pair>& pairs) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      for (const int side : {0, 1}) {
-        out_ << "*NSET, UNSORTED, NSET=" << name << i + 1 << (side == 0 ? "" : "_MASTER") << '\n';
-        const auto& nodes = pairs[i].nodes;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-          out_ << nodes[k][side] + 1
-               << (k + 1 == nodes.size() || (k + 1) % kNumbersPerLine == 0 ? "\n" : ", ");
-      }
+  void write_pairs(const char* kind, const std::vector<Pair>& pairs) {
+    for (size_t i = 0; i < pairs.size(); ++i)
+      for (const auto& nodes : pairs[i].nodes)
+        out_ << "** " << labels_.of({kPairs, pair_names(kind, i)[0]}) << ": " << nodes[0] + 1 << ", "
+             << nodes[1] + 1 << '\n';
   }
 
   void write_numbers(std::vector<int>& numbers, size_t per_line) {

@@ -359,8 +359,11 @@ TEST(PeriodicFaces, AreWritten) {
   EXPECT_NE(text.find("\n2 2 1\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n"), std::string::npos);
   EXPECT_NE(text.find("\n2 6 5\n16 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1\n"), std::string::npos);
   write_mesh(folder / "cell.inp", r.mesh);
+  const std::string inp = testing_support::read_text(folder / "cell.inp");
+  EXPECT_NE(inp.find("*NSET, NSET=PERIODIC_FACE_3_MASTER\n"), std::string::npos);
+  const auto [node, master] = r.mesh.periodic_faces[2].nodes[0];
   EXPECT_NE(
-      testing_support::read_text(folder / "cell.inp").find("*NSET, UNSORTED, NSET=PERIODIC_FACE_3_MASTER"),
+      inp.find("** PERIODIC_FACE_3: " + std::to_string(node + 1) + ", " + std::to_string(master + 1) + '\n'),
       std::string::npos);
   EXPECT_EQ(read_mesh(folder / "cell.msh").quads.size(), r.mesh.quads.size());
 }

@@ -1,0 +1,360 @@
+#!/usr/bin/python3
+"""CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM. Exit code 77: no ccx.
+
+PROBLEM: patch, shell_patch, strip, shell, periodic or materials.
+
+CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
+checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
+"""
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "readers"))
+from read_mesh import absent, inp_nodes, run_ccx, sets_of  # noqa: E402
+import shutil  # noqa: E402
+
+YOUNG, POISSON = 210000.0, 0.3
+ZERO = 1e-10  # what rounding leaves, as a part of what is not zero
+PRINTED = 1e-6  # seven digits, and what the solver's rounding adds to them
+
+PLATE = """loop = [
+  { rectangle = [[0, 0], [2, 1]], boundary = ["bottom", "right", "top", "left"], region = "plate" },
+  { circle = { centre = [0.6, 0.5], radius = 0.2 }, boundary = "small hole", hole = true },
+  { circle = { centre = [1.3, 0.55], radius = 0.25 }, boundary = "large hole", hole = true },
+]
+"""
+
+
+def mesh(delquad, folder, model, text, name, *arguments):
+    """Writes the model's text and meshes it; the path of the mesh."""
+    path, out = os.path.join(folder, model), os.path.join(folder, name)
+    if text:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+    subprocess.run([delquad, "-q", "mesh", path, "-o", out, *arguments], check=True)
+    return out
+
+
+def solve(folder, inp, section, lines, thickness=1.0):
+    """What is printed: for each request its title and rows of numbers."""
+    deck = [f"*INCLUDE, INPUT={os.path.basename(inp)}", "*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}",
+            f"*{section}, MATERIAL=STEEL", str(thickness), "*STEP", "*STATIC", *lines, "*END STEP", ""]
+    with open(os.path.join(folder, "deck.inp"), "w", encoding="utf-8") as file:
+        file.write("\n".join(deck))
+    run_ccx(folder, "deck")
+    blocks = []
+    with open(os.path.join(folder, "deck.dat"), encoding="utf-8") as file:
+        for line in file:
+            words = line.split()
+            if words and not re.match(r"[-0-9]", words[0]):
+                blocks.append([])
+            elif words:
+                blocks[-1].append([float(word) for word in words if word[0] != "_"])  # a shell's name behind its numbers
+    return [block for block in blocks if block]
+
+
+def elements_of(inp):
+    """Rows of nodes by the type of elements."""
+    found, rows = {}, None
+    with open(inp, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                kind = re.match(r"\*ELEMENT, TYPE=(\w+)", line)
+                rows = found.setdefault(kind[1], []) if kind else None
+            elif rows is not None:
+                rows.append([int(word) for word in line.split(",")[1:]])
+    return found
+
+
+def members(inp, keyword, name):
+    """Numbers in a set."""
+    found, inside = [], False
+    with open(inp, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                inside = line.strip() == f"*{keyword}, {keyword}={name}"
+            elif inside:
+                found += [int(word) for word in line.split(",") if word.strip()]
+    return found
+
+
+class Patch:
+    """A linear displacement in a plane that `turn` (rows: its axes in space) puts into space, and the stress that belongs to it."""
+
+    STRAIN = ((1e-3, 2e-3), (-0.5e-3, 0.7e-3))
+
+    def __init__(self, turn):
+        def in_space(a):
+            return [[sum(turn[k][i] * a[k][m] * turn[m][j] for k in (0, 1) for m in (0, 1)) for j in range(3)] for i in range(3)]
+
+        (xx, xy), (yx, yy) = self.STRAIN
+        e = YOUNG / (1 - POISSON ** 2)
+        shear = YOUNG / (2 * (1 + POISSON)) * (xy + yx)
+        self.gradient = in_space(self.STRAIN)
+        s = in_space(((e * (xx + POISSON * yy), shear), (shear, e * (yy + POISSON * xx))))
+        self.stress = [s[0][0], s[1][1], s[2][2], s[0][1], s[0][2], s[1][2]]
+
+    def at(self, point):
+        return [sum(g * x for g, x in zip(row, point)) for row in self.gradient]
+
+
+def largest(rows):
+    return max(abs(x) for row in rows for x in row)
+
+
+def check_patch(folder, inp, section, patch, label, exact=True):
+    """The displacement at all nodes: no forces inside. The displacement at the boundary: the same inside. The stress is one everywhere."""
+    nodes, sets = inp_nodes(inp), sets_of(inp)
+    on_boundary = {n for name in sets["NSET"] if re.fullmatch(r"curve_\d+", name) for n in members(inp, "NSET", name)}
+    free = [n for n in nodes if n not in on_boundary]
+    assert on_boundary and free
+    regions = [name for name in sets["ELSET"] if re.fullmatch(r"region_\d+", name)]
+    together = ["*ELSET, ELSET=ALL_OF_IT", *regions, "*NSET, NSET=ALL_NODES", *regions]
+    include = os.path.join(folder, "sets.inp")
+    with open(include, "w", encoding="utf-8") as file:
+        file.write("\n".join([f"*INCLUDE, INPUT={os.path.basename(inp)}", *together, ""]))
+    request = ["*NODE PRINT, NSET=ALL_NODES", "U, RF", "*EL PRINT, ELSET=ALL_OF_IT, GLOBAL=YES", "S"]
+    dimensions = range(2 if section.startswith("SOLID") else 3)
+
+    def given(numbers):
+        return ["*BOUNDARY", *(f"{n}, {i + 1}, {i + 1}, {patch.at(nodes[n])[i]:.13e}" for n in numbers for i in dimensions)]
+
+    _, forces, stresses = solve(folder, include, f"{section}, ELSET=ALL_OF_IT", given(nodes) + request)
+    force = {int(row[0]): row[1:] for row in forces}
+    inside = largest(force[n] for n in free) / largest(forces_on for n, forces_on in force.items() if n in on_boundary)
+    print(f"{label}: {len(nodes)} nodes, forces inside {inside:.1e} of those on the boundary", end="")
+    moved, _, stresses_of_it = solve(folder, include, f"{section}, ELSET=ALL_OF_IT", given(on_boundary) + request)
+    scale = largest(patch.at(p) for p in nodes.values())
+    assert len(moved) == len(nodes)
+    off = max(abs(u - v) for n, *row in moved for u, v in zip(row, patch.at(nodes[int(n)]))) / scale
+    stress = max(abs(s - t) for row in stresses + stresses_of_it for s, t in zip(row[2:], patch.stress)) / largest([patch.stress])
+    print(f", displacements {off:.1e} and stresses {stress:.1e} from exact")
+    return (inside < ZERO and off < PRINTED and stress < PRINTED) if exact else off < 0.01
+
+
+def patch(delquad, folder):
+    good = True
+    for order in "12":
+        inp = mesh(delquad, folder, "plate.toml", PLATE, "plate.inp", "--size", ".1", "--order", order)
+        kind = {"1": "CPS4", "2": "CPS8"}[order]
+        assert list(elements_of(inp)) == [kind], elements_of(inp).keys()
+        good &= check_patch(folder, inp, "SOLID SECTION", Patch([[1, 0, 0], [0, 1, 0]]), kind)
+    return good
+
+
+# Axes of a plane in space.
+TILTED = [[2 / 3, 2 / 3, 1 / 3], [-2 / 3, 1 / 3, 2 / 3]]
+
+
+def tilt(path, out):
+    """Wavefront's triangles of a planar mesh, in space."""
+    with open(path, encoding="utf-8") as read, open(out, "w", encoding="utf-8") as write:
+        for line in read:
+            if line.startswith("v "):
+                x, y, _ = map(float, line.split()[1:])
+                line = "v " + " ".join(repr(x * a + y * b) for a, b in zip(*TILTED)) + "\n"
+            if not line.startswith("l "):
+                write.write(line)
+
+
+def shell_patch(delquad, folder):
+    """S8R, and S4 on a grid. The S4 of CalculiX 2.20 (a brick with incompatible modes) does not hold a linear field on distorted
+    quads, which CPS4 holds on the same ones: there it must be near."""
+    good = True
+    grid = 'loop = { rectangle = [[0, 0], [2, 1]], region = "plate" }\n'
+    for name, text, order, arguments in (("holes", PLATE, "2", []), ("grid", grid, "1", ["--mapped", "auto"]), ("holes", PLATE, "1", [])):
+        tilt(mesh(delquad, folder, "plate.toml", text, "plate.obj", "--size", ".1"), os.path.join(folder, "tilted.obj"))
+        inp = mesh(delquad, folder, "tilted.obj", "", "tilted.inp", "--size", ".1", "--order", order, *arguments)
+        kind = {"1": "S4", "2": "S8R"}[order]
+        assert list(elements_of(inp)) == [kind], elements_of(inp).keys()
+        good &= check_patch(folder, inp, "SHELL SECTION", Patch(TILTED), f"{kind}, {name}", kind == "S8R" or name == "grid")
+    return good
+
+
+def read_nodes(path, kind):
+    """The last result of a kind at the nodes, of a .frd file: values by number."""
+    rows, inside = {}, False
+    with open(path, encoding="latin-1") as file:
+        for line in file:
+            if line.startswith(" -4"):
+                inside = line.split()[1] == kind
+            elif line.startswith(" -3"):
+                inside = False
+            elif line.startswith(" -1") and inside:
+                rows[int(line[3:13])] = [float(line[at:at + 12]) for at in range(13, len(line.rstrip()), 12)]
+    return rows
+
+
+# A quarter of a strip of width 10 with a hole of diameter 2. Stress at the hole over that far away, by
+# R. C. J. Howland, On the stresses in the neighbourhood of a circular hole in a strip under tension, 1930.
+STRIP = """curve = [
+  { name = "axis", segment = [[1, 0], [15, 0]] },
+  { name = "end", segment = [[15, 0], [15, 5]] },
+  { name = "side", segment = [[15, 5], [0, 5]] },
+  { name = "middle", segment = [[0, 5], [0, 1]] },
+  { name = "hole", arc = { centre = [0, 0], radius = 1, from = 90, to = 0 } },
+]
+loop = { curves = ["axis", "end", "side", "middle", "hole"], region = "strip" }
+size = "min(0.17, 0.014 + 0.055 * (sqrt(x^2 + y^2) - 1))"
+"""
+HOWLAND = 3.14
+THIN = 0.01  # CalculiX makes bricks of plane elements: what varies along the plane must not vary over their thickness
+
+
+def strip(delquad, folder):
+    """As plane stress, by CPS8, and as a shell, by S8R of the same mesh."""
+    plane = mesh(delquad, folder, "strip.toml", STRIP, "plane.inp", "--order", "2")
+    with open(plane, encoding="utf-8") as file:
+        text = file.read()
+    shell = os.path.join(folder, "shell.inp")
+    with open(shell, "w", encoding="utf-8") as file:
+        file.write(text[:text.index("*SURFACE")].replace("TYPE=CPS8", "TYPE=S8R"))
+    ends = [name for name in sets_of(plane)["ELSET"] if name.startswith("_end_S")]
+    on_shell = ["*DLOAD", *(f"{name}, EDNOR{name[-1]}, {-THIN}" for name in ends)]  # force by length
+    good = True
+    for kind, inp, section, load in (("CPS8", plane, "SOLID SECTION", ["*DSLOAD", "end, P, -1."]),
+                                     ("S8R", shell, "SHELL SECTION", ["strip, 3", *on_shell])):
+        solve(folder, inp, f"{section}, ELSET=strip",
+              ["*BOUNDARY", "middle, 1", "axis, 2", *load, "*NODE FILE, OUTPUT=2D", "U", "*EL FILE", "S"], THIN)
+        stress = read_nodes(os.path.join(folder, "deck.frd"), "STRESS")
+        most = max(stress, key=lambda n: stress[n][0])
+        x, y, _ = inp_nodes(inp)[most]
+        off = stress[most][0] / HOWLAND - 1
+        print(f"{kind}: {len(elements_of(inp)[kind])} quads, stress {stress[most][0]:.5g} at ({x:g}, {y:g}): {off:+.2%} from Howland's")
+        good &= abs(off) < 0.01 and math.dist((x, y), (0, 1)) < 1e-9
+    return good
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def total(rows):
+    return [math.fsum(row[k] for row in rows) for k in range(3)]
+
+
+LOAD = [2.0, 3.0, 5.0]
+
+
+def shell(delquad, folder):
+    """Two pipes, held at the ends of one: what pulls at the other arrives there, with its moment; pressure acts along normals."""
+    subprocess.run([delquad, "-q", "example", "pipe_tee", "-o", os.path.join(folder, "tee.step")], check=True, capture_output=True)
+    good = True
+    for order in "12":
+        inp = mesh(delquad, folder, "tee.step", "", "tee.inp", "--size", "6", "--order", order)
+        nodes = inp_nodes(inp)
+        pulled = members(inp, "NSET", "curve_6")
+        each = [x / len(pulled) for x in LOAD]
+        held = ["*BOUNDARY", "curve_2, 1, 3", "curve_3, 1, 3"]
+        with open(os.path.join(folder, "sets.inp"), "w", encoding="utf-8") as file:
+            file.write("*INCLUDE, INPUT=tee.inp\n*ELSET, ELSET=ALL_OF_IT\nregion_1\nregion_2\n*NSET, NSET=ENDS\ncurve_2\ncurve_3\n")
+        section, forces = "SHELL SECTION, ELSET=ALL_OF_IT", ["*NODE PRINT, NSET=ENDS", "RF"]
+        pull = ["*CLOAD", *(f"{n}, {k + 1}, {each[k]:.13e}" for n in pulled for k in range(3))]
+        rows, = solve(folder, os.path.join(folder, "sets.inp"), section, held + pull + forces)
+        off = max(abs(a + b) for a, b in zip(total([row[1:] for row in rows]), LOAD)) / max(LOAD)
+        moment = total([cross(nodes[n], each) for n in pulled])
+        against = total([cross(nodes[int(row[0])], row[1:]) for row in rows])
+        turning = max(abs(a + b) for a, b in zip(against, moment)) / max(map(abs, moment))
+        rows, = solve(folder, os.path.join(folder, "sets.inp"), section, held + ["*DLOAD", "ALL_OF_IT, P, 1."] + forces, 0.1)
+        found, wanted = total([row[1:] for row in rows]), math.pi * 15 ** 2
+        print(f"order {order}: forces {off:.1e} and moments {turning:.1e} out of balance, pressure holds {found}, a disc {wanted:.6g}")
+        # Circles are polygons at order 1; at the sharp curve the bricks that CalculiX makes of shells overlap.
+        good &= off < PRINTED and turning < 10 * PRINTED and max(abs(found[0]), abs(found[1])) < 2e-3 * wanted
+        good &= abs(found[2] / wanted - 1) < {"1": 0.03, "2": 0.003}[order]
+    return good
+
+
+def cell_model(x, periodic):
+    """A cell with a hole around (x, 0.5)."""
+    text = f"""loop = [
+  {{ rectangle = [[0, 0], [2, 1]], boundary = ["bottom", "periodic_1", "top", "left"], region = "cell" }},
+  {{ circle = {{ centre = [{x}, 0.5], radius = 0.2 }}, boundary = "hole", hole = true }},
+]
+size = 0.05
+order = 2
+"""
+    return text + periodic * 'periodic = [{ from = "left", to = "periodic_1", translate = [2, 0] }]\n'
+
+
+def periodic(delquad, folder):
+    """A row of cells, pulled: where the hole is in its cell makes no difference to the force. One cell has equations for its pairs of
+    nodes, the other has its hole in the middle, and sides that stay straight. A curve has the name that the pairs' set would have."""
+    pull, found = 1e-3, {}
+    for x, has_pairs in ((0.5, True), (1.0, False)):
+        inp = mesh(delquad, folder, "cell.toml", cell_model(x, has_pairs), "cell.inp")
+        nodes = inp_nodes(inp)
+        far, lines = max(nodes) + 1, []  # a node whose displacement is the stretch of the cell
+        if has_pairs:
+            with open(inp, encoding="utf-8") as file:
+                pairs = re.findall(r"^\*\* PERIODIC_1_2: (\d+), (\d+)$", file.read(), re.MULTILINE)
+            images = members(inp, "NSET", "PERIODIC_1_2")
+            assert sorted(int(n) for n, _ in pairs) == images == members(inp, "NSET", "periodic_1") and len(images) > 30
+            assert sorted(int(n) for _, n in pairs) == members(inp, "NSET", "PERIODIC_1_MASTER")
+            lines = ["*NODE", f"{far}, 0., 0., 0."]
+            for node, master in pairs:
+                assert math.dist(nodes[int(node)], nodes[int(master)]) == 2 and nodes[int(node)][0] == 2
+                lines += ["*EQUATION", "3", f"{node}, 1, 1., {master}, 1, -1., {far}, 1, -1."]
+                lines += ["*EQUATION", "2", f"{node}, 2, 1., {master}, 2, -1."]
+            fixed = [f"{pairs[0][1]}, 1, 2", f"{far}, 1, 1, {pull}"]
+        else:
+            fixed = ["left, 1", "periodic_1, 1, 1, %r" % pull, f"{members(inp, 'NSET', 'left')[0]}, 2"]
+        with open(os.path.join(folder, "pairs.inp"), "w", encoding="utf-8") as file:
+            file.write("\n".join(["*INCLUDE, INPUT=cell.inp", *lines, ""]))
+        rows, = solve(folder, os.path.join(folder, "pairs.inp"), "SOLID SECTION, ELSET=cell",
+                      ["*BOUNDARY", *fixed, "*NODE PRINT, NSET=left", "RF"], THIN)
+        found[has_pairs] = -math.fsum(row[1] for row in rows)
+    off = found[True] / found[False] - 1
+    print(f"force of a cell with equations {found[True]:.7g}, by symmetry {found[False]:.7g}: {off:+.1e}")
+    return abs(off) < 1e-4
+
+
+BAR = """loop = [
+  { rectangle = [[0, 0], [1, 1]], boundary = ["", "", "", "left"], region = "steel" },
+  { rectangle = [[1, 0], [2, 1]], boundary = ["", "right", "", "weld"], region = "half as stiff" },
+]
+embed = [{ point = [0.55, 0.4], name = "sensor" }]
+size = 0.11
+"""
+
+
+def materials(delquad, folder):
+    """A bar of two materials between smooth walls, pulled: a linear displacement in each, which a sensor and the weld show. Plane
+    strain, as a change of types makes it: in plane stress CalculiX's nodes at the weld have one thickness for both materials."""
+    good, pull = True, 100.0
+    unit = pull * (1 + POISSON) * (1 - 2 * POISSON) / (1 - POISSON) / YOUNG
+    for order in "12":
+        inp = mesh(delquad, folder, "bar.toml", BAR, "bar.inp", "--order", order)
+        with open(inp, encoding="utf-8") as file:
+            text = file.read()
+        with open(inp, "w", encoding="utf-8") as file:
+            file.write(text.replace("TYPE=CPS", "TYPE=CPE"))
+        deck = os.path.join(folder, "second.inp")
+        with open(deck, "w", encoding="utf-8") as file:
+            file.write(f"*INCLUDE, INPUT=bar.inp\n*MATERIAL, NAME=SECOND\n*ELASTIC\n{YOUNG / 2}, {POISSON}\n"
+                       f"*SOLID SECTION, ELSET=half_as_stiff, MATERIAL=SECOND\n{THIN}\n")
+        names = ["sensor", "weld", "right"]
+        blocks = solve(folder, deck, "SOLID SECTION, ELSET=steel",
+                       ["*BOUNDARY", "left, 1", "steel, 2", "half_as_stiff, 2", "*DSLOAD", f"right, P, {-pull}",
+                        *(line for name in names for line in (f"*NODE PRINT, NSET={name}", "U"))], THIN)
+        off = max(abs(row[1] / (x * unit) - 1) for rows, x in zip(blocks, (0.55, 1, 3)) for row in rows)
+        print(f"order {order}: {' '.join(str(len(rows)) for rows in blocks)} nodes, displacements {off:.1e} from exact")
+        good &= off < PRINTED and len(blocks[0]) == 1 and len(blocks[1]) == len(blocks[2]) > 5
+    return good
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials)}
+
+
+def main():
+    if not shutil.which("ccx"):
+        absent("CalculiX is not installed (calculix-ccx)")
+    with tempfile.TemporaryDirectory() as folder:
+        return 0 if PROBLEMS[sys.argv[2]](os.path.abspath(sys.argv[1]), folder) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
