@@ -105,10 +105,10 @@ std::string extrusion_record(const ExtrudeArguments& arguments, const HexMesh& m
 
 int extrude_command(const ExtrudeArguments& arguments) {
   check_hex_format(arguments.output, arguments.binary);
-  check_distinct({{"the mesh", arguments.mesh},
-                  {"--curve", arguments.curve},
-                  {"-o", arguments.output},
-                  {"--json", arguments.json}});
+  // The curve may lie in the mesh's own file.
+  for (const auto& [what, path] : {std::pair<std::string, std::filesystem::path>("the mesh", arguments.mesh),
+                                   std::pair<std::string, std::filesystem::path>("--curve", arguments.curve)})
+    check_distinct({{what, path}, {"-o", arguments.output}, {"--json", arguments.json}});
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
   const RunScope scope({.threads = arguments.threads});
