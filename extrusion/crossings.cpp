@@ -36,7 +36,8 @@ std::optional<Vec3> edge_through(const Corners& edges, const Corners& triangle) 
 }  // namespace
 
 std::optional<Crossing> find_crossing(const std::vector<Vec3>& points,
-                                      const std::vector<std::array<int, 3>>& triangles) {
+                                      const std::vector<std::array<int, 3>>& triangles,
+                                      const std::function<bool(int, int)>& may_cross) {
   const auto corners_of = [&](std::size_t t) {
     return Corners{points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
   };
@@ -58,7 +59,8 @@ std::optional<Crossing> find_crossing(const std::vector<Vec3>& points,
           std::vector<Crossing> of_this;
           tree.search(0, far, [&](int other) {
             if (other == static_cast<int>(t) || !boxes[other].overlaps(boxes[t])) return;
-            if (const auto place = edge_through(at, corners_of(static_cast<std::size_t>(other))))
+            const auto place = edge_through(at, corners_of(static_cast<std::size_t>(other)));
+            if (place && !may_cross(static_cast<int>(t), other))
               of_this.push_back({static_cast<int>(t), other, *place});
           });
           if (of_this.empty()) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,9 +14,10 @@ struct Crossing {
   Vec3 at;
 };
 
-/// The first of the triangles that an edge of another one goes through, both ends of which lie beside its
-/// plane, decided exactly. Triangles may touch, and lie on each other.
-std::optional<Crossing> find_crossing(const std::vector<Vec3>& points,
-                                      const std::vector<std::array<int, 3>>& triangles);
+/// The first of the triangles an edge of which goes through another one, both ends beside its plane, decided
+/// exactly. Triangles may touch, and lie on each other; pairs that `may_cross` are left out.
+std::optional<Crossing> find_crossing(
+    const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
+    const std::function<bool(int, int)>& may_cross = [](int, int) { return false; });
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -23,11 +24,19 @@ class Levels {
  public:
   Levels(const Section& section, const LayeredPoints& layered)
       : n_(static_cast<int>(section.mesh.points.size())),
-        n_levels_(layered.n_layers + (layered.is_closed ? 0 : 1)) {}
+        n_levels_(layered.n_layers + (layered.is_closed ? 0 : 1)),
+        is_closed_(layered.is_closed) {}
   int point(int i, int level) const { return level % n_levels_ * n_ + i; }
+  int section_point(int point) const { return point % n_; }
+  /// How many layers of nodes lie between two points, the shorter way round.
+  int distance(int a, int b) const {
+    const int d = std::abs(a / n_ - b / n_);
+    return is_closed_ ? std::min(d, n_levels_ - d) : d;
+  }
 
  private:
   int n_, n_levels_;
+  bool is_closed_;
 };
 
 /// Layer after layer, each in the order of the quads.
@@ -126,7 +135,15 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
       triangles.push_back({at.point(a, layer), at.point(b, layer + 1), at.point(a, layer + 1)});
     }
   }
-  if (const auto crossing = find_crossing(layered.points, triangles))
+  // Around a point hexahedra that are positive do not meet, but triangles in the place of warped quads may.
+  const auto are_neighbours = [&](int first, int second) {
+    for (const int a : triangles[first])
+      for (const int b : triangles[second])
+        if (at.section_point(a) == at.section_point(b) && (layered.is_straight || at.distance(a, b) <= 1))
+          return true;
+    return false;
+  };
+  if (const auto crossing = find_crossing(layered.points, triangles, are_neighbours))
     throw InputError(fmt::format("the swept body meets itself at {}", place(crossing->at)));
 }
 

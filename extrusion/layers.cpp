@@ -34,13 +34,12 @@ void require_layers(const Section& section, const SweepLayers& layers, long long
         fmt::format("{} layers of {} points are more points than can be numbered", number, n_points));
 }
 
-/// `place_of`: a point's place in a layer of nodes. The first layer is where the section is, unless it moves.
+/// Fills in the points of `result`. `place_of`: a point's place in a layer of nodes.
 template <class PlaceOf>
-LayeredPoints make_points(const Section& section, int n_layers, bool is_closed, const PlaceOf& place_of) {
+LayeredPoints make_points(const Section& section, LayeredPoints result, const PlaceOf& place_of) {
   const std::vector<Vec3>& from = section.mesh.points;
   const std::size_t n = from.size();
-  LayeredPoints result{{}, n_layers, is_closed};
-  const std::size_t n_levels = static_cast<std::size_t>(n_layers) + (is_closed ? 0 : 1);
+  const std::size_t n_levels = static_cast<std::size_t>(result.n_layers) + (result.is_closed ? 0 : 1);
   result.points.resize(n * n_levels);
   parallel_for(n_levels, [&](std::size_t level) {
     check_cancelled();
@@ -60,7 +59,7 @@ LayeredPoints along(const Section& section, const AlongVector& path, const Sweep
         fmt::format("the vector {}: expected finite numbers that are not all 0", place(path.shift)));
   require_layers(section, layers, layers.number);
   const std::vector<double> ends = layer_ends(layers.number, layers.growth);
-  return make_points(section, layers.number, false, [&](std::size_t i, std::size_t level) {
+  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
     return section.mesh.points[i] + ends[level] * path.shift;
   });
 }
@@ -87,7 +86,7 @@ LayeredPoints along(const Section& section, const AroundAxis& path, const SweepL
   std::vector<Motion> turns;
   for (const double end : ends)
     turns.push_back({{}, end * path.degrees * std::numbers::pi / 180, path.point, path.axis});
-  return make_points(section, layers.number, is_closed, [&](std::size_t i, std::size_t level) {
+  return make_points(section, {{}, layers.number, is_closed, false}, [&](std::size_t i, std::size_t level) {
     return level == 0 ? section.mesh.points[i] : turns[level](section.mesh.points[i]);
   });
 }
@@ -107,7 +106,7 @@ LayeredPoints along(const Section& section, const AlongCurve& path, const SweepL
   require_layers(section, layers, static_cast<long long>(line.size()) - 1);
   const std::vector<Frame> frames = moving_frames(line);
   return make_points(
-      section, static_cast<int>(line.size()) - 1, false, [&](std::size_t i, std::size_t level) {
+      section, {{}, static_cast<int>(line.size()) - 1, false, false}, [&](std::size_t i, std::size_t level) {
         const Vec3& p = section.mesh.points[i];
         return level == 0 ? p : line[level] + frames[level].turned(frames[0].parts(p - line[0]));
       });
@@ -121,7 +120,7 @@ LayeredPoints along(const Section& section, const AlongNormals& path, const Swee
   const std::vector<double> ends = layer_ends(layers.number, layers.growth);
   const std::vector<Vec3> directions = offset_directions(section);
   const double start = path.both_sides ? -0.5 : 0;
-  return make_points(section, layers.number, false, [&](std::size_t i, std::size_t level) {
+  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
     return section.mesh.points[i] + (start + ends[level]) * path.thickness * directions[i];
   });
 }

@@ -9,8 +9,9 @@ namespace delquad {
 /// The section's points, once for each layer of nodes, which follow each other.
 struct LayeredPoints {
   std::vector<Vec3> points;
-  int n_layers = 0;        ///< of hexahedra
-  bool is_closed = false;  ///< above the last layer of nodes comes the first one
+  int n_layers = 0;          ///< of hexahedra
+  bool is_closed = false;    ///< above the last layer of nodes comes the first one
+  bool is_straight = false;  ///< each point of the section moves along a straight line
 };
 
 /// Where layers end, from 0 to 1: each is `growth` times as high as the one before.

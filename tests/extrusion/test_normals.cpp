@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "extrusion/vertex_normals.h"
 #include "tests/extrusion/hex_checks.h"
 #include "tests/support/expect_input_error.h"
@@ -76,6 +78,28 @@ TEST(Normals, EachPlaneMovesByTheThickness) {
       EXPECT_NEAR(step.y, 0, 1e-13);
     }
   }
+}
+
+/// Quads so warped that flat triangles in their place cross those of the other side: no reason to refuse.
+TEST(Normals, CoarseMeshesOfRoundBodiesGetThinWalls) {
+  std::mt19937_64 random(3);
+  const auto noise = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  int swept = 0;
+  for (int k = 0; k < 100; ++k) {
+    Mesh torus;
+    add_patch(torus, 9, 4, [](double s, double t) {
+      const double a = 2 * kPi * s, b = 2 * kPi * t;
+      return Vec3{(20 + 8 * std::cos(b)) * std::cos(a), (20 + 8 * std::cos(b)) * std::sin(a),
+                  8 * std::sin(b)};
+    });
+    for (Vec3& p : torus.points) p = p + 5 * Vec3{noise(), noise(), noise()};
+    const std::string message = message_of([&] { expect_sound(extrude(torus, AlongNormals{1e-6}, {2})); });
+    swept += message.empty();
+    if (!message.empty()) {
+      EXPECT_NE(message.find("inverted"), std::string::npos) << message;
+    }
+  }
+  EXPECT_GT(swept, 30);
 }
 
 /// Quads of a noisy roof: the ridge must not run away along itself.
