@@ -8,7 +8,7 @@
 
 #include "base/predicates.h"
 #include "delquad/error.h"
-#include "extrusion/moving_frame.h"
+#include "extrusion/moving_section.h"
 
 namespace delquad {
 

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/box.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "extrusion/axis.h"
-#include "extrusion/moving_frame.h"
+#include "extrusion/moving_section.h"
 #include "extrusion/vertex_normals.h"
 
 namespace delquad {
@@ -104,12 +105,12 @@ LayeredPoints along(const Section& section, const AlongCurve& path, const SweepL
     line = points_at_lengths(line, layer_ends(layers.number, layers.growth));
   }
   require_layers(section, layers, static_cast<long long>(line.size()) - 1);
-  const std::vector<Frame> frames = moving_frames(line);
-  return make_points(
-      section, {{}, static_cast<int>(line.size()) - 1, false, false}, [&](std::size_t i, std::size_t level) {
-        const Vec3& p = section.mesh.points[i];
-        return level == 0 ? p : line[level] + frames[level].turned(frames[0].parts(p - line[0]));
-      });
+  const int n_layers = static_cast<int>(line.size()) - 1;
+  const MovingSection moving(std::move(line));
+  return make_points(section, {{}, n_layers, false, false}, [&](std::size_t i, std::size_t level) {
+    const Vec3& p = section.mesh.points[i];
+    return level == 0 ? p : moving.place(p, level);
+  });
 }
 
 LayeredPoints along(const Section& section, const AlongNormals& path, const SweepLayers& layers) {

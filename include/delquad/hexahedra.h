@@ -37,10 +37,10 @@ struct AroundAxis {
   Vec3 point, axis;      ///< the axis need not have unit length
   double degrees = 360;  ///< counterclockwise seen from where the axis points to; at most +-360, which closes
 };
-/// Along a polyline. The quads move with a frame on it that turns about its own tangent nowhere, from where
-/// they are, which need not be at the line's first point. Tangents halve the angles between segments; at the
-/// ends they go on as at the next point, where segments turn by less than 40 degrees, else they are those of
-/// the segments.
+/// Along a polyline. The quads move with it from where they are, which need not be at its first point, and
+/// turn with its tangent, but not about it. Along a segment they keep their profile, so that legs which meet
+/// at a corner are mitred. Tangents halve the angles between segments; at the ends they go on as at the next
+/// point where segments turn by less than 40 degrees there, else they are those of the segments.
 struct AlongCurve {
   std::vector<Vec3> points;  ///< an open line
 };

@@ -1,10 +1,11 @@
-#include "extrusion/moving_frame.h"
+#include "extrusion/moving_section.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "delquad/error.h"
 #include "extrusion/section.h"
@@ -20,9 +21,13 @@ constexpr double kTurnsBack = 0.0175;
 
 Vec3 unit(const Vec3& v) { return (1 / norm(v)) * v; }
 
-std::vector<Vec3> tangents_of(const std::vector<Vec3>& line) {
-  std::vector<Vec3> along;  // the segments
+std::vector<Vec3> segments_of(const std::vector<Vec3>& line) {
+  std::vector<Vec3> along;
   for (std::size_t i = 1; i < line.size(); ++i) along.push_back(unit(line[i] - line[i - 1]));
+  return along;
+}
+
+std::vector<Vec3> tangents_of(const std::vector<Vec3>& line, const std::vector<Vec3>& along) {
   std::vector<Vec3> tangents = {along.front()};
   for (std::size_t i = 1; i < along.size(); ++i) {
     const Vec3 sum = along[i - 1] + along[i];
@@ -72,26 +77,31 @@ std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::ve
   return points;
 }
 
-std::vector<Frame> moving_frames(const std::vector<Vec3>& line) {
-  check_open_line(line);
-  const std::vector<Vec3> tangents = tangents_of(line);
-  const Vec3 first = unit_across(tangents[0]);
-  std::vector<Frame> frames = {{tangents[0], first, cross(tangents[0], first)}};
-  for (std::size_t i = 1; i < tangents.size(); ++i) {
-    const Frame& from = frames.back();
-    const Vec3 axis = cross(from.tangent, tangents[i]);  // as long as the angle's sine
-    const double cosine = dot(from.tangent, tangents[i]);
-    const auto turn = [&](const Vec3& v) {
-      const Vec3 once = cross(axis, v);
-      return v + once + (1 / (1 + cosine)) * cross(axis, once);
-    };
-    if (1 + cosine < kTurnsBack) throw InputError("the curve turns back at " + place(line[i]));
-    // Kept at right angles, however many points there are.
-    const Vec3 turned = turn(from.first);
-    const Vec3 next = unit(turned - dot(turned, tangents[i]) * tangents[i]);
-    frames.push_back({tangents[i], next, cross(tangents[i], next)});
+MovingSection::MovingSection(std::vector<Vec3> line) : line_(std::move(line)) {
+  check_open_line(line_);
+  const std::vector<Vec3> along = segments_of(line_);
+  tangents_ = tangents_of(line_, along);
+  const Vec3 first = unit_across(along[0]);
+  frames_ = {{along[0], first, cross(along[0], first)}};
+  for (std::size_t i = 1; i < along.size(); ++i) {
+    const Frame& from = frames_.back();
+    const Vec3 axis = cross(from.along, along[i]);  // as long as the angle's sine
+    const Vec3 once = cross(axis, from.first);
+    const Vec3 turned = from.first + once + (1 / (1 + dot(from.along, along[i]))) * cross(axis, once);
+    // Kept at right angles, however many segments there are.
+    const Vec3 next = unit(turned - dot(turned, along[i]) * along[i]);
+    frames_.push_back({along[i], next, cross(along[i], next)});
   }
-  return frames;
+}
+
+Vec3 MovingSection::place(const Vec3& p, std::size_t i) const {
+  const Vec3 given = p - line_[0];
+  const double height = dot(given, tangents_[0]);
+  const Vec3 in_plane = given - height * tangents_[0];
+  const Frame &from = frames_[0], &to = frames_[std::min(i, frames_.size() - 1)];
+  const Vec3 profile = dot(in_plane, from.first) * to.first + dot(in_plane, from.second) * to.second;
+  const double slide = dot(profile, tangents_[i]) / dot(to.along, tangents_[i]);
+  return line_[i] + height * tangents_[i] + (profile - slide * to.along);
 }
 
 }  // namespace delquad
