@@ -63,15 +63,32 @@ void check_open_line(const std::vector<Vec3>& line) {
 }
 
 std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::vector<double>& parts) {
+  const std::vector<Vec3> along = segments_of(line);
   std::vector<double> lengths = {0};
   for (std::size_t i = 1; i < line.size(); ++i)
     lengths.push_back(lengths.back() + norm(line[i] - line[i - 1]));
+  std::vector<double> at;
+  for (const double part : parts) at.push_back(part * lengths.back());
+  std::size_t next_free = 1;
+  for (std::size_t i = 1; i < along.size(); ++i) {
+    if (dot(along[i - 1], along[i]) > kSmoothCosine) continue;
+    std::size_t nearest = next_free;
+    while (nearest + 2 < at.size() &&
+           std::abs(at[nearest + 1] - lengths[i]) < std::abs(at[nearest] - lengths[i]))
+      ++nearest;
+    const bool fits = nearest + 1 < at.size() && at[nearest - 1] < lengths[i] && lengths[i] < at[nearest + 1];
+    if (!fits)
+      throw InputError(
+          fmt::format("{} layers are too few for the corners of the curve: none is left for that at {}",
+                      parts.size() - 1, place(line[i])));
+    at[nearest] = lengths[i];
+    next_free = nearest + 1;
+  }
   std::vector<Vec3> points;
-  for (const double part : parts) {
-    const double at = part * lengths.back();
-    const auto next = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, at);
+  for (const double length : at) {
+    const auto next = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, length);
     const auto i = static_cast<std::size_t>(next - lengths.begin());
-    const double t = std::min(1.0, (at - lengths[i - 1]) / (lengths[i] - lengths[i - 1]));
+    const double t = std::min(1.0, (length - lengths[i - 1]) / (lengths[i] - lengths[i - 1]));
     points.push_back(t == 1 ? line[i] : line[i - 1] + t * (line[i] - line[i - 1]));
   }
   return points;

@@ -53,8 +53,8 @@ struct AlongNormals {
 using SweepPath = std::variant<AlongVector, AroundAxis, AlongCurve, AlongNormals>;
 
 struct SweepLayers {
-  /// 0: of a curve one for each segment. Else layers lie at equal (graded) lengths of the curve, whose
-  /// corners are cut.
+  /// 0: of a curve one for each segment. Else layers of curves end at equal (graded) lengths, but at each
+  /// corner of 40 degrees or more the nearest one does.
   int number = 0;
   double growth = 1;  ///< each layer's height over that of the one before
   long long max_elements = 50'000'000;

@@ -178,6 +178,15 @@ TEST(Extrude, LegsKeepTheirProfile) {
     const Vec3 &a = pipe.points[16 + i], &b = pipe.points[32 + i];
     EXPECT_NEAR(norm(Vec3{0, a.y - b.y, a.z - b.z}), 0, 1e-12);
   }
+  // Layers end at corners, wherever they would have been.
+  const std::vector<Vec3> bent = {{0, 0, 0}, {0, 9, 0}, {20, 9, 0}, {25, 14, 0}, {25, 14, 30}};
+  for (const int layers : {4, 5, 17}) {
+    const HexMesh mesh = extrude(plate, AlongCurve{bent}, {layers, 0.97});
+    expect_sound(mesh);
+    EXPECT_EQ(mesh.hexahedra.size(), 8u * layers);
+    EXPECT_NEAR(measure(mesh).volume, measure(pipe).volume, 1e-9);
+  }
+  expect_input_error([&] { extrude(plate, AlongCurve{bent}, {3}); }, {"3 layers are too few", "(25, 14, 0)"});
 }
 
 TEST(Extrude, BendsAndBadCurves) {
