@@ -77,14 +77,21 @@ std::vector<Entity> with_names(std::vector<Entity> entities, int dim) {
   return entities;
 }
 
-/// The least number above 0 that no entity has.
-int free_tag(const std::vector<Entity>& entities) {
-  std::set<int> taken;
-  for (const Entity& entity : entities) taken.insert(entity.tag);
-  int tag = 1;
-  while (taken.contains(tag)) ++tag;
-  return tag;
-}
+/// Numbers above 0 that no entity has, the least first.
+class FreeTags {
+ public:
+  explicit FreeTags(const std::vector<Entity>& entities) {
+    for (const Entity& entity : entities) taken_.insert(entity.tag);
+  }
+  int take() {
+    while (taken_.contains(next_)) ++next_;
+    return next_++;
+  }
+
+ private:
+  std::set<int> taken_;
+  int next_ = 1;
+};
 
 void require_positive(const Section& section, const std::vector<Entity>& volumes,
                       const std::vector<Vec3>& points, const std::vector<std::array<int, 8>>& hexahedra) {
@@ -109,8 +116,7 @@ void require_positive(const Section& section, const std::vector<Entity>& volumes
   const std::size_t n = section.mesh.quads.size();
   throw InputError(fmt::format(
       "{} of {} hexahedra are inverted or flat, the worst in layer {} of '{}' at {} with a scaled Jacobian "
-      "of {:.3g}: "
-      "the sweep is too thick, or bends too much, for the section",
+      "of {:.3g}: the sweep is too thick, or bends too much, for the section",
       n_bad, hexahedra.size(), worst / n + 1, volumes[section.mesh.quad_region[worst % n]].names[0],
       place(centre), least));
 }
@@ -152,7 +158,7 @@ void add_walls(const Section& section, const LayeredPoints& layered, HexMesh& re
   std::vector<Entity> curves = section.mesh.curves;
   const int nameless = static_cast<int>(curves.size());
   if (std::ranges::any_of(section.walls, [](const WallEdge& wall) { return wall.curve < 0; }))
-    curves.push_back({free_tag(curves), {}});
+    curves.push_back({FreeTags(curves).take(), {}});
   result.faces = with_names(std::move(curves), 1);
   for (int layer = 0; layer < layered.n_layers; ++layer)
     for (const WallEdge& wall : section.walls) {
@@ -165,10 +171,11 @@ void add_walls(const Section& section, const LayeredPoints& layered, HexMesh& re
 /// Faces where the sweep starts and ends, after those of the walls.
 void add_caps(const Section& section, const LayeredPoints& layered, HexMesh& result) {
   const Levels at(section, layered);
+  FreeTags tags(result.faces);
   for (const bool is_end : {false, true}) {
     const int first = static_cast<int>(result.faces.size());
     for (Entity face : result.volumes) {
-      face.tag = free_tag(result.faces);
+      face.tag = tags.take();
       for (std::string& name : face.names) name += is_end ? " end" : " start";
       result.faces.push_back(std::move(face));
     }
