@@ -96,6 +96,19 @@ struct MetricsArguments {
 };
 int metrics_command(const MetricsArguments& arguments);
 
+struct ExtrudeArguments {
+  std::filesystem::path mesh, output, json;
+  std::string along, around, curve;  ///< as they were typed; empty: another way
+  bool normals = false, both_sides = false;
+  std::optional<double> angle, thickness;
+  int layers = 0;  ///< 0: of a curve as many as it has segments
+  double growth = 1;
+  long long max_elements = 50'000'000;
+  int threads = thread_count();
+  bool binary = false;
+};
+int extrude_command(const ExtrudeArguments& arguments);
+
 struct CompareArguments {
   std::filesystem::path before, after;  ///< folders of results, or meshes
   std::vector<std::string> metrics = {"eta_mean", "eta_worst", "d4", "tau", "percent_quads"};

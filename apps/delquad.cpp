@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "apps/commands.h"
+#include "apps/extrude_options.h"
 #include "base/context.h"
 #include "cases/case.h"
 #include "cases/problem.h"
@@ -327,6 +328,15 @@ void add_metrics(CLI::App& app, MetricsArguments& arguments, CommonArguments& co
   add_time_limit(*metrics, common);
 }
 
+void add_extrude(CLI::App& app, ExtrudeArguments& arguments, CommonArguments& common) {
+  CLI::App* extrude = add_extrude(app, arguments);
+  extrude->add_option("--max-elements", arguments.max_elements, "refuse to make more hexahedra than this")
+      ->capture_default_str()
+      ->transform(kCount);
+  extrude->add_option("--threads", arguments.threads, kThreadsHelp)->check(CLI::Range(1, kMostThreads));
+  add_time_limit(*extrude, common);
+}
+
 void add_compare(CLI::App& app, CompareArguments& arguments) {
   CLI::App* compare =
       app.add_subcommand("compare", "Compare the results of two runs; exit code 1 when something got worse");
@@ -338,6 +348,19 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
   compare->add_option("--tolerance", arguments.tolerance, "part of a value by which it may change")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+}
+
+/// Of commands that work on meshes that are there.
+struct MeshesArguments {
+  MetricsArguments metrics;
+  ExtrudeArguments extrude;
+  CompareArguments compare;
+};
+
+void add_meshes(CLI::App& app, MeshesArguments& arguments, CommonArguments& common) {
+  add_metrics(app, arguments.metrics, common);
+  add_extrude(app, arguments.extrude, common);
+  add_compare(app, arguments.compare);
 }
 
 void add_info(CLI::App& app, InfoArguments& arguments, CommonArguments& common) {
@@ -430,8 +453,7 @@ int run_command_line(int argc, char** argv) {
   CommonArguments common;
   RunArguments run;
   MeshArguments mesh, improve;
-  MetricsArguments metrics;
-  CompareArguments compare;
+  MeshesArguments meshes;
   InfoArguments info;
   ExampleArguments example;
   RecordsArguments records;
@@ -447,8 +469,7 @@ int run_command_line(int argc, char** argv) {
   add_formats(app);
   add_mesh(app, mesh, common);
   add_improve(app, improve, common);
-  add_metrics(app, metrics, common);
-  add_compare(app, compare);
+  add_meshes(app, meshes, common);
   add_info(app, info, common);
   add_example(app, example, common);
   add_suite(app, suite);
@@ -480,10 +501,11 @@ int run_command_line(int argc, char** argv) {
   if (const auto code = run_on_records(app, records)) return *code;
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("improve")) return mesh_command(improve);
-  if (app.got_subcommand("compare")) return compare_command(compare);
+  if (app.got_subcommand("extrude")) return extrude_command(meshes.extrude);
+  if (app.got_subcommand("compare")) return compare_command(meshes.compare);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("example")) return example_command(example);
-  return metrics_command(metrics);
+  return metrics_command(meshes.metrics);
 }
 
 /// The exit code, unless what was printed did not reach its reader.

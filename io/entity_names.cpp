@@ -19,7 +19,7 @@ std::string cut(const std::string& text, size_t longest) {
 }  // namespace
 
 std::string tag_label(int dim, int tag) {
-  constexpr std::array kKinds = {"point_", "curve_", "region_"};
+  constexpr std::array kKinds = {"point_", "curve_", "region_", "volume_"};
   return kKinds.at(static_cast<size_t>(dim)) + std::to_string(tag);
 }
 

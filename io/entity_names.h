@@ -12,7 +12,7 @@
 namespace delquad {
 
 /// What an entity without a name is called in files: "point_7" (dimension 0), "curve_7" (1) or "region_7"
-/// (2).
+/// (2), "volume_7" (3).
 std::string tag_label(int dim, int tag);
 
 /// One name for each entity of one dimension, for formats that take no more. Of several the one that says

@@ -1,31 +1,19 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
 
 #include "io/entity_names.h"
+#include "io/inp_output.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
-#include "io/text_writer.h"
 #include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 
 namespace delquad {
 
 namespace {
-
-/// Numbers on one line of a set, which may have no more.
-constexpr int kNumbersPerLine = 16;
-/// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
-constexpr size_t kLongestName = 60;
-/// Characters of a number; CalculiX cuts off what follows, perhaps within the exponent.
-constexpr size_t kLongestNumber = 20;
-/// Part of the model's diagonal below which a coordinate is zero: some hundred steps of a double there, what
-/// rotations and projections leave of zeros.
-constexpr double kNegligible = 1e-13;
 
 /// What a label is the name of.
 enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kPairs };
@@ -59,16 +47,7 @@ UniqueLabels make_labels(const Mesh& mesh) {
        {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
     for (size_t i = 0; i < count; ++i)
       for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kPairs, name);
-  return UniqueLabels(keys, {plain_label, true, kLongestName});
-}
-
-std::string number(double x, double negligible) {
-  if (std::abs(x) < negligible) return "0";
-  char digits[32];
-  char* end = std::to_chars(digits, digits + sizeof digits, x).ptr;
-  for (int n = 17; end - digits > static_cast<std::ptrdiff_t>(kLongestNumber); --n)
-    end = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr;
-  return {digits, end};
+  return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
 
 /// Members of a set by its label.
@@ -121,7 +100,7 @@ class InpWriter {
   }
 
   void write_nodes() {
-    const double negligible = kNegligible * diagonal(mesh_);
+    const double negligible = kInpNegligible * diagonal(mesh_);
     std::vector<char> inside(mesh_.points.size(), 0);
     for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
       inside[nodes_of_quad(mesh_, q)[4]] = 1;
@@ -130,7 +109,7 @@ class InpWriter {
       if (inside[i]) continue;
       const Vec3& p = mesh_.points[i];
       out_ << i + 1;
-      for (const double x : {p.x, p.y, p.z}) out_ << ", " << number(x, negligible);
+      for (const double x : {p.x, p.y, p.z}) out_ << ", " << inp_number(x, negligible);
       out_ << '\n';
     }
   }
@@ -219,7 +198,7 @@ class InpWriter {
   void write_sets(const char* keyword, Sets& sets) {
     for (auto& [label, numbers] : sets) {
       out_ << '*' << keyword << ", " << keyword << '=' << label << '\n';
-      write_numbers(numbers, kNumbersPerLine);
+      write_inp_numbers(out_, numbers, kInpNumbersPerLine);
     }
   }
 
@@ -241,20 +220,11 @@ class InpWriter {
              << nodes[1] + 1 << '\n';
   }
 
-  void write_numbers(std::vector<int>& numbers, size_t per_line) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    for (size_t i = 0; i < numbers.size(); ++i) {
-      const bool last = i + 1 == numbers.size() || (i + 1) % per_line == 0;
-      out_ << numbers[i] << (last ? "\n" : ", ");
-    }
-  }
-
   /// Abaqus and CalculiX call the sides of shells by different names, but both know surfaces of nodes.
   void write_surfaces() {
     for (auto& [label, nodes] : surface_nodes_) {
       out_ << "*SURFACE, NAME=" << label << ", TYPE=" << (planar_ ? "ELEMENT" : "NODE") << '\n';
-      if (!planar_) write_numbers(nodes, 1);
+      if (!planar_) write_inp_numbers(out_, nodes, 1);
       for (const std::string& side : sides_of_[label])
         if (planar_) out_ << '_' << label << '_' << side << ", " << side << '\n';
     }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "delquad/error.h"
+#include "io/hex_writers.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "metrics/metrics.h"
@@ -35,6 +36,12 @@ Mesh read_plainly(const std::filesystem::path& path, ReadNotes*) {
   return read(path);
 }
 Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes*) { return read_msh(path); }
+
+/// Writers of hexahedra that have no binary form.
+template <void (*write)(const std::filesystem::path&, const HexMesh&)>
+void write_plainly(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+  write(path, mesh);
+}
 
 constexpr const char* kMsh = ".msh";
 
@@ -94,10 +101,16 @@ bool can_write(const MeshFormat& format) { return format.write != nullptr || for
 
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> all = {
-      {{kMsh}, "Gmsh 2.2 and 4.1, text or bytes", read_msh_alone, nullptr, kMostOrder},
-      {{".vtu"}, "VTK XML, ParaView", read_plainly<read_vtu>, write_vtu_with_eta, kMostOrder},
+      {{kMsh}, "Gmsh 2.2 and 4.1, text or bytes", read_msh_alone, nullptr, kMostOrder, "", write_hex_msh},
+      {{".vtu"},
+       "VTK XML, ParaView",
+       read_plainly<read_vtu>,
+       write_vtu_with_eta,
+       kMostOrder,
+       "",
+       write_plainly<write_hex_vtu>},
       {{".obj"}, "Wavefront", read_obj, write_obj, 1},
-      {{".inp"}, "Abaqus, CalculiX", read_plainly<read_inp>, write_inp, 2},
+      {{".inp"}, "Abaqus, CalculiX", read_plainly<read_inp>, write_inp, 2, "", write_plainly<write_hex_inp>},
       {{".mesh"}, "Medit", read_plainly<read_medit>, write_medit, 1},
       {{".vtk"}, "VTK legacy, text", nullptr, write_vtk, kMostOrder},
       {{".e", ".exo", ".ex2"}, "Exodus II: MOOSE, Cubit", nullptr, write_exodus, 2, kExodusPackage},
@@ -140,6 +153,22 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
         extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; })));
   if (kind != kMsh && options.binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
+}
+
+void check_hex_format(const std::filesystem::path& path, bool binary) {
+  const std::string kind = kind_to_write(path);
+  const MeshFormat* format = find_format(kind);
+  const auto can = [](const MeshFormat& f) { return f.write_hexahedra != nullptr; };
+  if (format == nullptr) unknown(path, extensions_of(can));
+  if (!can(*format))
+    throw InputError(fmt::format("{}: '{}' is not written with hexahedra here: expected {}", path.string(),
+                                 kind, extensions_of(can)));
+  check_mesh_format(path, {binary, MshCurves::kAll});
+}
+
+void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, bool binary) {
+  check_hex_format(path, binary);
+  find_format(kind_to_write(path))->write_hexahedra(path, mesh, binary);
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "delquad/mesh.h"
+#include "delquad/hexahedra.h"
 
 namespace delquad {
 
@@ -18,6 +18,7 @@ struct MeshFormat {
   int most_order;              ///< of elements that are written
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
+  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, bool binary) = nullptr;
 };
 
 bool can_write(const MeshFormat& format);

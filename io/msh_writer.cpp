@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
@@ -10,7 +7,7 @@
 
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
-#include "io/text_writer.h"
+#include "io/msh_output.h"
 #include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 
@@ -111,122 +108,13 @@ std::vector<Block> make_blocks(const Mesh& mesh, const std::vector<Entity>& poin
   return blocks;
 }
 
-/// Names as they can stand between quotes, without control characters; Gmsh reads lines of up to 255 bytes.
-std::string quotable(const std::string& name) {
-  std::string label = name;
-  for (char& c : label) {
-    if (c == '"') c = '\'';
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return label;
-}
-
-/// Tag and name of each group, sorted; the blocks learn their groups' tags. A name that is a number is that
-/// group's tag; others take the tags that are left, in order of appearance.
-std::set<std::tuple<int, int, std::string>> number_groups(std::vector<Block>& blocks) {
+/// The blocks learn their groups' tags.
+MshGroups number_groups(std::vector<Block>& blocks) {
   std::vector<UniqueLabels::Key> keys;
   for (const Block& block : blocks) keys.emplace_back(block.dim, block.group);
-  constexpr size_t kLongestLabel = 200;
-  const UniqueLabels labels(keys, {quotable, false, kLongestLabel});
-  std::map<UniqueLabels::Key, int> tags;
-  std::set<int> taken;
-  for (const auto& key : keys) {
-    int tag = 0;
-    const std::string& name = key.second;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), tag);
-    if (error != std::errc() || tag <= 0 || name != std::to_string(tag)) continue;
-    tags[key] = tag;
-    taken.insert(tag);
-  }
-  int next = 1;
-  std::set<std::tuple<int, int, std::string>> groups;
-  for (Block& block : blocks) {
-    const UniqueLabels::Key key = {block.dim, block.group};
-    if (!tags.contains(key)) {
-      while (taken.contains(next)) ++next;
-      tags[key] = next++;
-    }
-    block.group_tag = tags[key];
-    groups.insert({block.dim, block.group_tag, labels.of(key)});
-  }
+  MshGroups groups = number_msh_groups(keys);
+  for (Block& block : blocks) block.group_tag = groups.tags.at({block.dim, block.group});
   return groups;
-}
-
-/// Names of entities beside their groups, which other programs skip.
-void write_more_names(std::ostream& stream, const std::vector<Block>& blocks) {
-  TextWriter out(stream);
-  std::vector<std::pair<const Block*, std::string>> all;
-  for (const Block& block : blocks)
-    for (const std::string& name : block.entity->names)
-      if (name != block.group) all.emplace_back(&block, quotable(name));
-  if (all.empty()) return;
-  out << "$MoreNames\n" << all.size() << '\n';
-  for (const auto& [block, name] : all)
-    out << block->dim << ' ' << block->entity->tag << " \"" << name << "\"\n";
-  out << "$EndMoreNames\n";
-  out.flush();
-}
-
-void write_unit(std::ostream& stream, const Mesh& mesh) {
-  if (!mesh.unit.empty()) stream << "$Unit\n" << mesh.unit << "\n$EndUnit\n";
-}
-
-/// Numbers as text, separated by blanks, or as bytes.
-class MshNumbers {
- public:
-  MshNumbers(std::ostream& stream, bool binary) : out_(stream), binary_(binary) {}
-
-  MshNumbers& integer(int value) { return put(value); }
-  MshNumbers& size(size_t value) { return put(static_cast<std::uint64_t>(value)); }
-  MshNumbers& real(double value) { return put(value); }
-  MshNumbers& point(const Vec3& p) { return real(p.x).real(p.y).real(p.z); }
-  void end_line() {
-    if (!binary_) out_ << '\n';
-    at_start_ = true;
-  }
-  void line(std::string_view text) { out_ << text << '\n'; }
-  void end_section(std::string_view name) {
-    if (binary_) out_ << '\n';
-    line(name);
-  }
-  void flush() { out_.flush(); }
-
- private:
-  template <class T>
-  MshNumbers& put(T value) {
-    if (binary_) {
-      char bytes[sizeof value];
-      std::memcpy(bytes, &value, sizeof value);
-      out_ << std::string_view(bytes, sizeof value);
-      return *this;
-    }
-    if (!at_start_) out_ << ' ';
-    at_start_ = false;
-    out_ << value;
-    return *this;
-  }
-
-  TextWriter out_;
-  bool binary_, at_start_ = true;
-};
-
-void write_header(MshNumbers& out, bool binary) {
-  out.line("$MeshFormat");
-  out.line(binary ? "4.1 1 8" : "4.1 0 8");
-  if (binary) {
-    out.integer(1);
-    out.line("");
-  }
-  out.line("$EndMeshFormat");
-}
-
-void write_groups(MshNumbers& out, const std::set<std::tuple<int, int, std::string>>& groups) {
-  if (groups.empty()) return;
-  out.line("$PhysicalNames");
-  out.line(std::to_string(groups.size()));
-  for (const auto& [dim, tag, name] : groups)
-    out.line(std::to_string(dim) + ' ' + std::to_string(tag) + " \"" + name + '"');
-  out.line("$EndPhysicalNames");
 }
 
 void write_entities(MshNumbers& out, const std::vector<Block>& blocks) {
@@ -349,17 +237,19 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
   std::vector<Entity> point_entities;
   for (const NamedPoint& named : mesh.named_points) point_entities.push_back(named.entity);
   std::vector<Block> blocks = make_blocks(mesh, point_entities, options.curves);
-  const auto groups = number_groups(blocks);
+  const MshGroups groups = number_groups(blocks);
   MshNumbers out(stream, options.binary);
-  write_header(out, options.binary);
-  write_groups(out, groups);
+  write_msh_header(out, options.binary);
+  write_msh_groups(out, groups);
   write_entities(out, blocks);
   write_nodes(out, mesh, blocks);
   write_elements(out, mesh, blocks);
   write_periodic(out, mesh, blocks);
   out.flush();
-  write_more_names(stream, blocks);
-  write_unit(stream, mesh);
+  std::vector<MshEntity> entities;
+  for (const Block& block : blocks) entities.push_back({block.dim, block.entity, block.group});
+  write_more_names(stream, entities);
+  write_msh_unit(stream, mesh.unit);
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {

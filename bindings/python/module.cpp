@@ -4,6 +4,7 @@
 
 #include "base/located.h"
 #include "bindings/python/arrays.h"
+#include "bindings/python/hexahedra.h"
 #include "bindings/python/problem.h"
 #include "cases/formulas.h"
 #include "cases/size_file.h"
@@ -377,6 +378,7 @@ PYBIND11_MODULE(_core, m) {
   define_result(m);
   define_models(m);
   define_problem(m);
+  define_hexahedra(m);
   m.def("qualities", [] {
     py::dict all;
     for (const Quality& quality : quality_registry()) all[py::str(quality.name)] = quality.word;

@@ -114,11 +114,12 @@ TEST(Experiments, RatiosAreNoted) {
 
 TEST(Experiments, DataExcludesOtherModels) {
   const testing_support::TemporaryFolder folder;
-  expect_input_error([&] { read_model_case(testing_support::write_text(folder / "m.toml", "data = \"part.step\"\n")); },
-                     {"m.toml:1", "experiments"});
+  expect_input_error(
+      [&] { read_model_case(testing_support::write_text(folder / "m.toml", "data = \"part.step\"\n")); },
+      {"m.toml:1", "experiments"});
   const auto experiment = [&](const std::string& keys) {
-    return Experiment::read(testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys),
-                            "there");
+    return Experiment::read(
+        testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys), "there");
   };
   const Experiment e = experiment("data = \"cad/part.step\"\n");
   EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");

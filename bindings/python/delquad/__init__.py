@@ -11,6 +11,7 @@ from . import _core
 from ._core import (
     Cancelled,
     Curve,
+    HexMesh,
     InputError,
     Loop,
     Mesh,
@@ -34,6 +35,7 @@ from ._core import (
     triangles,
 )
 from ._exchange import from_meshio, read_mesh
+from ._hexahedra import extrude
 from ._mesh import UnsoundError, cad, improve, mesh, planar, polygons
 
 __all__ = [name for name in dir() if not name.startswith("_")]

@@ -1,0 +1,47 @@
+"""extrude(), and what comes back."""
+
+import os
+
+from . import _core
+
+
+def extrude(
+    mesh, *, along=None, around=None, angle=360.0, curve=None, normals=None, both_sides=False, layers=0, growth=1.0, threads=0, time_limit=0.0
+):
+    """Sweeps a mesh of quads, or the file of one, and returns hexahedra. One of these says how:
+
+    along: a vector, from the first layer of nodes to the last.
+    around: a point of an axis and its direction; angle: in degrees, 360 closes the ring.
+    curve: points of a line of shape (n, 3), along which the section moves and with which it turns.
+    normals: a thickness along the normals, negative against them; both_sides: half of it to each.
+
+    layers: how many; 0, with curve only, for one on each segment. growth: height of each over that of the one before.
+    threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
+
+    Regions become volumes, curves on the boundary and named ones inside faces, named points curves; where the sweep starts
+    and ends are faces "NAME start" and "NAME end". Raises InputError where hexahedra would be inverted or the body would
+    go through itself.
+    """
+    if isinstance(mesh, (str, os.PathLike)):
+        mesh = _core.read_mesh(os.fspath(mesh))
+    elif not isinstance(mesh, _core.Mesh):
+        raise TypeError(f"mesh: expected a delquad.Mesh or the path of a file, got {type(mesh).__name__}")
+    if sum(way is not None for way in (along, around, curve, normals)) != 1:
+        raise _core.InputError("expected one of along, around, curve and normals")
+    how = (mesh, layers, growth, threads, time_limit)
+    if along is not None:
+        return _core.extrude_along(*how, along)
+    if around is not None:
+        point, axis = around
+        return _core.extrude_around(*how, point, axis, angle)
+    if curve is not None:
+        return _core.extrude_curve(*how, curve)
+    return _core.extrude_normals(*how, normals, both_sides)
+
+
+def _write(self, path, binary=False):
+    """Writes .msh, .vtu or .inp, whole or not at all."""
+    self.write_file(os.fspath(path), binary)
+
+
+_core.HexMesh.write = _write

@@ -1,0 +1,107 @@
+#include "bindings/python/hexahedra.h"
+
+#include <pybind11/stl.h>
+
+#include "base/context.h"
+#include "bindings/python/arrays.h"
+#include "bindings/python/calling_thread.h"
+#include "delquad/hexahedra.h"
+
+namespace delquad::python {
+
+namespace {
+
+using py::arg;
+
+/// With what is measured of it.
+struct Hexahedra {
+  HexMesh mesh;
+  HexMeasures measures;
+};
+
+py::list tags_and_names(const std::vector<Entity>& entities) {
+  py::list list;
+  for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));
+  return list;
+}
+
+/// A list of the hexahedra as a property: a view that keeps them.
+template <class List>
+auto hex_view(List HexMesh::*member) {
+  return [member](const py::object& self) { return view(self.cast<const Hexahedra&>().mesh.*member, self); };
+}
+
+auto hex_entities(std::vector<Entity> HexMesh::*member) {
+  return [member](const Hexahedra& self) { return tags_and_names(self.mesh.*member); };
+}
+
+Hexahedra sweep(const Mesh& mesh, const SweepPath& path, int layers, double growth, int threads,
+                double time_limit) {
+  Hexahedra result;
+  CallingThread().run([&](const std::stop_token& stop) {
+    const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
+    result.mesh = extrude(mesh, path, {layers, growth});
+    result.measures = measure(result.mesh);
+  });
+  return result;
+}
+
+template <class... More>
+void define_way(py::module_& m, const char* name, SweepPath (*path)(const py::object&, More...)) {
+  m.def(name, [path](const Mesh& mesh, int layers, double growth, int threads, double time_limit,
+                     const py::object& first, More... more) {
+    return sweep(mesh, path(first, more...), layers, growth, threads, time_limit);
+  });
+}
+
+}  // namespace
+
+void define_hexahedra(py::module_& m) {
+  py::class_<Hexahedra>(m, "HexMesh", "Hexahedra, quads on their named faces; indices count from 0.")
+      .def_property_readonly("points", hex_view(&HexMesh::points), "(n, 3) coordinates")
+      .def_property_readonly("hexahedra", hex_view(&HexMesh::hexahedra), "(n, 8) points")
+      .def_property_readonly("hex_volume", hex_view(&HexMesh::hex_volume),
+                             "index into volumes of each hexahedron")
+      .def_property_readonly("quads", hex_view(&HexMesh::quads), "(n, 4) points of quads on faces")
+      .def_property_readonly("quad_face", hex_view(&HexMesh::quad_face), "index into faces of each quad")
+      .def_property_readonly("lines", hex_view(&HexMesh::lines), "(n, 2) points of edges on curves")
+      .def_property_readonly("line_curve", hex_view(&HexMesh::line_curve), "index into curves of each line")
+      .def_property_readonly("volumes", hex_entities(&HexMesh::volumes), "(tag, names)")
+      .def_property_readonly("faces", hex_entities(&HexMesh::faces), "(tag, names)")
+      .def_property_readonly("curves", hex_entities(&HexMesh::curves), "(tag, names)")
+      .def_property_readonly(
+          "unit", [](const Hexahedra& self) { return self.mesh.unit; }, "of lengths; empty: not known")
+      .def_property_readonly(
+          "volume", [](const Hexahedra& self) { return self.measures.volume; }, "of all hexahedra")
+      .def_property_readonly(
+          "scaled_jacobian",
+          [](const py::object& self) {
+            const std::vector<double>& values = self.cast<const Hexahedra&>().measures.jacobian;
+            return view<double>(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
+          },
+          "the least of each hexahedron, 1 for boxes")
+      .def(
+          "write_file",
+          [](const Hexahedra& self, const std::string& path, bool binary) {
+            const py::gil_scoped_release released;
+            write_hexahedra(path, self.mesh, binary);
+          },
+          arg("path"), arg("binary") = false);
+  define_way(
+      m, "extrude_along",
+      +[](const py::object& shift) -> SweepPath { return AlongVector{read_vec3(shift, "along")}; });
+  define_way(
+      m, "extrude_around", +[](const py::object& point, py::object axis, double degrees) -> SweepPath {
+        return AroundAxis{read_vec3(point, "around: the point"), read_vec3(axis, "around: the axis"),
+                          degrees};
+      });
+  define_way(
+      m, "extrude_curve",
+      +[](const py::object& points) -> SweepPath { return AlongCurve{read_points(points, "curve")}; });
+  define_way(
+      m, "extrude_normals", +[](const py::object& thickness, bool both_sides) -> SweepPath {
+        return AlongNormals{thickness.cast<double>(), both_sides};
+      });
+}
+
+}  // namespace delquad::python

@@ -1,0 +1,52 @@
+"""Quads that are swept to hexahedra."""
+
+import math
+
+import numpy as np
+import pytest
+
+import delquad
+from shapes import SQUARE
+
+
+def square(size=0.25):
+    return delquad.mesh(delquad.polygons([SQUARE]), size=size)
+
+
+def test_volumes_and_arrays(tmp_path):
+    quads = square()
+    n = len(quads.quads)
+    block = delquad.extrude(quads, along=(0, 0, 2), layers=5, growth=1.5)
+    assert block.hexahedra.shape == (5 * n, 8) and block.points.shape == (6 * len(quads.points), 3)
+    assert block.volume == pytest.approx(2)
+    assert block.scaled_jacobian.shape == (5 * n,) and block.scaled_jacobian.min() > 0.99
+    assert np.all(block.hex_volume == 0) and len(block.volumes) == 1
+    assert len(block.quads) == len(block.quad_face) == 2 * n + 5 * len(quads.lines)
+    with pytest.raises(ValueError):
+        block.points[0, 0] = 7
+    ring = delquad.extrude(quads, around=((-1, 0, 0), (0, 1, 0)), layers=60)
+    assert ring.volume == pytest.approx(2 * math.pi * 1.5, rel=2e-3) and len(ring.points) == 60 * len(quads.points)
+    assert delquad.extrude(quads, around=((-1, 0, 0), (0, 1, 0)), angle=90, layers=15).volume == pytest.approx(ring.volume / 4)
+    assert delquad.extrude(quads, curve=[(0, 0, 0), (0, 0, 1), (0, 0, 3)]).volume == pytest.approx(3)
+    quads.write(tmp_path / "q.msh")
+    shell = delquad.extrude(tmp_path / "q.msh", normals=0.5, both_sides=True, layers=2)
+    assert shell.volume == pytest.approx(0.5) and shell.points[:, 2].min() == -0.25
+    for name in ("a.msh", "a.vtu", "a.inp"):
+        shell.write(tmp_path / name)
+        assert (tmp_path / name).stat().st_size > 1000
+
+
+def test_what_cannot_be_swept():
+    quads = square()
+    with pytest.raises(delquad.InputError, match="one of along"):
+        delquad.extrude(quads, layers=2)
+    with pytest.raises(delquad.InputError, match="inverted or flat"):
+        delquad.extrude(quads, along=(1, 0, 0), layers=2)
+    with pytest.raises(delquad.InputError, match="0 layers"):
+        delquad.extrude(quads, along=(0, 0, 1))
+    with pytest.raises(delquad.InputError, match="crosses its axis"):
+        delquad.extrude(quads, around=((0.3, 0, 0), (0, 1, 0)), layers=20)
+    with pytest.raises(delquad.InputError, match="triangles"):
+        delquad.extrude(delquad.mesh(delquad.polygons([SQUARE]), size=0.25, word="D"), along=(0, 0, 1), layers=2)
+    with pytest.raises(TypeError, match="expected a delquad.Mesh"):
+        delquad.extrude(3, along=(0, 0, 1), layers=2)

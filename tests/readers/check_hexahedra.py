@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+"""Opens swept hexahedra in another program: check_hexahedra.py DELQUAD READER. Exit code 77: the reader is not installed.
+
+READER: gmsh, meshio or vtk compare numbers, names and volumes; ccx pulls at a bar by its named faces.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+from read_mesh import absent, run_ccx
+from solve_ccx import POISSON, YOUNG, near
+
+MODEL = """loop = [
+  { rectangle = [[0, 0], [2, 1]], boundary = ["floor", "joint", "roof", "left"], region = "steel" },
+  { rectangle = [[2, 0], [3, 1]], boundary = ["floor", "far", "roof", "joint"], region = "copper" },
+]
+embed = [{ point = [2.5, 0.5], name = "sensor" }]
+size = 0.25
+"""
+LAYERS, HEIGHT = 6, 4.0
+
+
+def sweep(delquad, folder, name, *options):
+    """The file, and how many elements its names have, by dimension."""
+    model, section, path = (os.path.join(folder, n) for n in ("model.toml", "section.msh", name))
+    with open(model, "w", encoding="utf-8") as file:
+        file.write(MODEL)
+    for command in (["mesh", model, "-o", section], ["extrude", section, "--along", f"0,0,{HEIGHT}", "--layers", str(LAYERS), "--growth", "1.2", "-o", path, *options]):
+        subprocess.run([delquad, *command], check=True, capture_output=True, timeout=120)
+    return path
+
+
+EXPECTED = {  # by dimension; a side of length 1 has 4 edges
+    1: {"sensor": LAYERS},
+    2: {"floor": 12 * LAYERS, "roof": 12 * LAYERS, "left": 4 * LAYERS, "far": 4 * LAYERS, "joint": 4 * LAYERS, "steel start": 32, "copper start": 16, "steel end": 32,
+        "copper end": 16},
+    3: {"steel": 32 * LAYERS, "copper": 16 * LAYERS},
+}
+
+
+def by_gmsh(delquad, folder):
+    try:
+        import gmsh
+    except ImportError:
+        absent("gmsh is not installed (python3-gmsh)")
+    for name, options in (("text.msh", []), ("bytes.msh", ["--binary"])):
+        path = sweep(delquad, folder, name, *options)
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(path)
+        found = {1: {}, 2: {}, 3: {}}
+        for dim, tag in gmsh.model.getPhysicalGroups():
+            entities = gmsh.model.getEntitiesForPhysicalGroup(dim, tag)
+            found[dim][gmsh.model.getPhysicalName(dim, tag)] = sum(len(t) for e in entities for t in gmsh.model.mesh.getElements(dim, e)[1])
+        kinds = [int(kind) for kind in gmsh.model.mesh.getElements(3)[0]]
+        gmsh.finalize()
+        assert found == EXPECTED, found
+        assert kinds == [5], kinds
+
+
+def by_meshio(delquad, folder):
+    try:
+        import meshio
+    except ImportError:
+        absent("meshio is not installed (python3-meshio)")
+    for name in ("a.msh", "a.vtu", "a.inp"):
+        mesh = meshio.read(sweep(delquad, folder, name))
+        cells = {}
+        for block in mesh.cells:
+            cells[block.type] = cells.get(block.type, 0) + len(block.data)
+        assert cells["hexahedron"] == 48 * LAYERS, cells
+        if name != "a.inp":
+            assert cells["quad"] == sum(EXPECTED[2].values()) and cells["line"] == LAYERS, cells
+
+
+def by_vtk(delquad, folder):
+    try:
+        import vtk
+    except ImportError:
+        absent("vtk is not installed (python3-vtk9)")
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(sweep(delquad, folder, "a.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    volume, least, counts = 0.0, 1.0, {}
+    for i in range(grid.GetNumberOfCells()):
+        kind = grid.GetCellType(i)
+        counts[kind] = counts.get(kind, 0) + 1
+        if kind == vtk.VTK_HEXAHEDRON:
+            volume += vtk.vtkMeshQuality.HexVolume(grid.GetCell(i))
+            own, theirs = grid.GetCellData().GetArray("scaled Jacobian").GetValue(i), vtk.vtkMeshQuality.HexScaledJacobian(grid.GetCell(i))
+            assert abs(own - theirs) < 1e-12, (own, theirs)
+            least = min(least, own)
+    near(volume, 3 * HEIGHT, 1e-12, "volume")
+    assert least > 0.99, least
+    assert counts == {vtk.VTK_HEXAHEDRON: 48 * LAYERS, vtk.VTK_QUAD: sum(EXPECTED[2].values()), vtk.VTK_LINE: LAYERS}, counts
+    for dim, kind in ((1, "curve"), (2, "face"), (3, "volume")):
+        tags = grid.GetCellData().GetArray(kind)
+        for name, n in EXPECTED[dim].items():
+            of_name = grid.GetFieldData().GetArray(f"{kind} {name}")
+            wanted = {of_name.GetValue(i) for i in range(of_name.GetNumberOfTuples())}
+            assert sum(tags.GetValue(i) in wanted for i in range(grid.GetNumberOfCells())) == n, name
+
+
+def by_ccx(delquad, folder):
+    path = sweep(delquad, folder, "bar.inp")
+    pull = 100.0
+    with open(os.path.join(folder, "deck.inp"), "w", encoding="utf-8") as file:
+        file.write(f"""*INCLUDE, INPUT={os.path.basename(path)}
+*MATERIAL, NAME=M
+*ELASTIC
+{YOUNG}, {POISSON}
+*SOLID SECTION, ELSET=steel, MATERIAL=M
+*SOLID SECTION, ELSET=copper, MATERIAL=M
+*BOUNDARY
+steel_start, 3, 3
+copper_start, 3, 3
+left, 1, 1
+floor, 2, 2
+*STEP
+*STATIC
+*DSLOAD
+steel_end, P, {-pull}
+copper_end, P, {-pull}
+*NODE PRINT, NSET=far
+U
+*NODE PRINT, NSET=copper_end
+U
+*END STEP
+""")
+    run_ccx(folder, "deck")
+    blocks = []
+    with open(os.path.join(folder, "deck.dat"), encoding="utf-8") as file:
+        for line in file:
+            if "displacements" in line:
+                blocks.append([])
+            elif line.strip():
+                blocks[-1].append([float(word) for word in line.split()])
+    assert len(blocks[0]) == 5 * (LAYERS + 1) and len(blocks[1]) == 25, [len(b) for b in blocks]
+    for _, x, _, _ in blocks[0]:
+        near(x, -POISSON * pull / YOUNG * 3, 1e-5, "contraction")
+    for _, _, _, z in blocks[1]:
+        near(z, pull / YOUNG * HEIGHT, 1e-5, "stretch")
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as work:
+        {"gmsh": by_gmsh, "meshio": by_meshio, "vtk": by_vtk, "ccx": by_ccx}[sys.argv[2]](sys.argv[1], work)
+    print("as written")
