@@ -95,15 +95,18 @@ SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
 }
 
 /// Returns the exit code.
-int tell_what_is_missing(const RunResult& result, bool quads_wanted) {
+int tell_what_is_missing(const RunResult& result, const Word& word, bool quads_wanted) {
   for (const FaceFailure& failure : result.failures)
     fmt::print(stderr, "error: left out: {}\n", failure.reason);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
-  fmt::print(
-      stderr,
-      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
-      result.mesh.triangles.size());
+  const std::size_t n = result.mesh.triangles.size();
+  fmt::print(stderr,
+             "error: {} {} left among the quads of what was written (--allow-triangles accepts them{})\n", n,
+             n == 1 ? "triangle is" : "triangles are",
+             word.stages.front()->from != PatchForm::kQuads
+                 ? ""
+                 : "; a word that begins with B, such as BCO, merges triangles");
   return kTrianglesLeft;
 }
 
@@ -141,6 +144,9 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
   if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
     fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
                layers.columns);
+  if (const Summaries& log = result.log.summaries; log.has("grids"))
+    fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
+               log.number("grids", "asked"), log.number("grids", "quads"));
   if (!prepared.size_adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
                fmt::join(prepared.size_adapted_to, " and "));
@@ -203,7 +209,7 @@ int mesh_command(const MeshArguments& arguments) {
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, prepared);
   print_after(arguments.output.string(), prepared, result);
-  return tell_what_is_missing(result, word.quads_only() && !arguments.allow_triangles);
+  return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
 }
 
 }  // namespace delquad

@@ -133,6 +133,9 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
     if (!patch.grid || !patch.grid_stays || p.curve_places.empty()) continue;
     for (const int node : patch.boundary.point_node) p.curve_places[node] = {};
   }
+  const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
+  if (spec.automatic && std::ranges::none_of(p.patches, has_grid))
+    p.warnings.push_back(spec.where + ": no face pays as a grid: all are free");
 }
 
 }  // namespace delquad

@@ -460,6 +460,17 @@ void put_back_entities(const GivenEntities& given, Mesh& mesh) {
   mesh.regions = given.regions;
 }
 
+void count_grids(const PreparedProblem& prepared, StageLog& log) {
+  long long faces = 0, asked = 0, quads = 0;
+  for (const PreparedPatch& patch : prepared.patches) {
+    if (!patch.grid) continue;
+    ++faces;
+    asked += patch.grid_stays;
+    quads += static_cast<long long>(patch.grid->quads.size());
+  }
+  if (faces > 0) log.summaries.add("grids", {{"faces", faces}, {"asked", asked}, {"quads", quads}});
+}
+
 }  // namespace
 
 MeshingState begin_meshing(const PreparedProblem& prepared) {
@@ -469,6 +480,7 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
   if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
   state.nodes.points = prepared.boundary.points;
   if (!prepared.outlines.empty()) add_summary(state.log, prepared.layers.count);
+  count_grids(prepared, state.log);
   return state;
 }
 
