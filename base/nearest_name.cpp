@@ -1,6 +1,9 @@
 #include "base/nearest_name.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
 
 namespace delquad {
 namespace {
@@ -21,12 +24,29 @@ int edit_distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
+/// Names of entities without a name by what other programs call them: "face_3", "edge_3" or "3".
+std::optional<std::string> numbered_entity(const std::string& given, const std::vector<std::string>& known) {
+  constexpr std::array<std::pair<const char*, const char*>, 6> kOthers = {{{"face_", "region_"},
+                                                                           {"surface_", "region_"},
+                                                                           {"edge_", "curve_"},
+                                                                           {"line_", "curve_"},
+                                                                           {"", "region_"},
+                                                                           {"", "curve_"}}};
+  for (const auto& [other, ours] : kOthers) {
+    if (!given.starts_with(other)) continue;
+    const std::string name = ours + given.substr(std::strlen(other));
+    if (std::ranges::find(known, name) != known.end()) return name;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known) {
   constexpr std::size_t kLongestName = 64;  // no key is longer: no slip to look for
   if (given.size() > kLongestName) return std::nullopt;
-  std::optional<std::string> best;
+  std::optional<std::string> best = numbered_entity(given, known);
+  if (best) return best;
   int best_distance = 0;
   for (const std::string& name : known) {
     const int distance = edit_distance(given, name);

@@ -73,6 +73,10 @@ TEST(NearestName, CountsSwapsAsOne) {
   EXPECT_EQ(nearest_name("qqqqqqqq", {"region", "boundary"}), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);
   EXPECT_EQ(suggestion("szie", {"cross", "size"}), "; did you mean 'size'?");
+  const std::vector<std::string> entities{"curve_1", "curve_10", "region_10"};
+  EXPECT_EQ(suggestion("face_10", entities), "; did you mean 'region_10'?");
+  EXPECT_EQ(suggestion("edge_10", entities), "; did you mean 'curve_10'?");
+  EXPECT_EQ(suggestion("1", entities), "; did you mean 'curve_1'?");
   EXPECT_EQ(suggestion("qqqqqqqq", {"size"}), "");
 }
 
