@@ -454,6 +454,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   const DoingStage meshing_curves("boundary");
   std::vector<QuadPatch> given;
   PlanarDomain domain = planar_domain(problem, refinement, given, p);
+  for (const std::string& note : domain.notes) p.warnings.emplace_back(note);
   if (!std::holds_alternative<GivenMesh>(problem.model)) warn_of_gaps(domain, p.warnings);
   if (!problem.layers.empty()) {
     put_layers(problem, domain, p);

@@ -84,6 +84,7 @@ struct PlanarDomain {
   std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
   /// Where there are layers: the patches with these. `patches` are what is left to be meshed.
   std::vector<PatchBoundary> outlines = {};
+  std::vector<std::string> notes = {};  ///< for warnings
 };
 
 struct DomainOptions {

@@ -158,7 +158,7 @@ std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
   return {middle - reach * along, middle + reach * along};
 }
 
-Symmetry find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
+std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
   const double tolerance = kTouch * extent_of(model);
   const NearCurves curves(model);
   if (!spec.automatic) {
@@ -189,7 +189,7 @@ Symmetry find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
       found.push_back(plane_at(centre, angle + std::numbers::pi / 2));
     return Symmetry(found, tolerance);
   }
-  throw InputError(spec.where + ": no plane of symmetry was found");
+  return std::nullopt;
 }
 
 namespace {

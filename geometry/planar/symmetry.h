@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,8 +40,9 @@ class Symmetry {
 };
 
 /// The planes of a problem; with SymmetrySpec::automatic those that are found, which go through the centroid
-/// of the curves. Throws InputError where none is found, and for planes that are not perpendicular.
-Symmetry find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
+/// of the curves, or none. Throws InputError for planes that are given and not perpendicular, or about which
+/// the model is not symmetric.
+std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
 
 /// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
 /// have their images.
