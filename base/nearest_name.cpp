@@ -64,4 +64,19 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
   return near ? "; did you mean '" + *near + "'?" : "";
 }
 
+std::string suggestion_or_all(const std::string& given, std::vector<std::string> known) {
+  std::ranges::sort(known);
+  const auto doubles = std::ranges::unique(known);
+  known.erase(doubles.begin(), doubles.end());
+  std::erase(known, "");
+  if (const std::string near = suggestion(given, known); !near.empty() || known.empty()) return near;
+  constexpr std::size_t kMostShown = 12;
+  const std::size_t shown = std::min(known.size(), kMostShown);
+  const std::string more =
+      known.size() > shown ? " and " + std::to_string(known.size() - shown) + " more" : "";
+  std::string all = "; there are ";
+  for (std::size_t i = 0; i < shown; ++i) all += (i > 0 ? ", '" : "'") + known[i] + "'";
+  return all + more;
+}
+
 }  // namespace delquad

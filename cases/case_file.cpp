@@ -86,7 +86,8 @@ constexpr long long kMostDivided = 100'000'000;
 CurveDivision read_division(const TomlTable& table) {
   table.require_known(division_keys());
   CurveDivision division{.name = table.text("name"), .where = table.where()};
-  division.edges = static_cast<int>(integer_between(table, "edges", 1, kMostDivided, 1));
+  if (!table.has("edges")) table.integer("edges");  // says that it is missing
+  division.edges = static_cast<int>(integer_between(table, "edges", 1, kMostDivided, 0));
   for (const auto& [key, value] :
        {std::pair("progression", &division.progression), std::pair("bump", &division.bump)})
     if (table.has(key)) *value = table.positive_number(key);

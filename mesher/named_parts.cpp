@@ -1,7 +1,6 @@
 #include "mesher/named_parts.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -14,7 +13,6 @@ namespace {
 
 /// A curve of a model is seen by so many chords, and by its corners.
 constexpr int kChordsOfNamed = 512;
-constexpr std::size_t kMostNamesShown = 12;
 
 std::string by_number(const std::string& kind, const Entity& entity) {
   return fmt::format("{}_{}", kind, entity.tag);
@@ -98,7 +96,8 @@ std::vector<FineSpot> NamedParts::spots(const std::vector<NamedSize>& wanted) co
     if (at == parts_.end()) {
       std::vector<std::string> known;
       for (const auto& [name, parts] : parts_) known.push_back(name);
-      throw InputError(w.where + ": " + unknown_name(w.name, std::move(known)));
+      throw InputError(fmt::format("{}: nothing is called '{}'{}", w.where, w.name,
+                                   suggestion_or_all(w.name, std::move(known))));
     }
     if (!(w.size > 0)) continue;
     for (const Part& part : at->second) spots.push_back({part.a, part.b, w.size, w.reach, w.growth, part.c});
@@ -114,18 +113,6 @@ std::vector<int> entities_named(const std::vector<Entity>& entities, const std::
         std::ranges::find(entities[i].names, name) != entities[i].names.end())
       found.push_back(static_cast<int>(i));
   return found;
-}
-
-std::string unknown_name(const std::string& name, std::vector<std::string> known) {
-  const std::string near = suggestion(name, known);
-  std::string all;
-  if (near.empty() && !known.empty()) {
-    const std::size_t shown = std::min(known.size(), kMostNamesShown);
-    const std::string more = known.size() > shown ? fmt::format(" and {} more", known.size() - shown) : "";
-    known.resize(shown);
-    all = fmt::format("; there are '{}'{}", fmt::join(known, "', '"), more);
-  }
-  return fmt::format("nothing is called '{}'{}{}", name, near, all);
 }
 
 }  // namespace delquad

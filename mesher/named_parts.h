@@ -40,7 +40,4 @@ class NamedParts {
 std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
                                 const std::string& name);
 
-/// What to say of a name that nothing has.
-std::string unknown_name(const std::string& name, std::vector<std::string> known);
-
 }  // namespace delquad

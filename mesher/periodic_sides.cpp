@@ -25,8 +25,8 @@ NamedSide named_side(const Mesh& fine, const PeriodicPair& pair, const std::stri
   std::vector<std::string> known;
   for (const auto* entities : {&fine.regions, &fine.curves})
     for (const Entity& e : *entities) known.insert(known.end(), e.names.begin(), e.names.end());
-  throw InputError(
-      fmt::format("{}: no curve and no face is called '{}'{}", pair.where, name, suggestion(name, known)));
+  throw InputError(fmt::format("{}: no curve and no face is called '{}'{}", pair.where, name,
+                               suggestion_or_all(name, known)));
 }
 
 void warn_of_both(const PeriodicPair& pair, const NamedSide& side, std::vector<Warning>& warnings) {

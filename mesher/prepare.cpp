@@ -117,8 +117,10 @@ double diagonal_of(const PlanarModel& model) {
 }
 
 PlanarDomain mesh_model(const MeshProblem& problem, const PlanarModel& model,
-                        const std::shared_ptr<const SizeField>& size) {
+                        const std::shared_ptr<const SizeField>& size,
+                        const std::shared_ptr<const SizeField>& grid_size = nullptr) {
   CurveMeshOptions options;
+  if (grid_size) options.grid_size = as_function(grid_size);
   options.max_edges = static_cast<double>(problem.max_elements);
   options.divisions = problem.divisions;
   options.periodic = problem.periodic;
@@ -135,6 +137,17 @@ std::vector<char> divided_curves(const PlanarModel& model, const std::vector<Cur
     for (std::size_t c = 0; c < divided.size(); ++c)
       if (names_curve(division, {model.curves[c].name}, static_cast<int>(c) + 1)) divided[c] = 1;
   return divided;
+}
+
+/// Places where the mesh was not sound, before the model was turned.
+std::vector<FineSpot> fine_spots(const MeshProblem& problem, const std::vector<SizeSpot>& spots) {
+  std::vector<FineSpot> fine;
+  for (const SizeSpot& spot : spots) {
+    const Vec2 turned{spot.at.x, spot.at.y};
+    const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
+    fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
+  }
+  return fine;
 }
 
 PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
@@ -167,19 +180,17 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     p.size_adapted_to.push_back("given edges");
     domain = mesh_model(problem, model, p.size);
   }
-  std::vector<FineSpot> fine = short_edges(domain, *p.size);
+  const std::vector<FineSpot> fine = short_edges(domain, *p.size);
   if (!fine.empty()) p.size_adapted_to.push_back("short curves");
   if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
-  for (const SizeSpot& spot : spots) {
-    const Vec2 turned{spot.at.x, spot.at.y};
-    const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
-    fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
-  }
-  if (!fine.empty() || !problem.divisions.empty()) {
+  if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
     if (!p.given_size) p.given_size = p.size;
-    p.size = finer_near(p.size, std::move(fine));
+    std::vector<FineSpot> all = fine_spots(problem, spots);
+    const auto grid_size = finer_near(p.size, all);
+    all.insert(all.begin(), fine.begin(), fine.end());
+    p.size = finer_near(p.size, std::move(all));
     check_count_early(problem, model, p.size);
-    domain = mesh_model(problem, model, p.size);
+    domain = mesh_model(problem, model, p.size, grid_size);
   }
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   return domain;

@@ -101,7 +101,7 @@ bool names_curve(const CurveDivision& division, const std::vector<std::string>& 
 
 InputError no_such_curve(const CurveDivision& division, const std::vector<std::string>& known) {
   return InputError(fmt::format("{}: no curve is called '{}'{}", division.where, division.name,
-                                suggestion(division.name, known)));
+                                suggestion_or_all(division.name, known)));
 }
 
 void divide_pieces(const PlanarModel& model, std::span<const CurveDivision> divisions,

@@ -29,6 +29,7 @@ class CurveMesher {
               const Symmetry* symmetry = nullptr)
       : model_(model),
         mapped_spec_(options.mapped),
+        grid_size_(options.grid_size),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
     if (symmetry != nullptr) n_axes_ = symmetry->n_planes();
@@ -396,7 +397,7 @@ class CurveMesher {
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     if (mapped_spec_.asks()) {
       mapped_ = find_mapped_faces(model_, mapped_spec_, lines, arrangement, regions, chain_, pieces_);
-      return balance_mapped(model_, mapped_, arrangement, regions, pieces_);
+      return balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
     }
     const bool are_apart =
         std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
@@ -438,6 +439,7 @@ class CurveMesher {
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
+  const PointSize grid_size_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
   std::vector<MappedPlanarFace> mapped_;

@@ -121,7 +121,8 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
       if (has_name(region, name)) return;
       known.push_back(region_label(region));
     }
-    throw InputError(fmt::format("{}: no region is called '{}'{}", where, name, suggestion(name, known)));
+    throw InputError(
+        fmt::format("{}: no region is called '{}'{}", where, name, suggestion_or_all(name, known)));
   };
   for (const std::string& name : spec.names) check_name(spec.where, name);
   for (const GridCorners& asked : spec.corners) {
@@ -140,7 +141,7 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
         std::vector<std::string> known;
         for (const auto& [name, at] : points) known.push_back(name);
         throw InputError(fmt::format("{}: no point is called '{}'{}", asked.where, corner.name,
-                                     suggestion(corner.name, known)));
+                                     suggestion_or_all(corner.name, known)));
       }
       told.at.push_back(point->second);
     }

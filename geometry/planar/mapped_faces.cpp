@@ -152,8 +152,28 @@ std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const 
   return mapped;
 }
 
+namespace {
+
+constexpr double kMostEdges = 1e8;
+
+/// Edges that the size asks for around the faces.
+void want_by(const PointSize& size, const std::vector<MappedPlanarFace>& mapped,
+             const std::vector<CurvePiece>& pieces, const std::vector<int>& leader,
+             const std::vector<std::string>& names, std::vector<CountedCurve>& curves) {
+  for (const MappedPlanarFace& face : mapped)
+    for (const auto& side : face.sides)
+      for (const int i : side) {
+        const CurvePiece& p = pieces[leader[i]];
+        if (p.measure)
+          curves[leader[i]].want =
+              ArcMeasure(*p.shape, p.from, p.to, size, names[leader[i]], kMostEdges).integral();
+      }
+}
+
+}  // namespace
+
 void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
-                    const Arrangement& arrangement, const FaceRegions& regions,
+                    const Arrangement& arrangement, const FaceRegions& regions, const PointSize& grid_size,
                     std::vector<CurvePiece>& pieces) {
   std::vector<CountedCurve> curves;
   std::vector<int> leader;
@@ -165,6 +185,7 @@ void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& map
     leader.push_back(p.master < 0 ? static_cast<int>(i) : p.master);
     names.push_back(piece_label(model, p));
   }
+  if (grid_size) want_by(grid_size, mapped, pieces, leader, names, curves);
   std::vector<std::vector<int>> around(arrangement.faces.size());
   std::size_t line = 0;
   for (std::size_t i = 0; i < pieces.size(); line += static_cast<std::size_t>(pieces[i++].n))

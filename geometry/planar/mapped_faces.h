@@ -19,9 +19,10 @@ std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const 
                                                 const std::vector<CurvePiece>& pieces);
 
 /// Numbers of edges so that mapped faces have what they need, and every other region an even one around it.
-/// Faces that are not asked for may drop out. Throws InputError where what was divided forbids that.
+/// `grid_size`: see CurveMeshOptions. Faces that are not asked for may drop out. Throws InputError where what
+/// was divided forbids that.
 void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
-                    const Arrangement& arrangement, const FaceRegions& regions,
+                    const Arrangement& arrangement, const FaceRegions& regions, const PointSize& grid_size,
                     std::vector<CurvePiece>& pieces);
 
 /// The patches that these faces are, with the points of their boundaries at which sides begin (a ring: none).

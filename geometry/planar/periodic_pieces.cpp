@@ -85,7 +85,7 @@ class Pairing {
           pair.where, name));
     if (found.empty())
       throw InputError(
-          fmt::format("{}: no curve is called '{}'{}", pair.where, name, suggestion(name, known)));
+          fmt::format("{}: no curve is called '{}'{}", pair.where, name, suggestion_or_all(name, known)));
     return found;
   }
 

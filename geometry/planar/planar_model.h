@@ -20,6 +20,9 @@ struct CurveMeshOptions {
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
   SymmetrySpec symmetry = {};
+  /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
+  /// grids must not make more of these.
+  PointSize grid_size = {};
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)

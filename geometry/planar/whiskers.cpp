@@ -109,9 +109,11 @@ std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curv
   Surroundings around(curves, points);
   std::vector<std::array<Vec2, 2>> ends;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2 across = points[i] - around.nearest(points[i], i).at;
+    const auto [distance, nearest] = around.nearest(points[i], i);
+    const Vec2 across = points[i] - nearest;
     const double first = std::atan2(across.y, across.x) + std::numbers::pi / 2;
-    for (double length = sizes[i]; ends.size() == i && length >= kShortest * sizes[i]; length *= kShorter)
+    const double shortest = kShortest * sizes[i], longest = distance < shortest ? 0 : sizes[i];
+    for (double length = longest; ends.size() == i && length >= shortest; length *= kShorter)
       for (int k = 0; ends.size() == i && k < kDirections; ++k) {
         const double angle = first + std::numbers::pi * k / kDirections;
         const Vec2 along = length * Vec2{std::cos(angle), std::sin(angle)};

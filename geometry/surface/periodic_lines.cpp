@@ -163,7 +163,8 @@ std::vector<char> curves_named(const Mesh& fine, const PeriodicPair& pair, const
                     fmt::format("curve_{}", curve.tag) == name);
   }
   if (std::ranges::find(found, 1) == found.end())
-    throw InputError(fmt::format("{}: no curve is called '{}'{}", pair.where, name, suggestion(name, known)));
+    throw InputError(
+        fmt::format("{}: no curve is called '{}'{}", pair.where, name, suggestion_or_all(name, known)));
   return found;
 }
 

@@ -132,6 +132,8 @@ TEST_F(Cases, CurvesAreDivided) {
   expect_input_error([&] { prepare("{ name = \"botom\", edges = 8 }"); },
                      {"c.toml:3: no curve is called 'botom'; did you mean 'bottom'?"});
   expect_input_error([&] { prepare("{ name = \"top\", edges = 0 }"); }, {"c.toml:3", "'edges' is 0"});
+  expect_input_error([&] { prepare("{ name = \"top\", bump = 0.2 }"); },
+                     {"c.toml:3: 'divide.edges' is missing"});
   expect_input_error([&] { prepare("{ name = \"top\", edges = 8, bump = 0 }"); }, {"c.toml:3", "bump"});
   expect_input_error([&] { prepare("[{ name = \"top\", edges = 8 }, { name = \"top\", edges = 8 }]"); },
                      {"divided twice"});

@@ -78,6 +78,9 @@ TEST(NearestName, CountsSwapsAsOne) {
   EXPECT_EQ(suggestion("edge_10", entities), "; did you mean 'curve_10'?");
   EXPECT_EQ(suggestion("1", entities), "; did you mean 'curve_1'?");
   EXPECT_EQ(suggestion("qqqqqqqq", {"size"}), "");
+  EXPECT_EQ(suggestion_or_all("szie", {"size"}), "; did you mean 'size'?");
+  EXPECT_EQ(suggestion_or_all("qqqqqqqq", {"wall", "b", "wall", ""}), "; there are 'b', 'wall'");
+  EXPECT_EQ(suggestion_or_all("qqqqqqqq", {}), "");
 }
 
 }  // namespace

@@ -332,6 +332,8 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
                      {"'far'", "outside of every region"});
   expect_input_error(meshing(ModelMaker(square).point({0.5, 0.5}, "p").point({0.50001, 0.5}, "q")),
                      {"'q'", "nearer than a thousandth", "(0.50001, 0.5)"});
+  expect_input_error(meshing(ModelMaker(square).point({0.5, 0.5}, "p").point({0.50009, 0.5}, "q")),
+                     {"nearer than a thousandth"});
   expect_input_error(meshing(ModelMaker(square).curve(make_segment({0.2, 0}, {0.8, 0}), "on the border")),
                      {"'on the border'", "lies on the boundary, curve 1", "(0.2, 0) and (0.8, 0)"});
   ModelMaker hole = square;

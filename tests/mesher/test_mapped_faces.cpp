@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -145,6 +146,32 @@ TEST(MappedFaces, ChainsAgreeOnTheirEdges) {
   for (const int c : r.mesh.line_curve) ++edges[c];
   for (int i = 1; i <= 10; ++i) EXPECT_EQ(edges[i], edges[0]);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(edges[11 + 2 * i], edges[12 + 2 * i]);
+}
+
+/// Sizes follow the short edges of a grid, and do not make more of them.
+TEST(MappedFaces, NeighboursDoNotMakeAGridFiner) {
+  PlanarModel model;
+  model.curves = {{make_segment({0, 0}, {3, 0}), "long", {}},
+                  {make_segment({3, 0}, {2, 1}), "shared", {}},
+                  {make_segment({2, 1}, {1, 1}), "short", {}},
+                  {make_segment({1, 1}, {0, 0}), "other", {}}};
+  model.loops = {{{0, 1, 2, 3}, "grid", {}}};
+  const auto counts = [](const PlanarModel& m) {
+    MeshProblem problem;
+    problem.model = m;
+    problem.size.field = make_constant_size(0.1);
+    problem.mapped.names = {"grid"};
+    const Mesh mesh = delquad::mesh(problem, "DB").mesh;
+    std::array<int, 4> n{};
+    for (const int curve : mesh.line_curve)
+      if (curve < 4) ++n[curve];
+    return n;
+  };
+  const auto alone = counts(model);
+  EXPECT_EQ(alone, (std::array{17, 14, 17, 14}));
+  model.curves.push_back({make_polyline({{3, 0}, {3, 3}, {2, 2}, {2, 1}}), "rest", {}});
+  model.loops.push_back({{1, 4}, "free", {}});
+  EXPECT_EQ(counts(model), alone);
 }
 
 TEST(MappedFaces, AroundAHole) {

@@ -58,7 +58,7 @@ std::vector<char> regions_named(const PlanarDomain& domain, const LayerSpec& spe
     const std::vector<std::string> known = names_of(regions);
     if (std::ranges::find(known, name) == known.end())
       throw InputError(
-          fmt::format("{}: no region has the name '{}'{}", spec.where, name, suggestion(name, known)));
+          fmt::format("{}: no region has the name '{}'{}", spec.where, name, suggestion_or_all(name, known)));
     for (std::size_t r = 0; r < regions.size(); ++r)
       if (has_name(regions[r], name)) into[r] = 1;
   }
@@ -91,8 +91,8 @@ CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSp
     };
     for (const std::string& name : specs[s].on) {
       if (std::ranges::find(known, name) == known.end())
-        throw InputError(
-            fmt::format("{}: no curve has the name '{}'{}", specs[s].where, name, suggestion(name, known)));
+        throw InputError(fmt::format("{}: no curve has the name '{}'{}", specs[s].where, name,
+                                     suggestion_or_all(name, known)));
       bool is_beside = specs[s].into.empty();  // one of the regions
       for (std::size_t c = 0; c < curves.size(); ++c) {
         std::vector<int>& here = layers.of_curve[c];
