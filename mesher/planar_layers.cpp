@@ -58,11 +58,24 @@ void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDom
   });
 }
 
+/// Of what layers leave of the patches.
+std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain) {
+  try {
+    return std::make_shared<BackgroundMesh>(domain.patches);
+  } catch (const InputError& error) {
+    std::vector<std::string> on;
+    for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
+    throw InputError(fmt::format("{}: there is no place for the layers on '{}': beside them, {}",
+                                 problem.layers[0].where, fmt::join(on, "', '"), error.what()));
+  }
+}
+
 }  // namespace
 
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
   p.layers = add_layers(domain, problem.layers, static_cast<double>(p.max_elements));
   drop_grids(problem, p.layers, domain);
+  p.background = mesh_rest(problem, domain);
   p.outlines = std::move(domain.outlines);
   warn_of_layers(problem, p.layers, p.warnings);
   std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size);

@@ -4,9 +4,9 @@
 
 namespace delquad {
 
-/// Puts the layers of a problem into its domain, before the background mesh is made. Sizes become less beside
-/// edges that are much shorter than these, and warnings tell where layers had to be lower, and where the rest
-/// of the mesh is far coarser than they are.
+/// Puts the layers of a problem into its domain, and makes the background mesh of the rest. Sizes become less
+/// beside edges that are much shorter than these, and warnings tell where layers had to be lower, and where
+/// the rest of the mesh is far coarser than they are.
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p);
 
 /// Which quads of a mesh are of layers: in each region the first ones.

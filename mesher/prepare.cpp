@@ -467,10 +467,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   PlanarDomain domain = planar_domain(problem, refinement, given, p);
   for (const std::string& note : domain.notes) p.warnings.emplace_back(note);
   if (!std::holds_alternative<GivenMesh>(problem.model)) warn_of_gaps(domain, p.warnings);
-  if (!problem.layers.empty()) {
-    put_layers(problem, domain, p);
-    p.background = std::make_shared<BackgroundMesh>(domain.patches);
-  }
+  if (!problem.layers.empty()) put_layers(problem, domain, p);
   if (std::holds_alternative<LineModel>(problem.model))
     for (const std::string& line : odd_boundaries(domain))
       p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});

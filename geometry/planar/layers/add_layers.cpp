@@ -28,9 +28,9 @@ void check_thickness(const PlanarDomain& domain, std::span<const LayerSpec> spec
   for (std::size_t s = 0; s < specs.size(); ++s)
     if (heights[s].back() >= width)
       throw InputError(
-          fmt::format("{}: the layers are {:.6g} thick and the domain is {:.6g} wide: expected "
+          fmt::format("{}: the layers on '{}' are {:.6g} thick and the domain is {:.6g} wide: expected "
                       "thinner layers",
-                      specs[s].where, heights[s].back(), width));
+                      specs[s].where, fmt::join(specs[s].on, "', '"), heights[s].back(), width));
 }
 
 void check_number(const std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs, double most) {

@@ -28,8 +28,9 @@ constexpr double kGap = 0.5;
 /// What fronts must not touch, and what must not touch them.
 struct Segment {
   Vec2 a, b;
-  std::array<int, 2> points;  ///< of the patch, to which it belongs: those of a point may touch
-  std::array<int, 2> walls = {-1, -1};
+  std::array<int, 2> points;              ///< of the patch, to which it belongs: those of a point may touch
+  std::array<int, 2> walls = {-1, -1};    ///< on which its points lie
+  std::array<int, 2> free_of = {-1, -1};  ///< at whose ends these stand free
   bool is_of_layer = true;
 };
 
@@ -66,6 +67,7 @@ class LayerFitter {
       too_high_.assign(patch_.points.size(), 0);
       for (int c = 0; c < layers_.n_chains(); ++c) check_quads(c);
       check_distances();
+      if (std::ranges::find(too_high_, 1) == too_high_.end()) check_ends();
       if (!lower_marked()) return;
     }
     refuse();
@@ -79,7 +81,7 @@ class LayerFitter {
       for (std::size_t i = 0; i + 1 < walls[w].points.size(); ++i)
         wall[walls[w].points[i]] = static_cast<int>(w);
     for (const auto& [a, b] : patch_.edges)
-      boundary_.push_back({patch_.points[a], patch_.points[b], {a, b}, {wall[a], -1}, false});
+      boundary_.push_back({patch_.points[a], patch_.points[b], {a, b}, {wall[a], -1}, {-1, -1}, false});
   }
 
   /// No thickness differs from its neighbours' by more than kSteepest; the lower one counts.
@@ -129,11 +131,25 @@ class LayerFitter {
     });
   }
 
+  /// Sides that lie on walls fit these.
+  void check_ends() {
+    for (int c = 0; c < layers_.n_chains(); ++c)
+      for (const LayerColumn& column : layers_.columns(c))
+        if (column.wall >= 0 &&
+            column.slant * layers_.thickness(c, column.at) > layers_.found().walls[column.wall].room())
+          mark(c, column);
+  }
+
   /// A node of a column, and the distance that it keeps.
   Vec2 guarded(int c, const LayerColumn& column, int layer) const {
     const double h = layers_.height(c, column.at, layer);
     const auto [before, after] = layers_.edges_at(c, column.at);
     return layers_.point(c, column, h + kGap * std::min({h, before, after}));
+  }
+
+  int free_of(int c, const LayerColumn& column) const {
+    const bool is_free = layers_.corner(c, column.at).kind == ChainCorner::kOpenEnd;
+    return is_free ? layers_.chain(c).wall[column.at == 0 ? 0 : 1] : -1;
   }
 
   std::vector<Segment> segments() const {
@@ -144,13 +160,15 @@ class LayerFitter {
         all.push_back({layers_.foot(c, column.at),
                        guarded(c, column, layers_.layers_at(c, column.at)),
                        {column.point, -1},
-                       {column.wall, -1}});
+                       {column.wall, -1},
+                       {free_of(c, column), -1}});
       layers_.for_each_pair(c, [&](int a, int b) {
         const int top = layers_.layers_between(c, a, b);
         all.push_back({guarded(c, columns[a], top),
                        guarded(c, columns[b], top),
                        {columns[a].point, columns[b].point},
-                       {columns[a].wall, columns[b].wall}});
+                       {columns[a].wall, columns[b].wall},
+                       {free_of(c, columns[a]), free_of(c, columns[b])}});
       });
     }
     return all;
@@ -167,13 +185,18 @@ class LayerFitter {
           [&](int j) { compare(all[i], all[j]); });
   }
 
+  /// Where layers on a wall reach those that stand free at its other end, these stay as they are.
   void compare(const Segment& s, const Segment& t) {
     if (share(s.points, t.points) || share(s.walls, t.walls) || !overlap(box_of(s), box_of(t)) ||
         !touch(s, t))
       return;
-    for (const Segment* one : {&s, &t})
-      for (const int p : one->points)
-        if (one->is_of_layer && p >= 0) too_high_[p] = 1;
+    const bool stays_s = t.is_of_layer && share(s.free_of, t.walls), stays_t = share(t.free_of, s.walls);
+    const auto mark = [&](const Segment& one, bool stays) {
+      for (const int p : one.points)
+        if (one.is_of_layer && !stays && p >= 0) too_high_[p] = 1;
+    };
+    mark(s, stays_s && !stays_t);
+    mark(t, stays_t && !stays_s);
   }
 
   bool lower_marked() {
@@ -189,9 +212,14 @@ class LayerFitter {
 
   [[noreturn]] void refuse() const {
     const int p = static_cast<int>(std::ranges::find(too_high_, 1) - too_high_.begin());
-    const LayerSpec& spec = specs_[layers_.chain(0).spec[0]];
-    throw InputError(fmt::format("{}: there is no place for layers at ({:.6g}, {:.6g})", spec.where,
-                                 patch_.points[p].x, patch_.points[p].y));
+    const auto& chains = layers_.found().chains;
+    const auto chain = std::ranges::find_if(
+        chains, [&](const LayerChain& c) { return std::ranges::find(c.points, p) != c.points.end(); });
+    const auto k = static_cast<std::size_t>(std::ranges::find(chain->points, p) - chain->points.begin());
+    const LayerSpec& spec = specs_[chain->spec[std::min(k, chain->spec.size() - 1)]];
+    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at ({:.6g}, {:.6g})",
+                                 spec.where, fmt::join(spec.on, "', '"), patch_.points[p].x,
+                                 patch_.points[p].y));
   }
 
   const PatchBoundary& patch_;

@@ -39,6 +39,9 @@ struct LayerWall {
   std::array<bool, 2> is_taken = {false, false};
   int id = -1;               ///< of the wall among those of all patches, see LayerWalls
   bool is_reversed = false;  ///< against that one
+
+  /// How far nodes at the heights of layers may reach, from one end.
+  double room() const { return (is_taken[0] && is_taken[1] ? 0.45 : 0.9) * track.length(); }
 };
 
 struct LayerChains {

@@ -18,10 +18,6 @@ constexpr double kLongFront = 1.5;
 constexpr double kLongestDiagonal = std::numbers::sqrt2;
 /// Columns beside a corner lean towards its bisector, or wall, up to so many times as far as that reaches.
 constexpr double kLeanReach = 3;
-/// A column may lean further than this by its height only at the foot of a low one.
-constexpr double kSteepLean = 1.2;
-/// The part of a wall that layers may take, all in all.
-constexpr double kPartOfWall = 0.6;
 
 Vec2 unit(Vec2 v) { return (1 / norm(v)) * v; }
 
@@ -46,7 +42,6 @@ LayerColumns::LayerColumns(const PatchBoundary& patch, const LayerChains& found,
     for (int k = 0; k < n; ++k) set_corner(c, k, specs);
   }
   columns_.resize(n_chains());
-  set_bounds();
 }
 
 std::array<double, 2> LayerColumns::edges_at(int c, int k) const {
@@ -136,27 +131,6 @@ void LayerColumns::set_end(ChainCorner& corner, int c, int end) {
   } else {
     corner.kind = ChainCorner::kOpenEnd;
   }
-}
-
-void LayerColumns::set_bounds() {
-  for (int c = 0; c < n_chains(); ++c)
-    for (int k = 0; k < chain(c).n_points(); ++k) {
-      const ChainCorner& corner = corners_[c][k];
-      double most = thickness(c, k);
-      const bool is_end = !chain(c).is_closed && (k == 0 || k + 1 == chain(c).n_points());
-      if (is_end) {
-        const int end = k == 0 ? 0 : 1;
-        const LayerWall& wall = found_.walls[chain(c).wall[end]];
-        const bool are_two =
-            (wall.chain[0] >= 0 || wall.is_taken[0]) && (wall.chain[1] >= 0 || wall.is_taken[1]);
-        most = (are_two ? kPartOfWall / 2 : kPartOfWall) * wall.track.length();
-        if (corner.kind == ChainCorner::kOnWall)
-          most *= joined_[c][end].empty() ? std::sin(corner.angle) : 1 / slants_[c][end];
-      }
-      const double lean = 1 / std::tan(is_end ? corner.angle : corner.angle / 2);
-      if (lean > kSteepLean) most = std::min(most, std::ranges::min(edges_at(c, k)) / lean);
-      scales[c][k] = std::min(1.0, most / thickness(c, k));
-    }
 }
 
 void LayerColumns::place() {

@@ -60,11 +60,8 @@ class LayerColumns {
   LayerWall& wall(int w) { return found_.walls[w]; }
   /// Length along the wall by height, at an end of an open chain.
   double slant(int c, int end) const { return slants_[c][end]; }
-  /// An end gets the mean heights of its own layer and these, and this slant. Then set_bounds() is due.
+  /// An end gets the mean heights of its own layer and these, and this slant.
   void join_end(int c, int end, std::vector<int> others, double slant);
-  /// What is known of the scales before layers are compared with each other: how much of a wall they may
-  /// take, and how far the columns of sharp corners may reach.
-  void set_bounds();
   /// To be called once the scales have changed.
   void place();
   const std::vector<LayerColumn>& columns(int c) const { return columns_[c]; }

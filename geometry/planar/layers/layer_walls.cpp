@@ -26,7 +26,6 @@ LayerWalls::LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches,
   for (const std::vector<ChainEnd>& group : groups_)
     if (group.size() > 1) join(group);
   mark_taken();
-  for (PatchLayers& patch : patches_) patch.columns.set_bounds();
 }
 
 void LayerWalls::list_walls() {
@@ -179,13 +178,16 @@ void LayerWalls::count(Wall& wall) {
   for (const int end : {0, 1}) {
     const std::vector<ChainEnd>& group = groups_[wall.group[end]];
     if (group.empty()) continue;
-    // Where layers stand free beside a wall, that has as many nodes, as far apart.
+    // Where layers stand free beside a wall, that has nodes as far apart, as many as fit.
     const auto leans = [&](const ChainEnd& e) { return corner(e).kind != ChainCorner::kOpenEnd; };
     const auto on_wall = std::ranges::find_if(group, leans);
     const ChainEnd& e = on_wall == group.end() ? group[0] : *on_wall;
     const double slant = columns(e).slant(e.chain, e.end);
-    for (int i = 1; i <= columns(e).layers_at(e.chain, point_of(e)); ++i)
-      wall.along[end].push_back(slant * columns(e).height(e.chain, point_of(e), i));
+    for (int i = 1; i <= columns(e).layers_at(e.chain, point_of(e)); ++i) {
+      const double along = slant * columns(e).height(e.chain, point_of(e), i);
+      if (on_wall == group.end() && along > shape_of(wall).room()) break;
+      wall.along[end].push_back(along);
+    }
   }
   const auto last = [&](int end) { return wall.along[end].empty() ? 0 : wall.along[end].back(); };
   wall.from = track.place(last(0));
