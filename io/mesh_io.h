@@ -42,9 +42,9 @@ bool fits_msh(std::string_view name);
 // name says.
 
 /// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
-/// and quads; physical names and entity tags are kept (a group without a name goes by its number), and so are
-/// the further names that write_msh() leaves; points are ignored, and so are nodes that no other element
-/// uses. Throws InputError with file and line, or byte.
+/// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
+/// by its number), and so are the further names that write_msh() leaves; points are ignored, and so are nodes
+/// that no other element uses. Throws InputError with file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
