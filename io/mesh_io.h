@@ -25,6 +25,14 @@ std::filesystem::path behind_links(std::filesystem::path path);
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
+/// Several files that belong together: each is filled before the first gets its place, then they get theirs
+/// in this order.
+struct FileToWrite {
+  std::filesystem::path path;
+  std::function<void(std::ostream&)> write;
+};
+void write_files_atomically(const std::vector<FileToWrite>& files);
+
 /// Removes the temporary files of write_file_atomically(), for a process that is about to end; safe in signal
 /// handlers.
 void remove_unfinished_files() noexcept;
