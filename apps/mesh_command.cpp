@@ -194,6 +194,9 @@ int mesh_command(const MeshArguments& arguments) {
   std::vector<Warning> warnings = result.warnings;
   for (const std::string& reason : result.soundness.reasons)
     warnings.push_back("the mesh is not sound: " + reason);
+  if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
+    warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
+                                   fmt::join(renamed, "; ")));
   progress.warn(warnings);
   {
     const DoingStage writing_files("writing");

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "delquad/error.h"
 #include "io/hex_writers.h"
+#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "metrics/metrics.h"
@@ -42,6 +44,19 @@ template <void (*write)(const std::filesystem::path&, const HexMesh&)>
 void write_plainly(const std::filesystem::path& path, const HexMesh& mesh, bool) {
   write(path, mesh);
 }
+
+/// What formats rename that have labels by these rules.
+template <const UniqueLabels::Rules& rules>
+std::vector<std::string> renamed_by(const Mesh& mesh) {
+  return renamed_groups(mesh_groups(mesh, rules));
+}
+
+/// Of formats whose files do not tell what became of names, by extension.
+const std::map<std::string, std::vector<std::string> (*)(const Mesh&)> kRenamed = {
+    {".vtk", renamed_in_vtk},
+    {".e", renamed_by<kExodusLabels>},
+    {".cgns", renamed_by<kCgnsLabels>},
+    {".med", renamed_by<kMedLabels>}};
 
 constexpr const char* kMsh = ".msh";
 
@@ -176,6 +191,12 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOp
   const std::string kind = kind_to_write(path);
   if (kind == kMsh) return write_msh(path, mesh, options);
   find_format(kind)->write(path, mesh);
+}
+
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {
+  const MeshFormat* format = find_format(kind_to_write(path));
+  const auto found = format == nullptr ? kRenamed.end() : kRenamed.find(format->extensions[0]);
+  return found == kRenamed.end() ? std::vector<std::string>() : found->second(mesh);
 }
 
 }  // namespace delquad

@@ -134,6 +134,8 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
 /// VTK's older format, as text. Cells have tags as in VTU; names are field arrays "region_NAME" of tags.
 void write_vtk(const std::filesystem::path& path, const Mesh& mesh);
+/// What becomes of its names, as renamed_in_file() tells it.
+std::vector<std::string> renamed_in_vtk(const Mesh& mesh);
 /// Unstructured cell data of AVS, as deal.II reads it, too: the material of a cell is the number of its name,
 /// which comments tell.
 void write_ucd(const std::filesystem::path& path, const Mesh& mesh);
@@ -161,5 +163,9 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh);
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
 /// has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
+
+/// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is
+/// a_b", one line each.
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace delquad

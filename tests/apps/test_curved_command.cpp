@@ -63,5 +63,15 @@ TEST(CurvedCommand, WhatNeedsStraightQuadsRefusesOthers) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(MeshCommand, TellsNamesThatTheFileCannotHold) {
+  const TemporaryFolder folder;
+  std::string square = kSquare;
+  square.replace(square.find("left"), 4, "in out");
+  write_text(folder / "a.toml", square + "size = 0.5\n");
+  const ProgramResult result = delquad({"mesh", folder / "a.toml", "-o", folder / "a.vtk"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.err, "curve \"in out\" is in_out")) << result.err;
+}
+
 }  // namespace
 }  // namespace delquad::testing_support
