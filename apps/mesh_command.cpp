@@ -170,6 +170,7 @@ int mesh_command(const MeshArguments& arguments) {
   c.size = with_arguments(std::move(c.size), arguments);
   if (arguments.order) c.order = *arguments.order;
   check_mesh_format(arguments.output, arguments.msh, c.order);
+  if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
@@ -203,7 +204,7 @@ int mesh_command(const MeshArguments& arguments) {
     const Uninterrupted whole;
     if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
     const Stopwatch writing;
-    write_mesh(arguments.output, result.mesh, arguments.msh);
+    (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
     if (!arguments.json.empty())
       write_file_atomically(arguments.json,

@@ -3,26 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "delquad/error.h"
 #include "io/hex_writers.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesh/drop_unused_points.h"
 #include "metrics/metrics.h"
 
 namespace delquad {
 
 namespace {
 
-void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh) {
+void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh, QuadNodes nodes) {
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
                           std::numeric_limits<double>::quiet_NaN());
   const std::vector<double> of_quads = quad_etas(mesh);
   eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}});
+  write_vtu(path, mesh, {{"eta", eta}}, nodes);
+}
+void write_vtu_plainly(const std::filesystem::path& path, const Mesh& mesh) {
+  write_vtu_with_eta(path, mesh, QuadNodes::kAll);
 }
 
 /// A plane mesh is seen from above, one in space from a corner.
@@ -59,6 +65,13 @@ const std::map<std::string, std::vector<std::string> (*)(const Mesh&)> kRenamed 
     {".med", renamed_by<kMedLabels>}};
 
 constexpr const char* kMsh = ".msh";
+/// Formats with quads of 8 nodes; of order 2 the last ones have no others.
+constexpr std::array kWithEight = {kMsh, ".vtu", ".inp", ".bdf"};
+constexpr std::array kAlwaysEight = {".inp", ".bdf"};
+
+bool is_among(const MeshFormat& format, std::span<const char* const> extensions) {
+  return std::ranges::find(extensions, format.extensions[0]) != extensions.end();
+}
 
 /// kind_of_file() looks behind .gz, but nothing is written packed.
 std::string kind_to_write(const std::filesystem::path& path) {
@@ -120,7 +133,7 @@ const std::vector<MeshFormat>& mesh_formats() {
       {{".vtu"},
        "VTK XML, ParaView",
        read_plainly<read_vtu>,
-       write_vtu_with_eta,
+       write_vtu_plainly,
        kMostOrder,
        "",
        write_plainly<write_hex_vtu>},
@@ -191,6 +204,31 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOp
   const std::string kind = kind_to_write(path);
   if (kind == kMsh) return write_msh(path, mesh, options);
   find_format(kind)->write(path, mesh);
+}
+
+void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {
+  check_mesh_format(path, options, order);
+  if (order != 2)
+    throw InputError(
+        fmt::format("{}: quads of 8 nodes have order 2, these have order {}: expected --order 2 with "
+                    "--serendipity",
+                    path.string(), order));
+  const std::string kind = kind_to_write(path);
+  const auto can = [](const MeshFormat& f) { return is_among(f, kWithEight); };
+  if (!can(*find_format(kind)))
+    throw InputError(fmt::format("{}: '{}' has no quads of 8 nodes here: expected {}", path.string(), kind,
+                                 extensions_of(can)));
+}
+
+void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
+  check_serendipity(path, options, mesh.order);
+  const std::string kind = kind_to_write(path);
+  if (is_among(*find_format(kind), kAlwaysEight)) return write_mesh(path, mesh, options);
+  Mesh eight = mesh;  // a corner stands for each middle node, which so is no node any more
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) eight.quad_nodes[5 * q + 4] = mesh.quads[q][0];
+  drop_unused_points(eight);
+  if (kind == kMsh) return write_msh(path, eight, options, QuadNodes::kNoMiddle);
+  write_vtu_with_eta(path, eight, QuadNodes::kNoMiddle);
 }
 
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {

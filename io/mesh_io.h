@@ -111,18 +111,25 @@ NodalValues read_values(const std::filesystem::path& path, const std::string& na
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
+/// Which nodes of quads of order 2 are written: nine, or eight of a mesh in which a corner stands for the
+/// middle one.
+enum class QuadNodes { kAll, kNoMiddle };
+
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
 /// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
 /// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
 /// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
-void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
-void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {});
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
 /// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
 /// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there
 /// means that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the
 /// tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
-               const std::map<std::string, std::vector<double>>& cell_data = {});
+               const std::map<std::string, std::vector<double>>& cell_data = {},
+               QuadNodes nodes = QuadNodes::kAll);
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would
 /// be one then get numbers, and comments say so.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
@@ -163,6 +170,11 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh);
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
 /// has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
+
+/// write_mesh() with quads of eight nodes: of order 2, in formats that have them.
+void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
+/// InputError where write_serendipity() would throw one.
+void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order);
 
 /// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is
 /// a_b", one line each.

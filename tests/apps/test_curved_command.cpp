@@ -63,6 +63,22 @@ TEST(CurvedCommand, WhatNeedsStraightQuadsRefusesOthers) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(CurvedCommand, SerendipityLeavesMiddlesOut) {
+  const TemporaryFolder folder;
+  write_text(folder / "disc.toml", "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.5\n");
+  const auto run = [&](const char* name, const char* order) {
+    return delquad({"mesh", folder / "disc.toml", "-o", folder / name, "--order", order, "--serendipity"});
+  };
+  ASSERT_EQ(run("a.vtu", "2").exit_code, 0);
+  EXPECT_EQ(read_mesh(folder / "a.vtu").order, 2);
+  for (const auto& [name, order] : {std::pair{"b.msh", "3"}, {"b.msh", "1"}, {"b.vtk", "2"}}) {
+    const ProgramResult result = run(name, order);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, "8 nodes")) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+}
+
 TEST(MeshCommand, TellsNamesThatTheFileCannotHold) {
   const TemporaryFolder folder;
   std::string square = kSquare;

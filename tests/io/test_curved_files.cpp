@@ -118,5 +118,43 @@ TEST(CurvedFiles, FieldsOnCurvedElementsAreRefused) {
       {"a.msh", "order 2", "expected order 1"});
 }
 
+/// Files of eight nodes have no others, and give the same places where the middle one is where eight have it.
+TEST(Serendipity, FilesOfEightNodesComeBack) {
+  const TemporaryFolder folder;
+  for (const bool in_space : {false, true}) {
+    Mesh mesh = curved_grid(4, 3, 2, in_space);
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+      const std::vector<int> v = nodes_of_quad(mesh, q);
+      const auto at = [&](int k) { return mesh.points[v[k]]; };
+      mesh.points[v[4]] = middle_of_eight({at(0), at(2), at(8), at(6)}, {at(1), at(5), at(7), at(3)});
+    }
+    for (const auto& [name, binary] : {std::pair{"a.msh", false}, {"a.msh", true}, {"a.vtu", false}}) {
+      write_serendipity(folder / name, mesh, {binary, MshCurves::kAll});
+      const Mesh back = read_mesh(folder / name);
+      ASSERT_EQ(back.order, 2);
+      EXPECT_EQ(back.points.size(), mesh.points.size());
+      EXPECT_EQ(back.line_nodes.size(), mesh.line_nodes.size());
+      EXPECT_EQ(names(back.regions), names(mesh.regions));
+      ASSERT_EQ(back.named_points.size(), 1u);
+      EXPECT_EQ(back.points[back.named_points[0].point], mesh.points[mesh.named_points[0].point]);
+      ASSERT_EQ(back.quads.size(), mesh.quads.size());
+      for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+        for (int k = 0; k < 9; ++k)
+          EXPECT_EQ(back.points[nodes_of_quad(back, q)[k]], mesh.points[nodes_of_quad(mesh, q)[k]]);
+    }
+    write_serendipity(folder / "a.msh", mesh);
+    EXPECT_NE(testing_support::read_text(folder / "a.msh").find("\n2 1 16 "), std::string::npos);
+  }
+}
+
+TEST(Serendipity, IsRefusedElsewhere) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { write_serendipity(folder / "a.msh", curved_grid(1, 1, 3, false)); },
+                     {"a.msh", "order 3", "--order 2"});
+  expect_input_error([&] { write_serendipity(folder / "a.vtk", curved_grid(1, 1, 2, false)); },
+                     {"a.vtk", "8 nodes", ".msh, .vtu, .inp or .bdf"});
+  EXPECT_TRUE(folder.names().empty());
+}
+
 }  // namespace
 }  // namespace delquad
