@@ -73,6 +73,7 @@ struct MeshArguments {
   std::optional<double> feature_angle, weld_tolerance;
   std::optional<double> ignore_below;                     ///< a length
   std::optional<int> order;                               ///< of the elements; else as the model says
+  bool serendipity = false;                               ///< quads of order 2 have 8 nodes
   bool keep_numbers = false;                              ///< of nodes, as stages made them
   bool glue = false;                                      ///< else as the model says
   std::vector<std::string> mapped;                        ///< names of regions, or "auto"

@@ -243,6 +243,8 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments, CommonArguments& 
   mesh.add_option("--order", arguments.order,
                   "of the elements: 2 to 4 are curved along the model (.msh, .vtu; 2 also .inp)")
       ->check(CLI::Range(1, kMostOrder));
+  mesh.add_flag("--serendipity", arguments.serendipity,
+                "with --order 2: quads of 8 nodes, without a middle one, in .msh and .vtu, too");
   mesh.add_option("--json", arguments.json, "record to write");
   mesh.add_option("--max-elements", arguments.max_elements, kMaxElementsHelp)
       ->capture_default_str()

@@ -170,6 +170,7 @@ int mesh_command(const MeshArguments& arguments) {
   c.size = with_arguments(std::move(c.size), arguments);
   if (arguments.order) c.order = *arguments.order;
   check_mesh_format(arguments.output, arguments.msh, c.order);
+  if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
@@ -194,13 +195,16 @@ int mesh_command(const MeshArguments& arguments) {
   std::vector<Warning> warnings = result.warnings;
   for (const std::string& reason : result.soundness.reasons)
     warnings.push_back("the mesh is not sound: " + reason);
+  if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
+    warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
+                                   fmt::join(renamed, "; ")));
   progress.warn(warnings);
   {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
     if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
     const Stopwatch writing;
-    write_mesh(arguments.output, result.mesh, arguments.msh);
+    (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
     if (!arguments.json.empty())
       write_file_atomically(arguments.json,

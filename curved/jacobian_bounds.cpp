@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "curved/bernstein.h"
+#include "mesh/element_nodes.h"
 
 namespace delquad {
 
@@ -94,13 +95,25 @@ JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order) {
   return bounds;
 }
 
+ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds) {
+  ProvenJacobians all;
+  double sum = 0;
+  for (const JacobianBounds& b : bounds) {
+    all.unproven += !b.positive();
+    all.least = std::min(all.least, b.proven);
+    sum += b.proven;
+  }
+  if (!bounds.empty()) all.mean = sum / static_cast<double>(bounds.size());
+  return all;
+}
+
 JacobianBounds element_bounds(std::span<const Vec3> nodes, int order) {
   const JacobianBounds all = jacobian_bounds(nodes, order);
   if (order != 2) return all;
   // The eight-node quad is the nine-node one whose middle is there.
   std::vector<Vec3> eight(nodes.begin(), nodes.end());
   eight[4] =
-      0.5 * (nodes[1] + nodes[3] + nodes[5] + nodes[7]) - 0.25 * (nodes[0] + nodes[2] + nodes[6] + nodes[8]);
+      middle_of_eight({nodes[0], nodes[2], nodes[6], nodes[8]}, {nodes[1], nodes[3], nodes[5], nodes[7]});
   const JacobianBounds without_middle = jacobian_bounds(eight, order);
   return {std::min(all.proven, without_middle.proven), std::min(all.found, without_middle.found)};
 }

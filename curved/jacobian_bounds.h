@@ -16,6 +16,13 @@ struct JacobianBounds {
   bool positive() const { return proven > 0; }
 };
 
+/// What is proven of the elements of a mesh; 1, 1 and 0 of none.
+struct ProvenJacobians {
+  double least = 1, mean = 1;
+  int unproven = 0;  ///< elements that are not proven to be positive
+};
+ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds);
+
 /// Bounds by Bernstein coefficients of numerator and squared denominators, halved until they are close to
 /// each other [Johnen, Remacle, Geuzaine 2013, section 3; they bound the Jacobian alone]. `nodes` as
 /// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive.

@@ -6,6 +6,7 @@
 #include <climits>
 #include <cstring>
 #include <fstream>
+#include <list>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -108,23 +109,37 @@ fs::path behind_links(fs::path path) {
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) throw InputError(path.string() + ": cannot be written: it is a folder");
-  // A device or pipe must not be replaced by a file.
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_stream(path, path, write);
+  write_files_atomically({{path, write}});
+}
 
-  // A link stays; what it points to is replaced.
-  const fs::path target = behind_links(path);
-  constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
-  const std::string stem = target.filename().string().substr(0, kLongestStem);
-  const TemporaryFile temporary(target.parent_path() /
-                                ("." + stem + "." + std::to_string(getpid()) + ".tmp"));
-  write_stream(temporary.path(), path, write);
+void write_files_atomically(const std::vector<FileToWrite>& files) {
+  std::list<TemporaryFile> filled;
+  std::vector<std::pair<fs::path, fs::path>> targets;  // as given, and behind links
+  std::error_code error;
+  for (const auto& [path, write] : files) {
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) throw InputError(path.string() + ": cannot be written: it is a folder");
+    // A device or pipe must not be replaced by a file.
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+      write_stream(path, path, write);
+      continue;
+    }
+    // A link stays; what it points to is replaced.
+    const fs::path target = behind_links(path);
+    constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
+    const std::string stem = target.filename().string().substr(0, kLongestStem);
+    const std::string name = "." + stem + "." + std::to_string(getpid()) + ".tmp";
+    filled.emplace_back(target.parent_path() / name);
+    write_stream(filled.back().path(), path, write);
+    targets.emplace_back(path, target);
+  }
   const std::lock_guard lock(placing);
-  fs::rename(temporary.path(), target, error);
-  if (error) fail(path, error.value());
-  any_placed = true;
+  auto file = filled.begin();
+  for (const auto& [path, target] : targets) {
+    fs::rename((file++)->path(), target, error);
+    if (error) fail(path, error.value());
+    any_placed = true;
+  }
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "io/library_file.h"
 #include "io/mesh_groups.h"
@@ -16,20 +17,10 @@ namespace delquad {
 
 namespace {
 
-/// Names have at most 32 characters, and no slash.
-constexpr std::size_t kCgnsNameLength = 32;
-
-std::string cgns_label(const std::string& name) {
-  std::string label = one_line(name);
-  for (char& c : label)
-    if (c == '/') c = '_';
-  return label;
-}
-
 class CgnsWriter {
  public:
   CgnsWriter(const std::filesystem::path& path, const std::filesystem::path& temporary, const Mesh& mesh)
-      : path_(path), mesh_(mesh), groups_(mesh_groups(mesh, {cgns_label, false, kCgnsNameLength - 10})) {
+      : path_(path), mesh_(mesh), groups_(mesh_groups(mesh, kCgnsLabels)) {
     check(cg_open(temporary.c_str(), CG_MODE_WRITE, &file_), "the file");
   }
   ~CgnsWriter() {
@@ -75,6 +66,7 @@ class CgnsWriter {
   /// Returns the range of numbers that the elements got.
   std::array<cgsize_t, 2> write_section(const std::string& name, CGNS_ENUMT(ElementType_t) type,
                                         cgsize_t count, const std::vector<cgsize_t>& nodes) {
+    require_fits(path_, "CGNS", nodes.size(), "nodes of elements", std::numeric_limits<cgsize_t>::max());
     const std::array<cgsize_t, 2> range{next_, next_ + count - 1};
     int index = 0;
     check(cg_section_write(file_, base_, zone_, name.c_str(), type, range[0], range[1], 0, nodes.data(),

@@ -28,9 +28,7 @@ struct ExodusBlock {
 class ExodusWriter {
  public:
   ExodusWriter(const std::filesystem::path& path, const std::filesystem::path& temporary, const Mesh& mesh)
-      : path_(path),
-        mesh_(mesh),
-        groups_(mesh_groups(mesh, {one_line_label, false, kExodusNameLength - 10})) {
+      : path_(path), mesh_(mesh), groups_(mesh_groups(mesh, kExodusLabels)) {
     int real_in_memory = sizeof(double), real_in_file = sizeof(double);
     ex_opts(0);  // errors are told by what is returned
     file_ = ex_create(temporary.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &real_in_memory, &real_in_file);
@@ -123,15 +121,8 @@ class ExodusWriter {
     std::vector<std::string> node_sets, side_sets;
     for (const MeshGroup& group : groups_) {
       if (group.dim == 2) continue;
-      std::vector<int> nodes;
-      for (const int i : group.items) {
-        if (group.dim == 0)
-          nodes.push_back(i + 1);
-        else
-          for (const int v : nodes_of_line(mesh_, static_cast<std::size_t>(i))) nodes.push_back(v + 1);
-      }
-      std::ranges::sort(nodes);
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      std::vector<int> nodes = nodes_of_group(mesh_, group);
+      for (int& v : nodes) ++v;
       put_set(EX_NODE_SET, group.label, nodes, {}, node_sets);
       if (group.dim == 0) continue;
       std::vector<int> elements, which;

@@ -108,6 +108,7 @@ std::string content_kind(std::string_view text) {
   if (beginning.find("CASCADE Topology V") != std::string_view::npos) return "a BREP file";
   if (begins(text, "$MeshFormat") || begins(text, "$NOD")) return "an MSH file";
   if (begins(text, "MeshVersionFormatted")) return "a Medit file";
+  if (begins(text, "MFEM ")) return kMfemFile;
   if (beginning.find("<VTKFile") != std::string_view::npos) return "a VTU file";
   if (begins(text, "# vtk DataFile")) return "a legacy VTK file";
   if (begins(text, "ply\n") || begins(text, "ply\r")) return "a PLY file";

@@ -241,6 +241,7 @@ class InpWriter {
 }  // namespace
 
 void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
+  require_numbers(path, "Abaqus", mesh, 999'999'999);
   write_file_atomically(path, [&](std::ostream& stream) {
     TextWriter out(stream);
     InpWriter(out, mesh).write();

@@ -36,14 +36,18 @@ class TemporaryHome {
 
 }  // namespace
 
+std::function<void(std::ostream&)> by_library(
+    const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write) {
+  return [name = "mesh" + path.extension().string(), write = std::move(write)](std::ostream& out) {
+    const TemporaryHome home;
+    write(home.folder() / name);
+    out << std::ifstream(home.folder() / name, std::ios::binary).rdbuf();
+  };
+}
+
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
-  write_file_atomically(path, [&](std::ostream& out) {
-    const TemporaryHome home;
-    const std::filesystem::path temporary = home.folder() / ("mesh" + path.extension().string());
-    write(temporary);
-    out << std::ifstream(temporary, std::ios::binary).rdbuf();
-  });
+  write_file_atomically(path, by_library(path, write));
 }
 
 void require_written(bool done, const std::filesystem::path& path, const std::string& library,

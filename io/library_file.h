@@ -2,12 +2,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace delquad {
 
-/// For formats whose library writes files by their name: `write` fills a temporary one, and the file itself
-/// is written whole or not at all, see write_file_atomically().
+/// For formats whose library writes files by their name: `write` fills a temporary one, which is then copied
+/// to the stream.
+std::function<void(std::ostream&)> by_library(
+    const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write);
+/// The file itself is written whole or not at all, see write_file_atomically().
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -1,6 +1,5 @@
 #include <charconv>
 
-#include "delquad/error.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -30,9 +29,7 @@ std::string coordinate_text(double x) {
 
 void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
   constexpr std::size_t kField = 8, kTenth = 10;
-  constexpr std::size_t kMostNumbers = 99'999'999;
-  if (mesh.points.size() > kMostNumbers)
-    throw InputError(path.string() + ": LS-DYNA's fields of eight characters hold no numbers above 99999999");
+  require_numbers(path, "LS-DYNA", mesh, 99'999'999);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<int> part = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
   write_file_atomically(path, [&](std::ostream& stream) {
@@ -40,6 +37,7 @@ void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
     const auto number = [](auto n, std::size_t width) { return right(std::to_string(n), width); };
     out << "*KEYWORD\n$ quad mesh by Delquad\n";
     if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
+    for (const std::string& line : renamed_groups(groups)) out << "$ " << line << '\n';
     out << "*NODE\n";
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       const Vec3& p = mesh.points[i];
@@ -57,18 +55,11 @@ void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
     int set = 0;
     for (const MeshGroup& group : groups) {
       if (group.dim == 2) continue;
-      std::vector<int> nodes;
-      for (const int i : group.items) {
-        if (group.dim == 0)
-          nodes.push_back(i + 1);
-        else
-          nodes.insert(nodes.end(), {mesh.lines[i][0] + 1, mesh.lines[i][1] + 1});
-      }
-      std::ranges::sort(nodes);
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      const std::vector<int> nodes = nodes_of_group(mesh, group);
       out << "*SET_NODE_LIST_TITLE\n" << group.label << '\n' << number(++set, kTenth) << '\n';
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        out << number(nodes[i], kTenth) << (i + 1 == nodes.size() || i % kField == kField - 1 ? "\n" : "");
+        out << number(nodes[i] + 1, kTenth)
+            << (i + 1 == nodes.size() || i % kField == kField - 1 ? "\n" : "");
     }
     out << "*END\n";
     out.flush();

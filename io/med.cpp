@@ -22,22 +22,11 @@ constexpr const char* kMedMesh = "mesh";
 /// Names of groups have at most 80 bytes, those of families 64.
 constexpr std::size_t kGroupLength = MED_LNAME_SIZE, kFamilyLength = MED_NAME_SIZE;
 
-/// Readers take letters of other alphabets in several ways.
-std::string ascii_label(const std::string& name) {
-  std::string label = one_line(name);
-  for (char& c : label)
-    if (static_cast<unsigned char>(c) > '~') c = '_';
-  return label;
-}
-
 /// A family is what belongs to the same groups: here, to one.
 class MedWriter {
  public:
   MedWriter(const std::filesystem::path& path, const std::filesystem::path& temporary, const Mesh& mesh)
-      : path_(path),
-        mesh_(mesh),
-        planar_(is_planar(mesh)),
-        groups_(mesh_groups(mesh, {ascii_label, false, kGroupLength - 10})) {
+      : path_(path), mesh_(mesh), planar_(is_planar(mesh)), groups_(mesh_groups(mesh, kMedLabels)) {
     file_ = MEDfileOpen(temporary.c_str(), MED_ACC_CREAT);
     require_written(file_ >= 0, path_, "the MED library", "the file");
   }

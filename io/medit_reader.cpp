@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <climits>
-#include <map>
 
 #include "io/mesh_io.h"
+#include "io/numbered_entities.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
 
@@ -11,14 +11,15 @@ namespace delquad {
 
 namespace {
 
-/// Twice as much is still a tag.
-constexpr long long kMostReference = 999'999'999;
-
 class MeditReader {
  public:
-  explicit MeditReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "Medit"); }
+  explicit MeditReader(const std::filesystem::path& path) : in_(path) {}
+
+  /// Whose files often have the same extension.
+  bool is_mfem() const { return content_kind(in_.text()) == kMfemFile; }
 
   Mesh read() {
+    refuse_other_kinds(in_, "Medit");
     if (word("MeshVersionFormatted") != "MeshVersionFormatted")
       in_.fail("not a Medit file: expected MeshVersionFormatted");
     in_.integer("the version", 1, 4);
@@ -77,15 +78,8 @@ class MeditReader {
   }
 
   void take_name() {
-    const std::string line(in_.rest_of_line());
-    for (const auto& [kind, dim] : {std::pair{"# curve ", 1}, std::pair{"# region ", 2}}) {
-      const size_t colon = line.find(": ");
-      if (!line.starts_with(kind) || colon == std::string::npos) continue;
-      const size_t first = std::string_view(kind).size();
-      std::string name = line.substr(colon + 2);
-      if (name.ends_with('\r')) name.pop_back();
-      names_[{dim, line.substr(first, colon - first)}].push_back(std::move(name));
-    }
+    const std::string_view line = in_.rest_of_line();
+    if (!entities_.take_name(line, "# curve ", ": ", 1)) entities_.take_name(line, "# region ", ": ", 2);
   }
 
   std::string word(std::string_view what) {
@@ -109,7 +103,10 @@ class MeditReader {
     mesh_.points.push_back({x, y, z});
   }
 
-  long long reference() { return in_.integer("a reference", -kMostReference, kMostReference); }
+  long long reference() {
+    constexpr long long kLargestNumber = NumberedEntities::kMostNumber;
+    return in_.integer("a reference", -kLargestNumber, kLargestNumber);
+  }
 
   template <size_t N>
   void elements(std::vector<std::array<int, N>>& all, std::vector<int>& entity_of, int dim) {
@@ -119,30 +116,21 @@ class MeditReader {
       for (int& v : element)
         v = static_cast<int>(in_.integer("a vertex", 1, static_cast<long long>(mesh_.points.size()))) - 1;
       all.push_back(element);
-      entity_of.push_back(entity(dim, reference()));
+      entity_of.push_back(entities_.index(dim, reference(), mesh_));
     }
-  }
-
-  /// References are tags where they are positive; others stand behind those.
-  int entity(int dim, long long reference) {
-    std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
-    const auto [it, is_new] = index_.emplace(std::pair{dim, reference}, static_cast<int>(entities.size()));
-    if (is_new) {
-      const long long tag = reference > 0 ? reference : kMostReference + 1 - reference;
-      entities.push_back({static_cast<int>(tag), names_[{dim, std::to_string(reference)}]});
-    }
-    return it->second;
   }
 
   TextScanner in_;
   Mesh mesh_;
   long long dimension_ = 3;
-  std::map<std::pair<int, std::string>, std::vector<std::string>> names_;
-  std::map<std::pair<int, long long>, int> index_;
+  NumberedEntities entities_;
 };
 
 }  // namespace
 
-Mesh read_medit(const std::filesystem::path& path) { return MeditReader(path).read(); }
+Mesh read_medit(const std::filesystem::path& path) {
+  MeditReader reader(path);
+  return reader.is_mfem() ? read_mfem(path) : reader.read();
+}
 
 }  // namespace delquad

@@ -3,24 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <span>
 
 #include "delquad/error.h"
 #include "io/hex_writers.h"
+#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesh/drop_unused_points.h"
 #include "metrics/metrics.h"
 
 namespace delquad {
 
 namespace {
 
-void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh) {
+void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh, QuadNodes nodes) {
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
                           std::numeric_limits<double>::quiet_NaN());
   const std::vector<double> of_quads = quad_etas(mesh);
   eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}});
+  write_vtu(path, mesh, {{"eta", eta}}, nodes);
+}
+void write_vtu_plainly(const std::filesystem::path& path, const Mesh& mesh) {
+  write_vtu_with_eta(path, mesh, QuadNodes::kAll);
 }
 
 /// A plane mesh is seen from above, one in space from a corner.
@@ -43,7 +51,27 @@ void write_plainly(const std::filesystem::path& path, const HexMesh& mesh, bool)
   write(path, mesh);
 }
 
+/// What formats rename that have labels by these rules.
+template <const UniqueLabels::Rules& rules>
+std::vector<std::string> renamed_by(const Mesh& mesh) {
+  return renamed_groups(mesh_groups(mesh, rules));
+}
+
+/// Of formats whose files do not tell what became of names, by extension.
+const std::map<std::string, std::vector<std::string> (*)(const Mesh&)> kRenamed = {
+    {".vtk", renamed_in_vtk},
+    {".e", renamed_by<kExodusLabels>},
+    {".cgns", renamed_by<kCgnsLabels>},
+    {".med", renamed_by<kMedLabels>}};
+
 constexpr const char* kMsh = ".msh";
+/// Formats with quads of 8 nodes; of order 2 the last ones have no others.
+constexpr std::array kWithEight = {kMsh, ".vtu", ".inp", ".bdf"};
+constexpr std::array kAlwaysEight = {".inp", ".bdf"};
+
+bool is_among(const MeshFormat& format, std::span<const char* const> extensions) {
+  return std::ranges::find(extensions, format.extensions[0]) != extensions.end();
+}
 
 /// kind_of_file() looks behind .gz, but nothing is written packed.
 std::string kind_to_write(const std::filesystem::path& path) {
@@ -105,7 +133,7 @@ const std::vector<MeshFormat>& mesh_formats() {
       {{".vtu"},
        "VTK XML, ParaView",
        read_plainly<read_vtu>,
-       write_vtu_with_eta,
+       write_vtu_plainly,
        kMostOrder,
        "",
        write_plainly<write_hex_vtu>},
@@ -117,10 +145,10 @@ const std::vector<MeshFormat>& mesh_formats() {
       {{".cgns"}, "CGNS", nullptr, write_cgns, 2, kCgnsPackage},
       {{".med"}, "MED: Code_Aster, Salome", nullptr, write_med, 2, kMedPackage},
       {{".xdmf"}, "XDMF with numbers in HDF5: dolfinx, ParaView", nullptr, write_xdmf, 2, kHdf5Package},
-      {{".ucd", ".avs"}, "AVS unstructured cell data: deal.II", nullptr, write_ucd, 1},
-      {{".mfem"}, "MFEM 1.0", nullptr, write_mfem, kMostOrder},
+      {{".ucd", ".avs"}, "AVS unstructured cell data: deal.II", read_plainly<read_ucd>, write_ucd, 1},
+      {{".mfem"}, "MFEM 1.0", read_plainly<read_mfem>, write_mfem, kMostOrder},
       {{".su2"}, "SU2", nullptr, write_su2, 1},
-      {{".bdf", ".nas"}, "Nastran bulk data", nullptr, write_nastran, 2},
+      {{".bdf", ".nas"}, "Nastran bulk data", read_plainly<read_nastran>, write_nastran, 2},
       {{".k", ".key"}, "LS-DYNA keywords", nullptr, write_ls_dyna, 1},
       {{".off"}, "Object File Format", read_off, nullptr, 1},
       {{".stl"}, "stereolithography", read_plainly<read_stl>, nullptr, 1},
@@ -176,6 +204,37 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOp
   const std::string kind = kind_to_write(path);
   if (kind == kMsh) return write_msh(path, mesh, options);
   find_format(kind)->write(path, mesh);
+}
+
+void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {
+  check_mesh_format(path, options, order);
+  if (order != 2)
+    throw InputError(
+        fmt::format("{}: quads of 8 nodes have order 2, these have order {}: expected --order 2 with "
+                    "--serendipity",
+                    path.string(), order));
+  const std::string kind = kind_to_write(path);
+  const auto can = [](const MeshFormat& f) { return is_among(f, kWithEight); };
+  if (!can(*find_format(kind)))
+    throw InputError(fmt::format("{}: '{}' has no quads of 8 nodes here: expected {}", path.string(), kind,
+                                 extensions_of(can)));
+}
+
+void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
+  check_serendipity(path, options, mesh.order);
+  const std::string kind = kind_to_write(path);
+  if (is_among(*find_format(kind), kAlwaysEight)) return write_mesh(path, mesh, options);
+  Mesh eight = mesh;  // a corner stands for each middle node, which so is no node any more
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) eight.quad_nodes[5 * q + 4] = mesh.quads[q][0];
+  drop_unused_points(eight);
+  if (kind == kMsh) return write_msh(path, eight, options, QuadNodes::kNoMiddle);
+  write_vtu_with_eta(path, eight, QuadNodes::kNoMiddle);
+}
+
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {
+  const MeshFormat* format = find_format(kind_to_write(path));
+  const auto found = format == nullptr ? kRenamed.end() : kRenamed.find(format->extensions[0]);
+  return found == kRenamed.end() ? std::vector<std::string>() : found->second(mesh);
 }
 
 }  // namespace delquad

@@ -6,6 +6,9 @@
 #include <array>
 #include <map>
 
+#include "delquad/error.h"
+#include "mesh/element_nodes.h"
+
 namespace delquad {
 
 namespace {
@@ -53,6 +56,19 @@ std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& 
   return groups;
 }
 
+std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group) {
+  std::vector<int> nodes;
+  for (const int i : group.items) {
+    if (group.dim == 0)
+      nodes.push_back(i);
+    else
+      for (const int v : nodes_of_line(mesh, static_cast<std::size_t>(i))) nodes.push_back(v);
+  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items) {
   std::vector<int> numbers(n_items, 0);
   for (const MeshGroup& group : groups)
@@ -94,7 +110,33 @@ bool is_planar(const Mesh& mesh) {
   return area >= 0;
 }
 
+void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
+                  const std::string& what, std::size_t most) {
+  if (n > most)
+    throw InputError(fmt::format("{}: {} holds no numbers above {}: there are {} {}", path.string(), format,
+                                 most, n, what));
+}
+
+void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
+                     std::size_t most) {
+  require_fits(path, format, mesh.points.size(), "nodes", most);
+  require_fits(path, format, mesh.lines.size() + mesh.triangles.size() + mesh.quads.size(), "elements", most);
+}
+
 std::string one_line_label(const std::string& name) { return one_line(name); }
+
+std::string cgns_label(const std::string& name) {
+  std::string label = one_line(name);
+  std::ranges::replace(label, '/', '_');
+  return label;
+}
+
+std::string ascii_label(const std::string& name) {
+  std::string label = one_line(name);
+  for (char& c : label)
+    if (static_cast<unsigned char>(c) > '~') c = '_';
+  return label;
+}
 
 std::string plain_label(const std::string& name) {
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };

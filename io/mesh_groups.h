@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,6 +24,8 @@ struct MeshGroup {
 /// All named points, the lines on the boundary and the named ones inside, all elements; those of dimension 2
 /// first. Entities have the names of group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
+/// The nodes of a group of points or lines (dimensions 0 and 1), ascending, each once.
+std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
 /// The groups' numbers of all items of a dimension; 0: in none.
 std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items);
 
@@ -39,8 +42,24 @@ std::vector<ElementSide> sides_at_line(const Mesh& mesh, std::span<const HalfEdg
 /// Whether all points have one z and the elements run counterclockwise as seen from above.
 bool is_planar(const Mesh& mesh);
 
+/// Throws InputError where there are more of something than numbers that a format can hold.
+void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
+                  const std::string& what, std::size_t most);
+/// Nodes, and lines, triangles and quads together, are numbered from 1.
+void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
+                     std::size_t most);
+
 /// A name in one line.
 std::string one_line_label(const std::string& name);
+/// A name for CGNS, where it has no slash.
+std::string cgns_label(const std::string& name);
+/// A name for MED, whose readers take letters of other alphabets in several ways.
+std::string ascii_label(const std::string& name);
+/// Labels of formats that have no comments to tell what was renamed. Of CGNS names have at most 32
+/// characters, of MED 80 bytes, of Exodus as many as the file says.
+inline constexpr UniqueLabels::Rules kExodusLabels{one_line_label, false, 70};
+inline constexpr UniqueLabels::Rules kCgnsLabels{cgns_label, false, 22};
+inline constexpr UniqueLabels::Rules kMedLabels{ascii_label, false, 70};
 /// A name of letters, digits and underscores that begins with a letter.
 std::string plain_label(const std::string& name);
 

@@ -25,6 +25,14 @@ std::filesystem::path behind_links(std::filesystem::path path);
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
+/// Several files that belong together: each is filled before the first gets its place, then they get theirs
+/// in this order.
+struct FileToWrite {
+  std::filesystem::path path;
+  std::function<void(std::ostream&)> write;
+};
+void write_files_atomically(const std::vector<FileToWrite>& files);
+
 /// Removes the temporary files of write_file_atomically(), for a process that is about to end; safe in signal
 /// handlers.
 void remove_unfinished_files() noexcept;
@@ -42,9 +50,9 @@ bool fits_msh(std::string_view name);
 // name says.
 
 /// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
-/// and quads; physical names and entity tags are kept (a group without a name goes by its number), and so are
-/// the further names that write_msh() leaves; points are ignored, and so are nodes that no other element
-/// uses. Throws InputError with file and line, or byte.
+/// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
+/// by its number), and so are the further names that write_msh() leaves; points are ignored, and so are nodes
+/// that no other element uses. Throws InputError with file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
@@ -74,8 +82,20 @@ Mesh read_vtu(const std::filesystem::path& path);
 /// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 Mesh read_inp(const std::filesystem::path& path);
 /// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
-/// comments.
+/// comments. A file that shows to be one of MFEM is read as such.
 Mesh read_medit(const std::filesystem::path& path);
+
+/// Reads unstructured cell data of AVS, as text: lines, triangles and quads; materials are tags of curves and
+/// regions, names are those that write_ucd() leaves in comments; values are left out.
+Mesh read_ucd(const std::filesystem::path& path);
+/// Reads MFEM meshes v1.0 of dimension 2: attributes are tags, names those that write_mfem() leaves in
+/// comments. Curved ones are of quads, their nodes those of H1 or of closed L2 elements up to kMostOrder;
+/// nodes that elements have in common must lie at one place.
+Mesh read_mfem(const std::filesystem::path& path);
+/// Reads Nastran's bulk data, in free, small and large fields: GRID, CQUAD4, CQUAD8, CTRIA3, and as lines
+/// CBAR, CBEAM, CROD, CTUBE, CONROD and PLOTEL. Properties are tags, names those that write_nastran() leaves
+/// in comments. Nodes must be in the basic coordinate system. Other cards are left out.
+Mesh read_nastran(const std::filesystem::path& path);
 
 /// A number at each point of a mesh.
 struct NodalValues {
@@ -91,18 +111,25 @@ NodalValues read_values(const std::filesystem::path& path, const std::string& na
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
+/// Which nodes of quads of order 2 are written: nine, or eight of a mesh in which a corner stands for the
+/// middle one.
+enum class QuadNodes { kAll, kNoMiddle };
+
 /// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
 /// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
 /// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
 /// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
-void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
-void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {});
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
 /// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
 /// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`; a NaN there
 /// means that the cell has no value. Names are field data: an array "curve NAME" or "region NAME" lists the
 /// tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
-               const std::map<std::string, std::vector<double>>& cell_data = {});
+               const std::map<std::string, std::vector<double>>& cell_data = {},
+               QuadNodes nodes = QuadNodes::kAll);
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would
 /// be one then get numbers, and comments say so.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
@@ -114,6 +141,8 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
 /// VTK's older format, as text. Cells have tags as in VTU; names are field arrays "region_NAME" of tags.
 void write_vtk(const std::filesystem::path& path, const Mesh& mesh);
+/// What becomes of its names, as renamed_in_file() tells it.
+std::vector<std::string> renamed_in_vtk(const Mesh& mesh);
 /// Unstructured cell data of AVS, as deal.II reads it, too: the material of a cell is the number of its name,
 /// which comments tell.
 void write_ucd(const std::filesystem::path& path, const Mesh& mesh);
@@ -141,5 +170,14 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh);
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
 /// has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
+
+/// write_mesh() with quads of eight nodes: of order 2, in formats that have them.
+void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
+/// InputError where write_serendipity() would throw one.
+void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order);
+
+/// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is
+/// a_b", one line each.
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace delquad

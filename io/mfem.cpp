@@ -1,3 +1,5 @@
+#include <climits>
+
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -6,6 +8,9 @@
 namespace delquad {
 
 void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
+  const auto row = static_cast<std::size_t>(mesh.order) + 1;
+  require_fits(path, "MFEM", mesh.order == 1 ? 0 : 3 * row * row * mesh.quads.size(), "coordinates of nodes",
+               INT_MAX);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const std::vector<int> attribute = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());

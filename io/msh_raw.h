@@ -20,11 +20,13 @@ struct Node {
 
 struct Element {
   long long tag;
-  int n_nodes;                     ///< 2 line, 3 triangle, 4 quad
+  int n_nodes;                     ///< corners: 2 line, 3 triangle, 4 quad
   int entity;                      ///< elementary tag
   int physical;                    ///< physical tag (2.2 only), 0: none
-  std::array<long long, 4> nodes;  ///< node tags
+  std::array<long long, 4> nodes;  ///< tags of corners
   int line;                        ///< of the file
+  int n_further = 0;               ///< nodes of a curved element besides
+  std::size_t first_further = 0;   ///< index into Contents::further_nodes
   int dim() const { return n_nodes == 2 ? 1 : 2; }
 };
 
@@ -49,6 +51,7 @@ using DimTag = std::pair<int, int>;
 struct Contents {
   std::vector<Node> nodes;
   std::vector<Element> elements;
+  std::vector<long long> further_nodes;  ///< tags
   std::vector<Point> points;
   std::map<DimTag, std::vector<int>> entity_physicals;
   std::map<int, std::vector<int>> surface_curves;  ///< tags, ascending (4.1 only)
@@ -75,7 +78,8 @@ void settle_physicals(Contents& contents);
 /// The groups of an entity by name, of which one without a name goes by its number, and its further names.
 std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
-/// Tags become indices: nodes in the order of their tags, without those that no element uses.
+/// Tags become indices: nodes in the order of their tags, without those that no element uses. Elements must
+/// be of one order, of the first where `tags` are asked for.
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags = nullptr);
 
 }  // namespace delquad::msh

@@ -8,6 +8,7 @@
 
 #include "io/mesh_io.h"
 #include "io/msh_raw.h"
+#include "mesh/element_nodes.h"
 
 namespace delquad {
 
@@ -100,6 +101,53 @@ void check_tags(const Contents& contents, const TextScanner& scanner) {
   }
 }
 
+/// Tags of nodes become places in their sorted list. 0 for those that something needs, -1 for others.
+std::vector<int> find_nodes(Contents& contents, const TextScanner& scanner) {
+  std::vector<int> is_needed(contents.nodes.size(), -1);
+  const auto find = [&](long long& tag, int line) {
+    const int i = node_index(contents.nodes, tag);
+    if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", tag), line);
+    tag = i;
+    is_needed[i] = 0;
+  };
+  for (Element& e : contents.elements) {
+    for (int k = 0; k < e.n_nodes; ++k) find(e.nodes[k], e.line);
+    for (int k = 0; k < e.n_further; ++k)
+      find(contents.further_nodes[e.first_further + static_cast<size_t>(k)], e.line);
+  }
+  for (Point& point : contents.points) find(point.node, point.line);
+  return is_needed;
+}
+
+void add_elements(const Contents& contents, const std::vector<int>& new_index, const TextScanner& scanner,
+                  Mesh& mesh, MeshTags* tags) {
+  EntityTable entities(contents, mesh);
+  std::vector<int> nodes, places;
+  for (const Element& e : contents.elements) {
+    nodes.clear();
+    for (int k = 0; k < e.n_nodes; ++k) nodes.push_back(new_index[e.nodes[k]]);
+    for (int k = 0; k < e.n_further; ++k)
+      nodes.push_back(new_index[contents.further_nodes[e.first_further + static_cast<size_t>(k)]]);
+    const int order = e.n_nodes == 2   ? order_of_line(nodes.size())
+                      : e.n_nodes == 3 ? 1
+                                       : order_of_quad(nodes.size());
+    if (!takes_order(mesh, order)) scanner.fail(other_order(order, mesh.order), e.line);
+    if (tags && order > 1) scanner.fail(fmt::format("elements of order {}: expected order 1", order), e.line);
+    const int entity = entities.index(e.dim(), e.entity);
+    if (e.n_nodes == 2) {
+      add_line(mesh, nodes, entity);
+    } else if (e.n_nodes == 3) {
+      mesh.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+      mesh.triangle_region.push_back(entity);
+      if (tags) tags->triangles.push_back(e.tag);
+    } else {
+      if (places.empty()) places = gmsh_places(order);
+      add_quad(mesh, nodes, places, entity);
+      if (tags) tags->quads.push_back(e.tag);
+    }
+  }
+}
+
 DeclaredSurfaces surfaces_of(const Contents& contents) {
   DeclaredSurfaces result;
   for (const auto& [group, name] : contents.physical_names)
@@ -157,26 +205,12 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
   std::stable_sort(contents.nodes.begin(), contents.nodes.end(),
                    [](const Node& a, const Node& b) { return a.tag < b.tag; });
   check_tags(contents, scanner);
-
-  std::vector<int> new_index(contents.nodes.size(), -1);
-  for (Element& e : contents.elements) {
-    for (int k = 0; k < e.n_nodes; ++k) {
-      const int i = node_index(contents.nodes, e.nodes[k]);
-      if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", e.nodes[k]), e.line);
-      e.nodes[k] = i;
-      new_index[i] = 0;
-    }
-  }
-  Mesh mesh;
-  mesh.unit = contents.unit;
   // Programs list all points of a model: those without a group say nothing.
   std::erase_if(contents.points, [&](const Point& point) { return point_names(contents, point).empty(); });
-  for (Point& point : contents.points) {
-    const int i = node_index(contents.nodes, point.node);
-    if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", point.node), point.line);
-    point.node = i;
-    new_index[i] = 0;
-  }
+
+  Mesh mesh;
+  mesh.unit = contents.unit;
+  std::vector<int> new_index = find_nodes(contents, scanner);
   for (size_t i = 0; i < new_index.size(); ++i) {
     if (new_index[i] < 0) continue;
     new_index[i] = static_cast<int>(mesh.points.size());
@@ -191,23 +225,7 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
     auto& names = mesh.named_points[at->second].entity.names;
     for (const std::string& name : point_names(contents, point)) names.push_back(name);
   }
-  EntityTable entities(contents, mesh);
-  for (const Element& e : contents.elements) {
-    const auto node = [&](int k) { return new_index[e.nodes[k]]; };
-    const int entity = entities.index(e.dim(), e.entity);
-    if (e.n_nodes == 2) {
-      mesh.lines.push_back({node(0), node(1)});
-      mesh.line_curve.push_back(entity);
-    } else if (e.n_nodes == 3) {
-      mesh.triangles.push_back({node(0), node(1), node(2)});
-      mesh.triangle_region.push_back(entity);
-      if (tags) tags->triangles.push_back(e.tag);
-    } else {
-      mesh.quads.push_back({node(0), node(1), node(2), node(3)});
-      mesh.quad_region.push_back(entity);
-      if (tags) tags->quads.push_back(e.tag);
-    }
-  }
+  add_elements(contents, new_index, scanner, mesh, tags);
   return mesh;
 }
 

@@ -24,35 +24,30 @@ void reserve(std::vector<T>& items, long long count, const TextScanner& scanner)
   items.reserve(items.size() + std::min(static_cast<size_t>(count), scanner.bytes_left() / kLeastBytes));
 }
 
-/// Number of nodes of an element type; only points, lines, triangles and quads are known.
-int nodes_of_type(int type, const TextScanner& scanner) {
-  switch (type) {
-    case 1:
-      return 2;
-    case 2:
-      return 3;
-    case 3:
-      return 4;
-    case 15:
-      return 1;
-    default:
-      break;
-  }
+/// Nodes of an element.
+struct NodeCount {
+  int corners, all;
+};
+
+/// Only points, lines, triangles and quads are known, straight ones and curved lines and quads.
+NodeCount nodes_of_type(int type, const TextScanner& scanner) {
+  static const std::map<int, NodeCount> counts = {{15, {1, 1}}, {1, {2, 2}},   {8, {2, 3}},  {26, {2, 4}},
+                                                  {27, {2, 5}}, {2, {3, 3}},   {3, {4, 4}},  {16, {4, 8}},
+                                                  {10, {4, 9}}, {36, {4, 16}}, {37, {4, 25}}};
+  if (const auto known = counts.find(type); known != counts.end()) return known->second;
   static const std::map<int, const char*> names = {{4, "tetrahedron"},
                                                    {5, "hexahedron"},
                                                    {6, "prism"},
                                                    {7, "pyramid"},
-                                                   {8, "second-order line"},
                                                    {9, "second-order triangle"},
-                                                   {10, "second-order quad"},
-                                                   {16, "second-order quad"},
                                                    {20, "third-order triangle"},
                                                    {21, "third-order triangle"},
-                                                   {26, "third-order line"},
-                                                   {36, "third-order quad"}};
+                                                   {39, "third-order quad without inner nodes"}};
   const auto name = names.find(type);
-  scanner.fail(fmt::format("element type {}{}: expected points (15), lines (1), triangles (2) or quads (3)",
-                           type, name == names.end() ? "" : fmt::format(" ({})", name->second)));
+  scanner.fail(
+      fmt::format("element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2) or quads (3, "
+                  "10, 16, 36, 37)",
+                  type, name == names.end() ? "" : fmt::format(" ({})", name->second)));
 }
 
 class SectionReader {
@@ -326,15 +321,16 @@ class SectionReader {
     const int dim = static_cast<int>(numbers_.integer("the dimension of an element block", 0, 3));
     const int entity = static_cast<int>(
         numbers_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
-    const int n_nodes = nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
-    if (dim != std::min(n_nodes - 1, 2)) {
-      in_.fail(fmt::format("elements of {} nodes in a block of dimension {}", n_nodes, dim));
+    const NodeCount nodes =
+        nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
+    if (dim != std::min(nodes.corners - 1, 2)) {
+      in_.fail(fmt::format("elements of {} corners in a block of dimension {}", nodes.corners, dim));
     }
     const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
     if (count > most) in_.fail("more elements than announced");
     for (long long i = 0; i < count; ++i) {
       const long long tag = numbers_.size("an element's tag", 1, kLargestTag);
-      element(tag, n_nodes, entity, 0);
+      element(tag, nodes, entity, 0);
     }
     return count;
   }
@@ -347,35 +343,37 @@ class SectionReader {
     if (!numbers_.are_bytes()) {
       for (long long i = 0; i < count; ++i) {
         const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
-        const int n_nodes = nodes_of_type(type(), in_);
-        tagged_element(tag, n_nodes, n_tags());
+        const NodeCount nodes = nodes_of_type(type(), in_);
+        tagged_element(tag, nodes, n_tags());
       }
       return;
     }
     for (long long i = 0; i < count;) {
-      const int n_nodes = nodes_of_type(type(), in_);
+      const NodeCount nodes = nodes_of_type(type(), in_);
       const long long n = numbers_.integer("the number of elements that follow", 1, count - i);
       const long long tags = n_tags();
       for (const long long last = i + n; i < last; ++i) {
         const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
-        tagged_element(tag, n_nodes, tags);
+        tagged_element(tag, nodes, tags);
       }
     }
   }
 
-  void tagged_element(long long own_tag, int n_nodes, long long n_tags) {
+  void tagged_element(long long own_tag, const NodeCount& nodes, long long n_tags) {
     int tags[2] = {0, 0};  // physical, elementary
     for (long long k = 0; k < n_tags; ++k) {
       const int tag = static_cast<int>(numbers_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
       if (k < 2) tags[k] = std::abs(tag);
     }
-    element(own_tag, n_nodes, tags[1], tags[0]);
+    element(own_tag, nodes, tags[1], tags[0]);
   }
 
-  void element(long long tag, int n_nodes, int entity, int physical) {
-    Element e{tag, n_nodes, entity, physical, {}, in_.line()};
-    for (int k = 0; k < n_nodes; ++k) e.nodes[k] = node_tag();
-    if (n_nodes > 1)
+  void element(long long tag, const NodeCount& nodes, int entity, int physical) {
+    Element e{tag, nodes.corners, entity, physical, {}, in_.line(), nodes.all - nodes.corners};
+    e.first_further = contents_.further_nodes.size();
+    for (int k = 0; k < nodes.corners; ++k) e.nodes[k] = node_tag();
+    for (int k = 0; k < e.n_further; ++k) contents_.further_nodes.push_back(node_tag());
+    if (nodes.corners > 1)
       contents_.elements.push_back(e);
     else
       contents_.points.push_back({entity, physical, e.nodes[0], e.line});

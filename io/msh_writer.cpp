@@ -150,7 +150,7 @@ void write_nodes(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& bl
   out.end_section("$EndNodes");
 }
 
-void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks, QuadNodes nodes) {
   size_t n_blocks = 0, count = 0;
   for (const Block& b : blocks) {
     n_blocks += !b.points.empty() + !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
@@ -170,7 +170,10 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   };
   constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
   const size_t order = static_cast<size_t>(mesh.order) - 1;
-  const std::vector<int> places = gmsh_places(mesh.order);
+  constexpr int kEightNodes = 16;
+  std::vector<int> places = gmsh_places(mesh.order);
+  if (nodes == QuadNodes::kNoMiddle) places.pop_back();
+  const int of_quads = nodes == QuadNodes::kNoMiddle ? kEightNodes : kQuads[order];
   for (const Block& block : blocks) {
     if (!block.points.empty()) {
       out.integer(0).integer(block.entity->tag).integer(15).size(1).end_line();
@@ -178,7 +181,7 @@ void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
     }
     write(block, block.lines, kLines[order], [&](size_t i) { return nodes_ends_first(mesh, i); });
     write(block, block.triangles, 2, [&](size_t i) { return mesh.triangles[i]; });
-    write(block, block.quads, kQuads[order], [&](size_t i) { return nodes_of_quad(mesh, i, places); });
+    write(block, block.quads, of_quads, [&](size_t i) { return nodes_of_quad(mesh, i, places); });
   }
   out.end_section("$EndElements");
 }
@@ -233,7 +236,7 @@ void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
 
 }  // namespace
 
-void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options) {
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes) {
   std::vector<Entity> point_entities;
   for (const NamedPoint& named : mesh.named_points) point_entities.push_back(named.entity);
   std::vector<Block> blocks = make_blocks(mesh, point_entities, options.curves);
@@ -243,7 +246,7 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
   write_msh_groups(out, groups);
   write_entities(out, blocks);
   write_nodes(out, mesh, blocks);
-  write_elements(out, mesh, blocks);
+  write_elements(out, mesh, blocks, nodes);
   write_periodic(out, mesh, blocks);
   out.flush();
   std::vector<MshEntity> entities;
@@ -252,8 +255,9 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
   write_msh_unit(stream, mesh.unit);
 }
 
-void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options); });
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options,
+               QuadNodes nodes) {
+  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, nodes); });
 }
 
 }  // namespace delquad

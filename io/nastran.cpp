@@ -43,11 +43,11 @@ void write_card(TextWriter& out, const char* name, const std::vector<std::size_t
 }
 
 /// "SET 5 = 1, 2, 3," in lines of at most 72 characters.
-void write_set(TextWriter& out, std::size_t number, const std::vector<std::size_t>& ids) {
+void write_set(TextWriter& out, std::size_t number, const std::vector<int>& nodes) {
   std::string line = "SET " + std::to_string(number) + " = ";
   constexpr std::size_t kLongestLine = 70;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::string id = std::to_string(ids[i]) + (i + 1 < ids.size() ? "," : "");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::string id = std::to_string(nodes[i] + 1) + (i + 1 < nodes.size() ? "," : "");
     if (line.size() + id.size() > kLongestLine) {
       out << line << '\n';
       line = "        ";
@@ -60,6 +60,7 @@ void write_set(TextWriter& out, std::size_t number, const std::vector<std::size_
 }  // namespace
 
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
+  require_numbers(path, "Nastran", mesh, 99'999'999);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<int> property = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
   std::vector<char> inside(mesh.points.size(), 0);
@@ -75,18 +76,9 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
         out << "$ property " << group.number << ": " << one_line(group.name) << '\n';
         continue;
       }
-      std::vector<std::size_t> nodes;
-      for (const int i : group.items)
-        if (group.dim == 0)
-          nodes.push_back(static_cast<std::size_t>(i) + 1);
-        else
-          for (const int v : nodes_of_line(mesh, static_cast<std::size_t>(i)))
-            nodes.push_back(static_cast<std::size_t>(v) + 1);
-      std::ranges::sort(nodes);
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       out << "$ set " << ++set << ", nodes of " << (group.dim == 0 ? "point " : "curve ")
           << one_line(group.name) << '\n';
-      write_set(out, set, nodes);
+      write_set(out, set, nodes_of_group(mesh, group));
     }
     out << "BEGIN BULK\n";
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 
@@ -196,6 +197,13 @@ std::vector<std::string> fills(const Mesh& projected) {
   return fill;
 }
 
+std::vector<Vec3> outline_of(const Mesh& mesh, int element) {
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  if (element >= n_triangles) return outline_of_quad(mesh, static_cast<size_t>(element - n_triangles));
+  const auto& [a, b, c] = mesh.triangles[static_cast<size_t>(element)];
+  return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
+
 /// Elements that are seen: first those that others cover in part, far ones first; the rest cover each other
 /// nowhere and need no order.
 class ElementLayers {
@@ -211,10 +219,8 @@ class ElementLayers {
           size > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(size))), kLeast, kMost) : kLeast;
       std::vector<svg::Spot> corners;
       double depth = 0;
-      for (const int i : v) {
-        corners.push_back(picture.spot(mesh.points[i]));
-        depth += mesh.points[i].z / static_cast<double>(v.size());
-      }
+      for (const int i : v) depth += mesh.points[i].z / static_cast<double>(v.size());
+      for (const Vec3& p : outline_of(mesh, element)) corners.push_back(picture.spot(p));
       if (visibility == Raster::Visibility::kWholly) {
         front_[{-step, fill_[element]}].polygon(corners);
       } else {
@@ -252,16 +258,33 @@ class ElementLayers {
   std::map<std::pair<int, std::string>, Path> front_;  // large elements first
 };
 
+/// The side of an element on an edge, both ends included.
+std::vector<Vec3> side_of(const Mesh& mesh, const HalfEdge& edge) {
+  std::vector<Vec3> outline = outline_of(mesh, edge.element);
+  const int n_triangles = static_cast<int>(mesh.triangles.size()), from = edge.forward ? edge.lo : edge.hi;
+  const auto place = [&](const auto& v) { return std::ranges::find(v, from) - v.begin(); };
+  const auto corner = edge.element < n_triangles
+                          ? place(mesh.triangles[static_cast<size_t>(edge.element)])
+                          : place(mesh.quads[static_cast<size_t>(edge.element - n_triangles)]);
+  const int pieces = drawn_pieces(mesh);
+  std::ranges::rotate(outline, outline.begin() + corner * pieces);
+  outline.push_back(outline[0]);
+  outline.resize(static_cast<size_t>(pieces) + 1);
+  return outline;
+}
+
 /// Curves of the model and free edges, where they are seen.
 Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) {
   Path path;
-  const auto add = [&](int a, int b) {
-    const Vec3 &p = mesh.points[a], &q = mesh.points[b];
-    if (raster.sees_point(0.5 * (p + q))) path.segment(picture.spot(p), picture.spot(q));
+  const auto add = [&](std::span<const Vec3> line) {
+    const size_t pieces = line.size() - 1;
+    // Elements are hidden by the chords of others.
+    if (!raster.sees_point(0.5 * (line[0] + line[pieces]))) return;
+    for (size_t k = 0; k < pieces; ++k) path.segment(picture.spot(line[k]), picture.spot(line[k + 1]));
   };
-  for (const auto& [a, b] : mesh.lines) add(a, b);
+  for (size_t l = 0; l < mesh.lines.size(); ++l) add(outline_of_line(mesh, l));
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 1) add(edge[0].lo, edge[0].hi);
+    if (edge.size() == 1) add(side_of(mesh, edge[0]));
   });
   return path;
 }

@@ -8,6 +8,7 @@
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
+#include "mesh/check_mesh.h"
 
 namespace delquad {
 
@@ -88,6 +89,7 @@ std::vector<Vec3> read_polyline(const std::string& text, const Vec3& start_near)
                     "curve behind it",
                     text));
   const Mesh mesh = read_mesh(file);
+  require_straight(mesh, file);
   std::vector<std::array<int, 2>> lines;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const std::vector<std::string>& names = mesh.curves[mesh.line_curve[l]].names;

@@ -116,13 +116,9 @@ void Picture::add_outline(const Mesh& mesh, double stroke_width) {
     if (edge.size() == 1 && mesh.order == 1)
       path.segment(spot(mesh.points[edge[0].lo]), spot(mesh.points[edge[0].hi]));
   });
-  constexpr int kPieces = 8;  // of a curved line
-  const int pieces = mesh.order == 1 ? 1 : kPieces;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    std::vector<Vec3> nodes;
-    for (const int v : nodes_of_line(mesh, l)) nodes.push_back(mesh.points[v]);
-    const auto at = [&](int k) { return spot(value_on_line(nodes, static_cast<double>(k) / pieces)); };
-    for (int k = 0; k < pieces; ++k) path.segment(at(k), at(k + 1));
+    const std::vector<Vec3> line = outline_of_line(mesh, l);
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) path.segment(spot(line[k]), spot(line[k + 1]));
   }
   add(path, "none", "#000", stroke_width);
 }

@@ -85,6 +85,14 @@ std::string_view TextScanner::rest_of_line() {
   return std::string_view(text_).substr(first, at_ - first);
 }
 
+bool TextScanner::next_line() {
+  const size_t end = text_.find('\n', at_);
+  if (end == std::string::npos) return false;
+  at_ = end + 1;
+  ++line_;
+  return true;
+}
+
 std::string TextScanner::printable(std::string_view token) {
   constexpr size_t kLongest = 40;
   std::string text;

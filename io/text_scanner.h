@@ -36,6 +36,9 @@ class TextScanner {
   /// What is left of the line.
   std::string_view rest_of_line();
 
+  /// Goes to the beginning of the next line; false, and no step, in the last one.
+  bool next_line();
+
   int line() const { return line_; }
   /// The whole file.
   std::string_view text() const { return text_; }
@@ -52,6 +55,7 @@ class TextScanner {
 
 /// What the beginning of a file shows it to be, such as "a STEP file"; empty: nothing that is known.
 std::string content_kind(std::string_view text);
+inline constexpr const char* kMfemFile = "an MFEM file";
 
 /// InputError when the file shows to be something else than `expected`, which is a name of a format as
 /// content_kind() uses it.

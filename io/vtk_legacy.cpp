@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "io/vtu_output.h"
 #include "mesh/element_nodes.h"
 
 namespace delquad {
@@ -12,19 +15,43 @@ namespace {
 /// A title has one line of at most 255 characters.
 constexpr const char* kVtkTitle = "Quad mesh by Delquad";
 
-/// Field arrays of tags by name; names have no blanks there.
+/// Names have no blanks there.
+std::string array_label(const std::string& name) {
+  std::string label = one_line(name);
+  for (char& c : label)
+    if (c == ' ' || c == '"') c = '_';
+  return label;
+}
+
+UniqueLabels array_labels(const std::vector<Entity>& entities) {
+  std::vector<UniqueLabels::Key> keys;
+  for (const Entity& entity : entities)
+    for (const std::string& name : entity.names) keys.emplace_back(0, name);
+  return {keys, {array_label}};
+}
+
+/// Adds field arrays of the tags that have a name.
 void add_name_arrays(const char* kind, const std::vector<Entity>& entities,
                      std::vector<std::string>& arrays) {
-  for (const Entity& entity : entities)
-    for (const std::string& name : entity.names) {
-      std::string label = std::string(kind) + "_" + one_line(name);
-      for (char& c : label)
-        if (c == ' ' || c == '"') c = '_';
-      arrays.push_back(label + " 1 1 int\n" + std::to_string(entity.tag) + "\n");
-    }
+  const UniqueLabels labels = array_labels(entities);
+  for (const auto& [name, tags] : tags_of_names(entities)) {
+    std::string array = fmt::format("{}_{} 1 {} int\n", kind, labels.of({0, name}), tags.size());
+    for (const int tag : tags) array += std::to_string(tag) + "\n";
+    arrays.push_back(std::move(array));
+  }
 }
 
 }  // namespace
+
+std::vector<std::string> renamed_in_vtk(const Mesh& mesh) {
+  std::vector<std::string> lines;
+  for (const auto& [kind, entities] : {std::pair{"curve", &mesh.curves}, {"region", &mesh.regions}}) {
+    const UniqueLabels labels = array_labels(*entities);
+    for (const auto& [key, label] : labels.renamed())
+      lines.push_back(fmt::format("{} \"{}\" is {}", kind, one_line(key.second), label));
+  }
+  return lines;
+}
 
 void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.

@@ -20,18 +20,18 @@ NumbersOfNames points_of_names(const Mesh& mesh) {
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
-               const std::map<std::string, std::vector<double>>& cell_data) {
+               const std::map<std::string, std::vector<double>>& cell_data, QuadNodes nodes) {
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
   constexpr std::array<std::uint8_t, 4> kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
-  constexpr std::uint8_t kTriangle = 5;
+  constexpr std::uint8_t kTriangle = 5, kEightNodes = 23;
   const size_t order = static_cast<size_t>(mesh.order) - 1;
   VtuContent content{mesh.points, mesh.unit, {}, {}, {}, cell_data};
   content.names = {{"curve", tags_of_names(mesh.curves)},
                    {"region", tags_of_names(mesh.regions)},
                    {"point", points_of_names(mesh)}};
   content.tags = {{"curve", {}}, {"region", {}}};
-  const auto add = [&](const auto& nodes, std::uint8_t type, int curve, int region) {
-    content.cells.add(nodes, type);
+  const auto add = [&](const auto& of_cell, std::uint8_t type, int curve, int region) {
+    content.cells.add(of_cell, type);
     content.tags[0].second.push_back(curve);
     content.tags[1].second.push_back(region);
   };
@@ -39,9 +39,11 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
     add(nodes_ends_first(mesh, i), kLines[order], mesh.curves[mesh.line_curve[i]].tag, 0);
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
     add(mesh.triangles[i], kTriangle, 0, mesh.regions[mesh.triangle_region[i]].tag);
-  const std::vector<int> places = mesh.order == 2 ? gmsh_places(2) : vtk_places(mesh.order);
+  std::vector<int> places = vtk_places(mesh.order);
+  if (nodes == QuadNodes::kNoMiddle) places.pop_back();
+  const std::uint8_t of_quads = nodes == QuadNodes::kNoMiddle ? kEightNodes : kQuads[order];
   for (size_t i = 0; i < mesh.quads.size(); ++i)
-    add(nodes_of_quad(mesh, i, places), kQuads[order], 0, mesh.regions[mesh.quad_region[i]].tag);
+    add(nodes_of_quad(mesh, i, places), of_quads, 0, mesh.regions[mesh.quad_region[i]].tag);
   for (const auto& [name, values] : cell_data) {
     if (values.size() != content.cells.types.size()) {
       throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +

@@ -2,6 +2,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
@@ -19,6 +20,7 @@
 #include "io/nodal_values.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
+#include "mesh/element_nodes.h"
 
 namespace delquad {
 
@@ -92,6 +94,8 @@ class VtuReader {
       if (name == "Piece") read_piece(piece);
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
       fail("the file holds no lines, triangles or quads");
+    if (field_ && mesh_.order > 1)
+      fail(fmt::format("a field on elements of order {}: expected order 1", mesh_.order));
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
     if (!field_) drop_unused_points(mesh_);
@@ -277,6 +281,7 @@ class VtuReader {
         if (!std::isfinite(xyz[i + k])) fail(fmt::format("point {}: expected finite coordinates", i / 3));
       mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
     }
+    const size_t n_points = mesh_.points.size() - first;
     const Tree& cells = child(piece, "Cells");
     const std::vector<double> corners = read_array(needed_array(cells, "connectivity")),
                               offsets = read_array(needed_array(cells, "offsets")),
@@ -286,14 +291,14 @@ class VtuReader {
     const std::vector<double> curve = tags(piece, "curve", types.size()),
                               region = tags(piece, "region", types.size());
     std::vector<double> field;
-    if (field_) field = read_field_of(piece, mesh_.points.size() - first, types.size());
+    if (field_) field = read_field_of(piece, n_points, types.size());
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
         fail(fmt::format("cell {} lies outside of the connectivity", c));
       std::vector<int> v;
       for (auto k = static_cast<size_t>(begin); k < static_cast<size_t>(offsets[c]); ++k) {
-        if (!(corners[k] >= 0 && corners[k] < static_cast<double>(mesh_.points.size() - first)))
+        if (!(corners[k] >= 0 && corners[k] < static_cast<double>(n_points)))
           fail(fmt::format("cell {}: there is no point {}", c, corners[k]));
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
@@ -343,26 +348,48 @@ class VtuReader {
     return all;
   }
 
+  /// Corners of the cells of VTK that are read; 0: of others.
+  static int corners_of_type(int type) {
+    constexpr std::array kLines = {3, 21, 68};
+    constexpr std::array kQuads = {9, 23, 28, 70};
+    constexpr int kTriangle = 5;
+    if (std::ranges::find(kLines, type) != kLines.end()) return 2;
+    if (std::ranges::find(kQuads, type) != kQuads.end()) return 4;
+    return type == kTriangle ? 3 : 0;
+  }
+
+  /// The order of a cell.
+  int order_of_cell(int type, int corners, size_t n_points) const {
+    constexpr int kLagrangeLine = 68;
+    static const std::map<int, size_t> points = {{3, 2}, {5, 3}, {9, 4}, {21, 3}, {23, 8}, {28, 9}};
+    const int order = corners == 3 ? 1 : corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
+    const auto given = points.find(type);
+    if (given != points.end() && n_points != given->second)
+      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points, given->second));
+    constexpr size_t kEight = 8;
+    if (given == points.end() && (order == 0 || n_points == kEight))
+      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points,
+                       type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25"));
+    return order;
+  }
+
   void add_cell(int type, const std::vector<int>& v, double curve, double region) {
-    constexpr int kVertex = 1, kPolyVertex = 2, kLine = 3, kTriangle = 5, kQuad = 9;
-    const auto expect = [&](size_t n) {
-      if (v.size() != n) fail(fmt::format("a cell of type {} has {} points: expected {}", type, v.size(), n));
-    };
+    constexpr int kVertex = 1, kPolyVertex = 2;
     if (type == kVertex || type == kPolyVertex) return;
-    if (type == kLine) {
-      expect(2);
-      mesh_.lines.push_back({v[0], v[1]});
-      mesh_.line_curve.push_back(entity(mesh_.curves, 1, curve));
-    } else if (type == kTriangle) {
-      expect(3);
+    const int corners = corners_of_type(type);
+    if (corners == 0)
+      fail(fmt::format(
+          "a cell of type {}: expected lines (3, 21, 68), triangles (5) and quads (9, 23, 28, 70)", type));
+    const int order = order_of_cell(type, corners, v.size());
+    if (!takes_order(mesh_, order)) fail(other_order(order, mesh_.order));
+    if (corners == 2) {
+      add_line(mesh_, v, entity(mesh_.curves, 1, curve));
+    } else if (corners == 3) {
       mesh_.triangles.push_back({v[0], v[1], v[2]});
       mesh_.triangle_region.push_back(entity(mesh_.regions, 2, region));
-    } else if (type == kQuad) {
-      expect(4);
-      mesh_.quads.push_back({v[0], v[1], v[2], v[3]});
-      mesh_.quad_region.push_back(entity(mesh_.regions, 2, region));
     } else {
-      fail(fmt::format("a cell of type {}: expected lines (3), triangles (5) and quads (9)", type));
+      if (places_.empty()) places_ = vtk_places(order);
+      add_quad(mesh_, v, places_, entity(mesh_.regions, 2, region));
     }
   }
 
@@ -409,6 +436,7 @@ class VtuReader {
   std::string appended_;
   bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
   Mesh mesh_;
+  std::vector<int> places_;                   // of nodes of quads
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag; of points: number
   std::optional<std::string> field_;          // the name of the field that is asked for
   bool is_of_points_ = false;

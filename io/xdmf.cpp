@@ -123,7 +123,7 @@ void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<XdmfGrid> grids = xdmf_grids(mesh, groups);
   const bool planar = is_planar(mesh);
   const std::filesystem::path numbers = std::filesystem::path(path).replace_extension(".h5");
-  write_by_library(numbers, [&](const std::filesystem::path& temporary) {
+  const auto write_numbers = [&](const std::filesystem::path& temporary) {
     Hdf5File file(numbers, temporary);
     std::vector<double> places;
     for (const Vec3& p : mesh.points) {
@@ -136,12 +136,13 @@ void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
       file.put((grid.name + "_" + grid.attribute).c_str(), grid.count(), 1, grid.numbers.data(), false);
     }
     file.close();
-  });
-  write_file_atomically(path, [&](std::ostream& stream) {
+  };
+  const auto write_text = [&](std::ostream& stream) {
     TextWriter out(stream);
     write_xdmf_text(out, mesh, groups, grids, numbers.filename().string(), planar);
     out.flush();
-  });
+  };
+  write_files_atomically({{numbers, by_library(numbers, write_numbers)}, {path, write_text}});
 }
 
 #else

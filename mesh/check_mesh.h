@@ -11,4 +11,7 @@ namespace delquad {
 /// otherwise, see check_invariants().
 void require_readable(const Mesh& mesh, const std::string& where);
 
+/// Throws InputError, which begins with `where`, for elements of a higher order.
+void require_straight(const Mesh& mesh, const std::string& where);
+
 }  // namespace delquad

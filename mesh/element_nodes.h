@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -19,11 +21,19 @@ std::vector<int> nodes_of_quad(const Mesh& mesh, std::size_t quad, const std::ve
 /// Nodes of a line, both ends first.
 std::vector<int> nodes_ends_first(const Mesh& mesh, std::size_t line);
 
+/// Nodes on the sides of a quad, as it runs round; corners alone of a straight one.
+std::vector<int> nodes_around(const Mesh& mesh, std::size_t quad);
+
 /// The point of a curved line at t in [0, 1], by its nodes.
 Vec3 value_on_line(std::span<const Vec3> nodes, double t);
 
-/// A polygon along the sides of a quad: its corners, of a curved one more points between them.
+/// Pieces of each side of elements that are drawn.
+int drawn_pieces(const Mesh& mesh);
+/// A polygon along the sides of a quad: its corners, of a curved one more points between them, so that each
+/// side has drawn_pieces().
 std::vector<Vec3> outline_of_quad(const Mesh& mesh, std::size_t quad);
+/// The same of a line, both ends included.
+std::vector<Vec3> outline_of_line(const Mesh& mesh, std::size_t line);
 
 /// Places in that square of the nodes strictly inside of a side, in the direction in which the quad runs
 /// round.
@@ -37,5 +47,24 @@ std::vector<int> vtk_places(int order);
 
 /// Places in that square of the nodes that belong to the quad alone, as Mesh::quad_nodes lists them.
 std::vector<int> inner_places(int order);
+
+/// Order of the line, or of the quad, that has so many nodes; 0: none up to kMostOrder has. Quads of eight
+/// nodes have order 2.
+int order_of_line(std::size_t n_nodes);
+int order_of_quad(std::size_t n_nodes);
+
+/// Whether an element of this order fits to those of the mesh, which takes the order of the first one.
+bool takes_order(Mesh& mesh, int order);
+/// What to say of one that does not.
+std::string other_order(int order, int of_mesh);
+
+/// Adds a line of the mesh's order by its nodes, both ends first.
+void add_line(Mesh& mesh, std::span<const int> nodes, int curve);
+/// Adds a quad of the mesh's order by its nodes, as `places` orders them, one of the functions above. Where
+/// the middle one of nine is left out, it becomes a new point: there where the map of eight nodes has it, so
+/// that both maps are the same.
+void add_quad(Mesh& mesh, std::span<const int> nodes, const std::vector<int>& places, int region);
+/// Where that is, by the places of corners and of middles of sides.
+Vec3 middle_of_eight(const std::array<Vec3, 4>& corners, const std::array<Vec3, 4>& sides);
 
 }  // namespace delquad

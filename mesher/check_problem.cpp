@@ -34,16 +34,21 @@ void check(const PlanarModel& model, const std::string& where) {
                                      curve, model.curves.size()));
 }
 
-void check(const LineModel& model, const std::string&) { require_readable(model.mesh, model.source); }
+void check_given(const Mesh& mesh, const std::string& source) {
+  require_readable(mesh, source);
+  require_straight(mesh, source);
+}
+
+void check(const LineModel& model, const std::string&) { check_given(model.mesh, model.source); }
 
 void check(const TriangleModel& model, const std::string&) {
-  require_readable(model.mesh, model.source);
+  check_given(model.mesh, model.source);
   if (model.mesh.triangles.empty() && model.mesh.quads.empty())
     throw InputError(model.source + ": holds neither triangles nor quads");
 }
 
 void check(const GivenMesh& model, const std::string&) {
-  require_readable(model.mesh, model.source);
+  check_given(model.mesh, model.source);
   if (model.mesh.triangles.empty() && model.mesh.quads.empty())
     throw InputError(model.source + ": holds neither triangles nor quads");
 }

@@ -115,13 +115,10 @@ void curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunR
   const UntanglingSummary untangled = untangle_curved(mesh, *geometry, bounds);
   summary.poor = untangled.poor;
   summary.improved = untangled.improved;
-  double sum = 0;
-  for (const JacobianBounds& b : bounds) {
-    summary.unproven += !b.positive();
-    summary.least_jacobian = std::min(summary.least_jacobian, b.proven);
-    sum += b.proven;
-  }
-  summary.mean_jacobian = sum / static_cast<double>(std::max<std::size_t>(bounds.size(), 1));
+  const ProvenJacobians proven = proven_jacobians(bounds);
+  summary.unproven = proven.unproven;
+  summary.least_jacobian = proven.least;
+  summary.mean_jacobian = proven.mean;
   summary.distance = distance_to_model(mesh, *geometry);
   tell_unproven(mesh, bounds, result.soundness);
   summary.seconds = watch.work_seconds();

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 
@@ -100,7 +101,9 @@ Closeup look_at(const Mesh& mesh, const std::vector<double>& eta, const Surround
   Closeup closeup{eta[quad], 1 / view.unit, view.normal, view.centre, {}, {}, {}};
   std::map<int, int> number;
   for (const int element : surroundings.of(n_triangles + quad)) {
-    std::vector<int> corners = vertices_of(mesh, element);
+    std::vector<int> corners = element < n_triangles
+                                   ? vertices_of(mesh, element)
+                                   : nodes_around(mesh, static_cast<std::size_t>(element - n_triangles));
     for (int& v : corners) {
       const auto [at, is_new] = number.try_emplace(v, static_cast<int>(number.size()));
       if (is_new) closeup.points.push_back(view(mesh.points[v]));

@@ -8,6 +8,7 @@
 
 #include "base/box.h"
 #include "io/irregular_vertices.h"
+#include "mesh/element_nodes.h"
 #include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 #include "report/packed_text.h"
@@ -133,7 +134,8 @@ PackedMesh pack_mesh(const Mesh& mesh) {
   PackedMesh packed;
   packed.triangles = mesh.triangles.size();
   packed.quads = mesh.quads.size();
-  packed.lines = mesh.lines.size();
+  packed.lines = mesh.lines.size() * static_cast<std::size_t>(mesh.order);
+  packed.order = mesh.order;
   const Box<Vec3> box = box_of(mesh);
   packed.dimension = box.low.z == box.high.z ? 2 : 3;
   Numbers out;
@@ -142,12 +144,15 @@ PackedMesh pack_mesh(const Mesh& mesh) {
     for (const int v : mesh.triangles[t]) numbering.put(v, out);
   const std::vector<std::size_t> quads = spatial_order(mesh, mesh.quads);
   for (const std::size_t q : quads)
-    for (const int v : mesh.quads[q]) numbering.put(v, out);
+    for (const int v : nodes_around(mesh, q)) numbering.put(v, out);
   const std::vector<double> eta = quad_etas(mesh);
   for (const std::size_t q : quads)
     out.put(static_cast<std::uint64_t>(std::min(eta[q] * kEtaClasses, kEtaClasses - 1)));
-  for (const auto& line : mesh.lines)
-    for (const int v : line) numbering.put(v, out);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const std::vector<int> nodes = nodes_of_line(mesh, l);
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+      for (const int v : {nodes[k], nodes[k + 1]}) numbering.put(v, out);
+  }
   put_irregular(mesh, numbering, packed, out);
   put_places(mesh, numbering.order(), packed, out);
   packed.points = numbering.order().size();

@@ -267,6 +267,7 @@ class Page {
     json["mesh"] = {{"id", id},
                     {"step", step},
                     {"dimension", packed.dimension},
+                    {"order", packed.order},
                     {"points", packed.points},
                     {"triangles", packed.triangles},
                     {"quads", packed.quads},

@@ -11,6 +11,7 @@
 #include "console/progress.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
+#include "mesh/check_mesh.h"
 #include "mesher/runner.h"
 #include "metrics/shape.h"
 #include "suite/suite_list.h"
@@ -42,6 +43,7 @@ fs::path find_mesh(const fs::path& folder, const std::string& name) {
 RunResult measure(const PreparedProblem& prepared, const fs::path& file) {
   RunResult result;
   result.mesh = read_mesh(file);
+  require_straight(result.mesh, file.string());
   check_is_of_model(prepared, result.mesh);
   result.metrics =
       evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);

@@ -13,6 +13,7 @@
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "mesh/check_invariants.h"
+#include "mesh/check_mesh.h"
 #include "mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
 #include "sweep/calibration.h"
@@ -193,6 +194,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
   if (!fs::exists(folder / output)) throw PeerError(words[0] + ": wrote no mesh" + complaint(log));
   try {
     result.mesh = read_mesh(folder / output);
+    require_straight(result.mesh, output);
     check_peer_mesh(peer, task.prepared, result.mesh);
   } catch (const InputError& error) {
     std::string reason = error.what();

@@ -8,6 +8,7 @@
 #include "geometry/cad/example_models.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
+#include "mesh/check_mesh.h"
 #include "sweep/peer.h"
 #include "sweep/peer_sizes.h"
 
@@ -101,6 +102,7 @@ bool is_triangulation(const fs::path& file) {
 fs::path read_by_gmsh(const fs::path& file, const fs::path& folder) {
   if (!is_triangulation(file) || file.extension() == ".stl" || file.extension() == ".msh") return file;
   const Mesh read = read_mesh(file);
+  require_straight(read, file.string());
   Mesh mesh;
   mesh.points = read.points;
   mesh.triangles = read.triangles;

@@ -38,7 +38,8 @@ class NumberReader {
 
 async function unpackMesh(info) {
   const reader = new NumberReader(await inflate(document.getElementById(info.id).textContent));
-  const triangles = reader.vertices(3 * info.triangles), quads = reader.vertices(4 * info.quads);
+  const around = 4 * info.order;  // of a quad
+  const triangles = reader.vertices(3 * info.triangles), quads = reader.vertices(around * info.quads);
   const eta = Uint8Array.from({ length: info.quads }, () => reader.next());
   const lines = reader.vertices(2 * info.lines);
   const irregular = Array.from({ length: info.irregular }, () => ({ vertex: reader.next(), valence: reader.next() }));
@@ -48,11 +49,11 @@ async function unpackMesh(info) {
     axes.push(Float64Array.from({ length: info.points }, () => info.origin[k] + (at += reader.signed()) * info.unit));
   }
   const [x, y, z = new Float64Array(info.points)] = axes;
-  return { x, y, z, triangles, quads, eta, lines, irregular, regular: info.quads > 0 ? 4 : 6 };
+  return { x, y, z, triangles, quads, around, eta, lines, irregular, regular: info.quads > 0 ? 4 : 6 };
 }
 
 /// Calls visit(corners, number of corners, place of the first, colour class or -1) for each element.
 function eachElement(mesh, visit) {
   for (let i = 0; i < mesh.triangles.length; i += 3) visit(mesh.triangles, 3, i, -1);
-  for (let i = 0; i < mesh.quads.length; i += 4) visit(mesh.quads, 4, i, mesh.eta[i / 4]);
+  for (let i = 0; i < mesh.quads.length; i += mesh.around) visit(mesh.quads, mesh.around, i, mesh.eta[i / mesh.around]);
 }

@@ -136,8 +136,8 @@ class PlaneView {
       pen.beginPath();
       let waiting = 0;
       for (const element of elements) {
-        const [corners, n, at] = element >= 0 ? [mesh.triangles, 3, element] : [mesh.quads, 4, -element - 1];
-        const x0 = x(corners[at]), y0 = y(corners[at]), x2 = x(corners[at + 2]), y2 = y(corners[at + 2]);
+        const [corners, n, at] = element >= 0 ? [mesh.triangles, 3, element] : [mesh.quads, mesh.around, -element - 1], across = at + Math.max(2, n >> 1);
+        const x0 = x(corners[at]), y0 = y(corners[at]), x2 = x(corners[across]), y2 = y(corners[across]);
         const room = 2 * (Math.abs(x2 - x0) + Math.abs(y2 - y0)) + 4;
         if (x0 < -room || y0 < -room || x0 > width + room || y0 > height + room) continue;
         pen.moveTo(x0, y0);

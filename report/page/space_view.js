@@ -9,12 +9,18 @@ function renderer() {
 
 function makeFaces(mesh) {
   const places = [], classes = [];
+  const triangle = (ends, colour) => {
+    places.push(...ends.flat());
+    classes.push(colour, colour, colour);
+  };
   eachElement(mesh, (corners, n, at, colour) => {
-    for (let k = 1; k + 1 < n; ++k)
-      for (const c of [corners[at], corners[at + k], corners[at + k + 1]]) {
-        places.push(mesh.x[c], mesh.y[c], mesh.z[c]);
-        classes.push(colour);
-      }
+    const nodes = Array.from({ length: n }, (_, k) => [mesh.x, mesh.y, mesh.z].map((axis) => axis[corners[at + k]]));
+    if (n <= 4) {
+      for (let k = 1; k + 1 < n; ++k) triangle([nodes[0], nodes[k], nodes[k + 1]], colour);
+      return;
+    }
+    const centre = [0, 1, 2].map((axis) => nodes.reduce((sum, node) => sum + node[axis], 0) / n);  // of a curved one
+    nodes.forEach((node, k) => triangle([centre, node, nodes[(k + 1) % n]], colour));
   });
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(places), 3));
@@ -84,7 +90,7 @@ function makeScene(mesh) {
   }
   for (const [colour, vertices] of byColour) dots.push(makeDots(mesh, vertices, colour));
   if (dots.length > 0) scene.add(...dots);
-  return { scene, faces, edges, dots, edge: meanLength(mesh, ends) };
+  return { scene, faces, edges, dots, edge: (meanLength(mesh, ends) * mesh.around) / 4 };
 }
 
 class SpaceView {

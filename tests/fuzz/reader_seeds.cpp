@@ -10,6 +10,7 @@
 
 #include "io/mesh_io.h"
 #include "tests/io/msh_files.h"
+#include "tests/support/curved_grid.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad::fuzz {
@@ -42,6 +43,18 @@ std::vector<std::string> written(const std::string& extension, const MshOptions&
     Mesh mesh = strip(of_quads);
     if (of_quads) mesh.unit = "mm";
     write_mesh(folder / ("seed" + extension), mesh, options);
+    all.push_back(testing_support::read_text(folder / ("seed" + extension)));
+  }
+  return all;
+}
+
+/// A curved grid of each order up to `most`.
+std::vector<std::string> written_curved(const std::string& extension, int most,
+                                        const MshOptions& options = {}) {
+  const testing_support::TemporaryFolder folder;
+  std::vector<std::string> all;
+  for (int order = 2; order <= most; ++order) {
+    write_mesh(folder / ("seed" + extension), testing_support::curved_grid(1, 1, order, order == 3), options);
     all.push_back(testing_support::read_text(folder / ("seed" + extension)));
   }
   return all;
@@ -230,10 +243,32 @@ const std::string kMedit =
     "0\nEdges\n1\n1 2 7\n"
     "Corners\n1\n1\nTriangles\n1\n1 2 3 5\nQuadrilaterals\n1\n1 2 3 4 6\nEnd\n";
 
+const std::string kUcd =
+    "# by hand\n4 3 1 0 0\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0\n1 0 quad 10 20 30 40\n2 7 line 10 20\n3 1 "
+    "pt 40\n"
+    "1 1\nh, m\n10 0.5\n";
+
+const std::string
+    kMfem =
+        "MFEM mesh v1.0\n# by hand\ndimension\n2\nelements\n2\n1 3 0 1 4 3\n2 3 4 1 2 5\nboundary\n1\n3 1 2 "
+        "1\nvertices\n6\n",
+    kMfemPlaces = "2\n0 0\n1 0\n2 0\n0 1\n1 1\n2 1\n",
+    kMfemNodes =
+        "nodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P2\nVDim: 2\nOrdering: 1\n0 0 1 0 2 "
+        "0 0 1 1 1 2 1 .5 0 1 .5 .5 1 0 .5 1.5 0 2 .5 1.5 1 .5 .5 1.5 .5\n";
+
+const std::string kNastran =
+    "SOL 101\nCEND\nBEGIN BULK\nGRID    1               0.      0.      0.\nGRID,2,,1.5-1,0.,0.\n"
+    "GRID*   3                               .15             1.D-1\n*       0.\nGRID,4,,0.,.1,,,,,+A\n+A\n"
+    "CQUAD4  10      7       1       2       3       "
+    "4\nPLOTEL,11,1,2\nCBAR,12,9,2,3,0.,0.,1.\nCTRIA3,13,,1,2,3\n"
+    "PSHELL,7,1,.1\nENDDATA\n";
+
 }  // namespace
 
 std::vector<std::string> msh_seeds() {
-  return written(".msh") + written(".msh", {.binary = true}) +
+  return written(".msh") + written(".msh", {.binary = true}) + written_curved(".msh", kMostOrder) +
+         written_curved(".msh", 2, {.binary = true}) +
          std::vector{msh_files::kSquare22, msh_files::kSquare41, binary_msh22()};
 }
 std::vector<std::string> obj_seeds() {
@@ -251,9 +286,19 @@ std::vector<std::string> ply_seeds() {
   return {kPly, binary_ply(std::endian::little), binary_ply(std::endian::big)};
 }
 std::vector<std::string> three_mf_seeds() { return {kThreeMf, archive_of(kThreeMf)}; }
-std::vector<std::string> vtu_seeds() { return written(".vtu") + std::vector{kVtu, raw_vtu(), packed_vtu()}; }
+std::vector<std::string> vtu_seeds() {
+  return written(".vtu") + written_curved(".vtu", kMostOrder) + std::vector{kVtu, raw_vtu(), packed_vtu()};
+}
 std::vector<std::string> inp_seeds() { return written(".inp") + std::vector{kInp}; }
 std::vector<std::string> medit_seeds() { return written(".mesh") + std::vector{kMedit}; }
+std::vector<std::string> ucd_seeds() { return written(".ucd") + std::vector{kUcd}; }
+std::vector<std::string> mfem_seeds() {
+  return written(".mfem") + written_curved(".mfem", kMostOrder) +
+         std::vector{kMfem + kMfemPlaces, kMfem + kMfemNodes};
+}
+std::vector<std::string> nastran_seeds() {
+  return written(".bdf") + written_curved(".bdf", 2) + std::vector{kNastran};
+}
 
 std::string archive_of(std::string_view model) {
   const std::string name = "3D/3dmodel.model";

@@ -17,6 +17,9 @@ std::vector<std::string> three_mf_seeds();
 std::vector<std::string> vtu_seeds();
 std::vector<std::string> inp_seeds();
 std::vector<std::string> medit_seeds();
+std::vector<std::string> ucd_seeds();
+std::vector<std::string> mfem_seeds();
+std::vector<std::string> nastran_seeds();
 
 /// A ZIP archive with 3D/3dmodel.model, stored.
 std::string archive_of(std::string_view model);

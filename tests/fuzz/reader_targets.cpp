@@ -56,11 +56,18 @@ Mesh ply(const std::filesystem::path& path) { return read_ply(path); }
 }  // namespace
 
 std::vector<Target> reader_targets() {
-  return {{"msh", try_reader<msh>, msh_seeds},           {"obj", try_reader<obj>, obj_seeds},
-          {"off", try_reader<off>, off_seeds},           {"stl", try_reader<read_stl>, stl_seeds},
-          {"ply", try_reader<ply>, ply_seeds},           {"3mf", try_3mf, three_mf_seeds},
-          {"vtu", try_reader<read_vtu>, vtu_seeds},      {"inp", try_reader<read_inp>, inp_seeds},
-          {"medit", try_reader<read_medit>, medit_seeds}};
+  return {{"msh", try_reader<msh>, msh_seeds},
+          {"obj", try_reader<obj>, obj_seeds},
+          {"off", try_reader<off>, off_seeds},
+          {"stl", try_reader<read_stl>, stl_seeds},
+          {"ply", try_reader<ply>, ply_seeds},
+          {"3mf", try_3mf, three_mf_seeds},
+          {"vtu", try_reader<read_vtu>, vtu_seeds},
+          {"inp", try_reader<read_inp>, inp_seeds},
+          {"medit", try_reader<read_medit>, medit_seeds},
+          {"ucd", try_reader<read_ucd>, ucd_seeds},
+          {"mfem", try_reader<read_mfem>, mfem_seeds},
+          {"nastran", try_reader<read_nastran>, nastran_seeds}};
 }
 
 }  // namespace delquad::fuzz

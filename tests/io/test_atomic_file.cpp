@@ -128,5 +128,23 @@ TEST(AtomicFile, WritesIntoTheWorkingFolder) {
   EXPECT_EQ(folder.names(), Names{"a.txt"});
 }
 
+TEST(AtomicFiles, StandOrFallTogether) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "before");
+  const auto write = [](const char* text) { return [text](std::ostream& out) { out << text; }; };
+  const auto throws = [](std::ostream&) { throw InputError("no second"); };
+  expect_input_error(
+      [&] {
+        write_files_atomically({{folder / "a.txt", write("after")}, {folder / "b.txt", throws}});
+      },
+      {"no second"});
+  EXPECT_EQ(read_text(folder / "a.txt"), "before");
+  EXPECT_EQ(folder.names(), Names{"a.txt"});
+  write_files_atomically({{folder / "a.txt", write("after")}, {folder / "b.txt", write("too")}});
+  EXPECT_EQ(read_text(folder / "a.txt"), "after");
+  EXPECT_EQ(read_text(folder / "b.txt"), "too");
+  EXPECT_EQ(folder.names().size(), 2u);
+}
+
 }  // namespace
 }  // namespace delquad

@@ -105,7 +105,7 @@ TEST_F(MshReader, NamesTheLineOfWhatIsWrong) {
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 9 2\n"), {"case.msh:43: ", "second-order triangle"});
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 99 2\n"), {"case.msh:43: ", "element type 99"});
   expect_error(with(kSquare41, "2 3 2 2\n", "1 3 2 2\n"), {"case.msh:43: ", "dimension 1"});
-  expect_error(with(kSquare22, "8 2 2 1 3", "8 16 2 1 3"), {"case.msh:26: ", "second-order quad"});
+  expect_error(with(kSquare22, "8 2 2 1 3", "8 39 2 1 3"), {"case.msh:26: ", "third-order quad without"});
   expect_error(with(kSquare22, "3 1 2 1 7 2 10", "3 1 2 1 7 2 -3"), {"case.msh:21: ", "from 1 to", "'-3'"});
   expect_error(with(kSquare41, "1 1 \"wall one\"", "1 1 wall"), {"case.msh:6: ", "double quotes"});
 }

@@ -3,6 +3,7 @@
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
+#include "tests/support/curved_grid.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -102,6 +103,22 @@ TEST(DrawSurface, SurvivesWhatHasNoExtent) {
   EXPECT_NE(drawn(mesh).find("</svg>"), std::string::npos);
   for (Vec3& p : mesh.points) p = {0, 0, 1e-300 * p.x};
   EXPECT_NE(drawn(mesh).find("</svg>"), std::string::npos);
+}
+
+/// Sides are divided into eight pieces, or lines would be those of the corners.
+TEST(DrawSurface, DrawsCurvedSides) {
+  const auto moves = [](const std::string& svg) {
+    const size_t first = svg.find(" d=\"m"), last = svg.find('z', first);
+    return std::count_if(svg.begin() + static_cast<long>(first), svg.begin() + static_cast<long>(last),
+                         [](char c) { return c >= '0' && c <= '9' ? false : c == ' ' || c == '-'; });
+  };
+  const Mesh curved = testing_support::curved_grid(1, 1, 2, true);
+  Mesh straight = curved;
+  straight.order = 1;
+  straight.line_nodes = straight.quad_nodes = {};
+  EXPECT_EQ(polygons(drawn(curved)), 1u);
+  EXPECT_GT(moves(drawn(curved)), 60);
+  EXPECT_LT(moves(drawn(straight)), 12);
 }
 
 }  // namespace

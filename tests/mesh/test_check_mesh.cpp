@@ -49,6 +49,14 @@ TEST(CheckMesh, SaysWhatIsWrongAndWhere) {
               m.named_points = {{3, {1, {"tip"}}}};
             }),
             "here: a name is that of point 3: there are 3, counted from 0");
+  EXPECT_EQ(
+      complaint([](Mesh& m) { m.order = 2; }),
+      "here: elements of order 2 and 1 triangles: expected orders 1 to 4, above 1 of lines and quads alone");
+  const auto curve = [](Mesh& m) { m.triangles.clear(), m.triangle_region.clear(), m.order = 2; };
+  EXPECT_EQ(complaint([&](Mesh& m) { curve(m), m.line_nodes = {2}; }), "");
+  EXPECT_EQ(complaint(curve), "here: 1 lines of a higher order, but 0 further nodes: expected 1 for each");
+  EXPECT_EQ(complaint([&](Mesh& m) { curve(m), m.line_nodes = {3}; }),
+            "here: a line has point 3: there are 3, counted from 0");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "metrics/metrics.h"
 #include "report/packed_mesh.h"
 #include "report/write_report.h"
+#include "tests/support/curved_grid.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad {
@@ -38,10 +39,13 @@ class Unpacker {
   Mesh run() {
     Mesh mesh;
     mesh.triangles.resize(packed_.triangles);
-    mesh.quads.resize(packed_.quads);
+    polygons.assign(packed_.quads, std::vector<int>(4 * static_cast<std::size_t>(packed_.order)));
     mesh.lines.resize(packed_.lines);
     for (auto& v : mesh.triangles) read_vertices(v);
-    for (auto& v : mesh.quads) read_vertices(v);
+    for (auto& v : polygons) {
+      read_vertices(v);
+      if (packed_.order == 1) mesh.quads.push_back({v[0], v[1], v[2], v[3]});
+    }
     for (std::size_t q = 0; q < packed_.quads; ++q) eta.push_back(static_cast<int>(next()));
     for (auto& v : mesh.lines) read_vertices(v);
     for (std::size_t i = 0; i < packed_.irregular; ++i) {
@@ -65,6 +69,7 @@ class Unpacker {
   }
 
   std::vector<int> eta;
+  std::vector<std::vector<int>> polygons;  ///< of quads
   std::vector<std::pair<int, int>> irregular;
 
  private:
@@ -134,6 +139,26 @@ TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
   EXPECT_EQ(packed.dimension, 3);
   Unpacker unpacker(packed);
   expect_same(unpacker.run(), mesh, 0.25);
+}
+
+TEST(PackedMesh, JoinsTheNodesOfCurvedElements) {
+  const Mesh mesh = testing_support::curved_grid(3, 2, 3, true);
+  const PackedMesh packed = pack_mesh(mesh);
+  EXPECT_EQ(packed.order, 3);
+  EXPECT_EQ(packed.lines, 3 * mesh.lines.size());
+  EXPECT_EQ(packed.points, mesh.points.size() - 4 * mesh.quads.size()) << "all but those inside";
+  Unpacker unpacker(packed);
+  const Mesh unpacked = unpacker.run();
+  ASSERT_EQ(unpacker.polygons.size(), mesh.quads.size());
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const auto is_same = [&](const std::vector<int>& polygon) {
+      const std::vector<int> nodes = nodes_around(mesh, q);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (norm(unpacked.points[polygon[k]] - mesh.points[nodes[k]]) > packed.unit) return false;
+      return true;
+    };
+    EXPECT_EQ(std::ranges::count_if(unpacker.polygons, is_same), 1) << q;
+  }
 }
 
 TEST(PackedMesh, NamesIrregularVerticesAndEta) {
