@@ -19,6 +19,7 @@
 #include "mesher/gap_warning.h"
 #include "mesher/given_domain.h"
 #include "mesher/given_surface.h"
+#include "mesher/imprint_named.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -328,11 +329,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
-  if (!problem.size.named.empty()) {
-    const NamedParts parts(model.fine);
-    warn_of_idle_sizes(problem.size.named, parts, *size, warnings);
-    size = finer_near(size, parts.spots(problem.size.named));
-  }
+  size = imprint_named(problem.size.named, std::move(size), model, warnings);
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
   p.times.insert(p.times.begin(), {"read", read});

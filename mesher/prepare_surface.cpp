@@ -11,7 +11,6 @@
 #include "boundaries/divided_chains.h"
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
-#include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
 #include "mesher/add_grids.h"
@@ -256,7 +255,6 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   check_surface_cross(problem.cross);
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
-  imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
   std::optional<CutSurface> cut =
       cut_at_planes(problem, model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
   std::vector<CurveDivision> divisions = problem.divisions;
