@@ -150,6 +150,9 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
   if (!prepared.size_adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
                fmt::join(prepared.size_adapted_to, " and "));
+  for (const auto& [at, n] : prepared.symmetry)
+    fmt::print("  symmetry: plane through ({:.6g}, {:.6g}, {:.6g}), normal ({:.6g}, {:.6g}, {:.6g})\n", at.x,
+               at.y, at.z, n.x, n.y, n.z);
   print_seconds(prepared, result.log);
   if (result.surface) print_surface_report(prepared, *result.surface);
 }

@@ -12,20 +12,10 @@
 #include "geometry/surface/find_planes.h"
 #include "geometry/surface/surface_messages.h"
 #include "mesher/mirror_mesh.h"
+#include "mesher/symmetric_size.h"
 
 namespace delquad {
 namespace {
-
-class FoldedSize final : public SizeField {
- public:
-  FoldedSize(std::shared_ptr<const SizeField> size, SymmetryPlanes planes)
-      : size_(std::move(size)), planes_(std::move(planes)) {}
-  double at(const Vec3& x, int& hint) const override { return size_->at(planes_.fold(x), hint); }
-
- private:
-  std::shared_ptr<const SizeField> size_;
-  SymmetryPlanes planes_;
-};
 
 std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const SymmetryPlanes& planes,
                                     const std::vector<SymmetryPlane>& given, const std::string& where) {
@@ -158,22 +148,27 @@ class DivisionSharing {
 }  // namespace
 
 std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel& model,
-                                        const PointSize& size) {
+                                        std::shared_ptr<const SizeField>& size) {
   const SymmetrySpec& spec = problem.symmetry;
   if (!spec.automatic && spec.planes.empty()) return std::nullopt;
   if (!problem.periodic.empty())
     throw InputError(spec.where + ": symmetry does not go with periodic sides: expected one of these");
   const MirrorMatcher matcher(model);
-  const std::vector<SymmetryPlane> given =
-      spec.automatic ? find_symmetry_planes(model, matcher) : spec.planes;
-  if (given.empty()) {
-    model.warnings.push_back(spec.where + ": no plane of symmetry was found: all of the model is meshed");
-    return std::nullopt;
-  }
+  const auto [given, spoiled] =
+      spec.automatic ? find_symmetry_planes(model, matcher) : FoundPlanes{spec.planes, {}};
+  if (given.empty())
+    model.warnings.push_back(spec.where + ": no plane of symmetry was found: all of the model is meshed" +
+                             (spoiled.empty() ? "" : "; " + spoiled));
+  else if (!spoiled.empty())
+    model.warnings.push_back(spec.where + ": " + spoiled);
+  if (given.empty()) return std::nullopt;
   const SymmetryPlanes planes = given_planes(given, spec.where);
   std::vector<MirrorMatch> matches = matches_at(matcher, planes, given, spec.where);
   drop_loose_seams(model, matches);
-  SymmetricHalf half = cut_symmetric(model, planes, matches, size, spec.where);
+  size = least_of_images(std::move(size), planes);
+  SymmetricHalf half = cut_symmetric(
+      model, planes, matches, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); },
+      spec.where);
   if (half.model.fine.triangles.empty())
     throw InputError(spec.where + ": nothing of the model lies on the positive sides of the planes");
   return CutSurface{std::move(model), planes, std::move(matches), std::move(half)};
@@ -185,6 +180,26 @@ std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& d
   for (const CurveDivision& division : divisions) sharing.add(division);
   sharing.check_images();
   return std::move(sharing.result);
+}
+
+std::vector<double> most_of_faces(std::vector<double> values, const CutSurface& surface) {
+  for (const MirrorMatch& match : surface.matches) {
+    const std::vector<double> own = values;
+    for (std::size_t f = 0; f < own.size(); ++f) values[f] = std::max(own[f], own[match.face[f]]);
+  }
+  return values;
+}
+
+std::vector<double> most_of_curves(const std::vector<double>& values, const CutSurface& surface) {
+  std::vector<double> most = values;
+  for (const MirrorMatch& match : surface.matches) {
+    const std::vector<double> own = most;
+    for (std::size_t c = 0; c < own.size(); ++c)
+      for (const int image : match.curves[c]) most[c] = std::max(most[c], own[image]);
+  }
+  std::vector<double> of_part;
+  for (const int c : surface.half.whole_curve) of_part.push_back(c >= 0 ? most[c] : 0);
+  return of_part;
 }
 
 MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface) {
@@ -225,11 +240,6 @@ MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface)
     for (std::size_t v = 0; v < m.node_planes.size(); ++v)
       if (domain.boundary.points[v] == place.at) m.node_planes[v] |= place.planes;
   return m;
-}
-
-std::shared_ptr<const SizeField> folded_size(std::shared_ptr<const SizeField> size,
-                                             const SymmetryPlanes& planes) {
-  return std::make_shared<FoldedSize>(std::move(size), planes);
 }
 
 }  // namespace delquad

@@ -59,6 +59,13 @@ NamedParts::NamedParts(const PlanarDomain& domain) {
   add_regions(domain);
 }
 
+NamedParts::NamedParts(const std::vector<LooseLine>& loose) {
+  for (const LooseLine& line : loose)
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+      for (const std::string& name : line.names)
+        parts_[name].push_back({line.points[k == 0 ? 0 : k - 1], line.points[k], {}});
+}
+
 void NamedParts::add(const std::string& kind, const Entity& entity, const Part& part) {
   for (const std::string& name : entity.names) parts_[name].push_back(part);
   if (const std::string number = by_number(kind, entity);
@@ -66,14 +73,15 @@ void NamedParts::add(const std::string& kind, const Entity& entity, const Part& 
     parts_[number].push_back(part);
 }
 
-void NamedParts::add_lines(const Mesh& mesh) {
+void NamedParts::add_lines(const Mesh& mesh, std::size_t first_curve, std::size_t first_point) {
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (mesh.line_curve[l] < static_cast<int>(first_curve)) continue;
     const auto& [a, b] = mesh.lines[l];
     add("curve", mesh.curves[mesh.line_curve[l]], {mesh.points[a], mesh.points[b], {}});
   }
-  for (const NamedPoint& point : mesh.named_points) {
-    const Vec3& x = mesh.points[point.point];
-    add("point", point.entity, {x, x, {}});
+  for (std::size_t i = first_point; i < mesh.named_points.size(); ++i) {
+    const Vec3& x = mesh.points[mesh.named_points[i].point];
+    add("point", mesh.named_points[i].entity, {x, x, {}});
   }
 }
 
@@ -90,16 +98,21 @@ void NamedParts::add_regions(const PlanarDomain& domain) {
 }
 
 std::vector<FineSpot> NamedParts::spots(const std::vector<NamedSize>& wanted) const {
+  for (const NamedSize& w : wanted) {
+    if (parts_.contains(w.name)) continue;
+    std::vector<std::string> known;
+    for (const auto& [name, parts] : parts_) known.push_back(name);
+    throw InputError(fmt::format("{}: nothing is called '{}'{}", w.where, w.name,
+                                 suggestion_or_all(w.name, std::move(known))));
+  }
+  return known_spots(wanted);
+}
+
+std::vector<FineSpot> NamedParts::known_spots(const std::vector<NamedSize>& wanted) const {
   std::vector<FineSpot> spots;
   for (const NamedSize& w : wanted) {
     const auto at = parts_.find(w.name);
-    if (at == parts_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [name, parts] : parts_) known.push_back(name);
-      throw InputError(fmt::format("{}: nothing is called '{}'{}", w.where, w.name,
-                                   suggestion_or_all(w.name, std::move(known))));
-    }
-    if (!(w.size > 0)) continue;
+    if (at == parts_.end() || !(w.size > 0)) continue;
     for (const Part& part : at->second) spots.push_back({part.a, part.b, w.size, w.reach, w.growth, part.c});
   }
   return spots;

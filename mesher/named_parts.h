@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/planar/planar_model.h"
+#include "geometry/surface/surface_model.h"
 #include "mesher/fine_spots.h"
 
 namespace delquad {
@@ -21,8 +22,15 @@ class NamedParts {
   /// Lines and named points of a domain, and its regions.
   explicit NamedParts(const PlanarDomain& domain);
 
+  /// Lines and points that are yet to be imprinted, straight.
+  explicit NamedParts(const std::vector<LooseLine>& loose);
+
+  /// Those of a mesh from this curve and this named point on.
+  void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
   /// What is asked of sizes by names. Throws InputError for a name that nothing has.
   std::vector<FineSpot> spots(const std::vector<NamedSize>& wanted) const;
+  /// Without those that nothing has.
+  std::vector<FineSpot> known_spots(const std::vector<NamedSize>& wanted) const;
 
  private:
   struct Part {
@@ -30,7 +38,6 @@ class NamedParts {
     std::optional<Vec3> c;
   };
   void add(const std::string& kind, const Entity& entity, const Part& part);
-  void add_lines(const Mesh& mesh);
   void add_regions(const PlanarDomain& domain);
 
   std::map<std::string, std::vector<Part>> parts_;

@@ -12,6 +12,7 @@
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/curve_divisions.h"
+#include "geometry/planar/symmetry.h"
 #include "mesher/add_grids.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
@@ -19,6 +20,7 @@
 #include "mesher/gap_warning.h"
 #include "mesher/given_domain.h"
 #include "mesher/given_surface.h"
+#include "mesher/imprint_named.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -27,6 +29,7 @@
 #include "mesher/size_aware.h"
 #include "mesher/size_warnings.h"
 #include "mesher/surface_input.h"
+#include "mesher/symmetric_size.h"
 
 namespace delquad {
 namespace {
@@ -150,6 +153,17 @@ std::vector<FineSpot> fine_spots(const MeshProblem& problem, const std::vector<S
   return fine;
 }
 
+bool is_symmetric(const MeshProblem& problem) {
+  return problem.symmetry.automatic || !problem.symmetry.planes.empty();
+}
+
+/// Those that are given or found.
+std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
+  if (!is_symmetric(problem)) return {};
+  const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);
+  return symmetry ? symmetry->planes() : std::vector<SymmetryPlane>{};
+}
+
 PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
                            const std::vector<SizeSpot>& spots, PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
@@ -157,6 +171,11 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
     return largest_size(
         spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
   });
+  p.symmetry = planes_of(problem, model);
+  const auto with_images = [&](std::shared_ptr<const SizeField> size) {
+    return p.symmetry.empty() ? size : least_of_images(std::move(size), SymmetryPlanes(p.symmetry));
+  };
+  p.size = with_images(std::move(p.size));
   check_count_early(problem, model, p.size);
   PlanarDomain domain = mesh_model(problem, model, p.size);
   // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
@@ -164,7 +183,7 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
     const NamedParts parts(model, domain);
     if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
-    p.size = finer_near(base, parts.spots(spec.named));
+    p.size = with_images(finer_near(base, parts.spots(spec.named)));
     check_count_early(problem, model, p.size);
     domain = mesh_model(problem, model, p.size);
   }
@@ -194,10 +213,6 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   }
   p.background = std::make_shared<BackgroundMesh>(domain.patches);
   return domain;
-}
-
-bool is_symmetric(const MeshProblem& problem) {
-  return problem.symmetry.automatic || !problem.symmetry.planes.empty();
 }
 
 /// Refuses what is for models whose curves are meshed.
@@ -339,11 +354,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
-  if (!problem.size.named.empty()) {
-    const NamedParts parts(model.fine);
-    warn_of_idle_sizes(problem.size.named, parts, *size, warnings);
-    size = finer_near(size, parts.spots(problem.size.named));
-  }
+  size = imprint_named(problem.size.named, std::move(size), model, warnings);
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
   p.times.insert(p.times.begin(), {"read", read});

@@ -84,6 +84,7 @@ struct PreparedProblem {
   std::shared_ptr<const SizeField> size;
   std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
   std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...
+  std::vector<SymmetryPlane> symmetry;               ///< planes that were given or found
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
   std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
   /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of

@@ -11,7 +11,6 @@
 #include "boundaries/divided_chains.h"
 #include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
-#include "geometry/surface/imprint.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
 #include "mesher/add_grids.h"
@@ -23,6 +22,7 @@
 #include "mesher/recombination_options.h"
 #include "mesher/size_aware.h"
 #include "mesher/size_warnings.h"
+#include "mesher/symmetric_size.h"
 
 namespace delquad {
 namespace {
@@ -120,8 +120,9 @@ std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
   return per_turn;
 }
 
+/// `cut`: null, or the model is the part.
 WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::shared_ptr<const SizeField> base,
-                       const std::vector<SizeSpot>& spots) {
+                       const std::vector<SizeSpot>& spots, const CutSurface* cut) {
   WantedSize wanted;
   wanted.base = std::move(base);
   wanted.gradation = spec.gradation;
@@ -134,8 +135,13 @@ WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::sha
   wanted.curvature = std::make_shared<ModelCurvature>(model);
   wanted.per_turn = spec.curvature;
   if (named) {
-    wanted.face_per_turn = curvature_by_name(spec.named, model.fine.regions, "region");
-    wanted.curve_per_turn = curvature_by_name(spec.named, model.fine.curves, "curve");
+    const Mesh& whole = cut != nullptr ? cut->whole.fine : model.fine;
+    wanted.face_per_turn = curvature_by_name(spec.named, whole.regions, "region");
+    wanted.curve_per_turn = curvature_by_name(spec.named, whole.curves, "curve");
+  }
+  if (named && cut != nullptr) {
+    wanted.face_per_turn = most_of_faces(std::move(wanted.face_per_turn), *cut);
+    wanted.curve_per_turn = most_of_curves(wanted.curve_per_turn, *cut);
   }
   wanted.min = spec.min;
   if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
@@ -256,9 +262,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   check_surface_cross(problem.cross);
   PreparedProblem p = with_settings_of(problem);
   check_count(expected_quads(model.fine, SurfaceSize(size)));
-  imprint(model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
-  std::optional<CutSurface> cut =
-      cut_at_planes(problem, model, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); });
+  std::optional<CutSurface> cut = cut_at_planes(problem, model, size);
   std::vector<CurveDivision> divisions = problem.divisions;
   if (cut) {
     divisions = divisions_of_part(divisions, *cut);
@@ -269,7 +273,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const DoingStage measuring("sizes");
   const std::shared_ptr<const SizeField> given = size;
   if (!divisions.empty()) size = as_near(size, edges_of(model, divisions));
-  const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots);
+  const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots, part);
   const TimeSpent size_time = sizes.time();
 
   const Stopwatch maps;
@@ -329,6 +333,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
         for (const CurveSide& side : loop) surface->domain.chain_stays[side.chain] = 1;
   if (size_aware) make_crosses_size_aware(p);
   if (cut) {
+    p.symmetry = cut->planes.all();
     p.size = folded_size(p.size, cut->planes);
     if (p.given_size) p.given_size = folded_size(p.given_size, cut->planes);
     surface->mirrored = mirrored_surface(std::move(*cut), *surface);

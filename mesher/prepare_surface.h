@@ -8,9 +8,10 @@
 
 namespace delquad {
 
-/// Faces flattened, curves meshed once each, all patches even; cross field and size on each patch. Refuses
-/// sizes that would need more than problem.max_elements through `check_count`. Throws InputError naming faces
-/// that cannot be meshed, unless problem.keep_going leaves them out and others remain.
+/// Of a model whose loose lines are imprinted: faces flattened, curves meshed once each, all patches even;
+/// cross field and size on each patch. Refuses sizes that would need more than problem.max_elements through
+/// `check_count`. Throws InputError naming faces that cannot be meshed, unless problem.keep_going leaves them
+/// out and others remain.
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,

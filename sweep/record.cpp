@@ -158,6 +158,8 @@ Json domain_json(const PreparedProblem& p) {
   Json json = {
       {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.expected_quads}};
   json["size_adapted_to"] = p.size_adapted_to;
+  for (const SymmetryPlane& plane : p.symmetry)
+    json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
   if (p.background) json["background_triangles"] = p.background->triangles().triangles.size();
   return json;
 }

@@ -459,9 +459,12 @@ PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const 
   const auto symmetry = asked ? find_symmetry(model, options.symmetry) : std::nullopt;
   if (!symmetry) {
     PlanarDomain domain = CurveMesher(model, size, options).domain();
-    if (asked)
+    if (asked) {
+      const std::string spoiled = what_spoils_symmetry(model);
       domain.notes.push_back(options.symmetry.where +
-                             ": no plane of symmetry was found: all of the model is meshed");
+                             ": no plane of symmetry was found: all of the model is meshed" +
+                             (spoiled.empty() ? "" : "; " + spoiled));
+    }
     return domain;
   }
   const PlanarModel whole = with_axes(model, *symmetry);

@@ -109,13 +109,20 @@ const ModelPoint* point_without_image(const PlanarModel& model, const NearCurves
   return found == model.points.end() ? nullptr : &*found;
 }
 
-bool has_symmetry(const PlanarModel& model, const NearCurves& curves, const Symmetry& symmetry, int plane) {
-  for (const ModelCurve& curve : model.curves)
+/// The first curve without an image, and its place; -1: there is none.
+std::pair<int, Vec2> curve_without_image(const PlanarModel& model, const NearCurves& curves,
+                                         const Symmetry& symmetry, int plane) {
+  for (std::size_t c = 0; c < model.curves.size(); ++c)
     for (int k = 0; k < kProbesOfCurve; ++k) {
-      const Vec2 x = curve.shape->point((k + 0.37) / kProbesOfCurve);
-      if (!curves.has(symmetry.reflect({plane}, x), symmetry.tolerance())) return false;
+      const Vec2 image = symmetry.reflect({plane}, model.curves[c].shape->point((k + 0.37) / kProbesOfCurve));
+      if (!curves.has(image, symmetry.tolerance())) return {static_cast<int>(c), image};
     }
-  return point_without_image(model, curves, symmetry, plane) == nullptr;
+  return {-1, {}};
+}
+
+bool has_symmetry(const PlanarModel& model, const NearCurves& curves, const Symmetry& symmetry, int plane) {
+  return curve_without_image(model, curves, symmetry, plane).first < 0 &&
+         point_without_image(model, curves, symmetry, plane) == nullptr;
 }
 
 SymmetryPlane plane_at(Vec2 centre, double axis_angle) {
@@ -130,6 +137,12 @@ Symmetry::Symmetry(std::vector<SymmetryPlane> planes, double tolerance) : tolera
     const double length = std::hypot(p.normal.x, p.normal.y);
     planes_.push_back({{p.point.x, p.point.y}, {p.normal.x / length, p.normal.y / length}});
   }
+}
+
+std::vector<SymmetryPlane> Symmetry::planes() const {
+  std::vector<SymmetryPlane> planes;
+  for (const Axis& a : planes_) planes.push_back({{a.at.x, a.at.y, 0}, {a.normal.x, a.normal.y, 0}});
+  return planes;
 }
 
 double Symmetry::distance(int plane, Vec2 x) const {
@@ -190,6 +203,33 @@ std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySp
     return Symmetry(found, tolerance);
   }
   return std::nullopt;
+}
+
+std::string what_spoils_symmetry(const PlanarModel& model) {
+  std::vector<char> in_loop(model.curves.size(), 0);
+  for (const ModelLoop& loop : model.loops)
+    for (const int c : loop.curves) in_loop[c] = 1;
+  PlanarModel outline{model.source, {}, {}, {}};
+  for (std::size_t c = 0; c < model.curves.size(); ++c)
+    if (in_loop[c]) outline.curves.push_back(model.curves[c]);
+  const std::optional<Symmetry> symmetry = find_symmetry(outline, {{}, true});
+  if (!symmetry) return {};
+  const NearCurves curves(model);
+  std::string item;
+  auto [curve, image] = curve_without_image(model, curves, *symmetry, 0);
+  if (curve >= 0) {
+    item = curve_label(model, curve);
+  } else if (const ModelPoint* point = point_without_image(model, curves, *symmetry, 0)) {
+    item = point_label(model, static_cast<int>(point - model.points.data()));
+    image = symmetry->reflect({0}, point->at);
+  } else {
+    return {};
+  }
+  const SymmetryPlane plane = symmetry->planes()[0];
+  return fmt::format(
+      "the plane through ({:.6g}, {:.6g}) with the normal ({:.6g}, {:.6g}) would be one, but {} has no "
+      "mirror image at ({:.6g}, {:.6g})",
+      plane.point.x, plane.point.y, plane.normal.x, plane.normal.y, item, image.x, image.y);
 }
 
 namespace {

@@ -25,6 +25,7 @@ class Symmetry {
   bool is_on(int plane, Vec2 x) const;
   Vec2 put_on(int plane, Vec2 x) const;
   int n_planes() const { return static_cast<int>(planes_.size()); }
+  std::vector<SymmetryPlane> planes() const;
   double tolerance() const { return tolerance_; }
   /// Where the plane crosses the box.
   std::array<Vec2, 2> axis(int plane, const Box<Vec2>& box) const;
@@ -43,6 +44,10 @@ class Symmetry {
 /// of the curves, or none. Throws InputError for planes that are given and not perpendicular, or about which
 /// the model is not symmetric.
 std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
+
+/// Of a model in which no plane is found: one that its loops have, and what in the regions has no image
+/// there, for a warning; empty: its loops have none.
+std::string what_spoils_symmetry(const PlanarModel& model);
 
 /// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
 /// have their images.

@@ -1,11 +1,14 @@
 #include "geometry/surface/find_planes.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/cancel.h"
+#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/symmetry_planes.h"
 
 namespace delquad {
@@ -138,10 +141,11 @@ class PlaneFinder {
   PlaneFinder(const SurfaceModel& model, const MirrorMatcher& matcher)
       : model_(model), matcher_(matcher), moments_(moments_of(model.fine)) {}
 
-  std::vector<SymmetryPlane> run() {
+  FoundPlanes run() {
     constexpr std::size_t kMost = 3;
     while (found_.size() < kMost) {
       const std::size_t before = found_.size();
+      spoiled_.clear();
       for (const Vec3& normal : candidate_normals(model_, moments_, found_))
         if (const auto plane = try_normal(normal)) {
           found_.push_back(*plane);
@@ -149,11 +153,11 @@ class PlaneFinder {
         }
       if (found_.size() == before) break;
     }
-    return found_;
+    return {found_, spoiled_};
   }
 
  private:
-  std::optional<SymmetryPlane> try_normal(const Vec3& normal) const {
+  std::optional<SymmetryPlane> try_normal(const Vec3& normal) {
     double low = dot(model_.fine.points[0], normal), high = low;
     for (const Vec3& p : model_.fine.points) {
       low = std::min(low, dot(p, normal));
@@ -184,19 +188,24 @@ class PlaneFinder {
     return std::nullopt;
   }
 
-  bool is_good(const SymmetryPlane& plane) const {
-    return matcher_.match(SymmetryPlanes({plane}), 0).failure.empty();
+  bool is_good(const SymmetryPlane& plane) {
+    const MirrorMatch match = matcher_.match(SymmetryPlanes({plane}), 0);
+    if (match.by_embedded && spoiled_.empty())
+      spoiled_ = fmt::format("the plane through {} with the normal {} would be one, but {}",
+                             show_point(plane.point), show_point(plane.normal), match.failure);
+    return match.failure.empty();
   }
 
   const SurfaceModel& model_;
   const MirrorMatcher& matcher_;
   Moments moments_;
   std::vector<SymmetryPlane> found_;
+  std::string spoiled_;
 };
 
 }  // namespace
 
-std::vector<SymmetryPlane> find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher) {
+FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher) {
   return PlaneFinder(model, matcher).run();
 }
 

@@ -103,7 +103,9 @@ struct MirrorMatcher::Tables {
         faces_of(mesh.curves.size()),
         lines_of(mesh.curves.size()) {
     fill_faces();
+    fill_tolerances();
     fill_curves();
+    fill_points();
   }
 
   struct Face {
@@ -111,11 +113,13 @@ struct MirrorMatcher::Tables {
     std::optional<NearestTriangle> nearest;
     Box<Vec3> box{};
     double bend = 0;
+    double tolerance = 0;
   };
 
-  double tolerance() const { return kSymmetric * diagonal; }
   void fill_faces();
+  void fill_tolerances();
   void fill_curves();
+  void fill_points();
   struct Off {
     double distance = 0;
     Vec3 at{};
@@ -128,6 +132,8 @@ struct MirrorMatcher::Tables {
   std::string match_curves(const SymmetryPlanes& planes, int plane, MirrorMatch& match) const;
   Off match_curve(int c, const SymmetryPlanes& planes, int plane, const std::vector<char>& may_be,
                   std::vector<int>& found) const;
+  std::string no_image(int c, const Off& off) const;
+  std::string match_points(const SymmetryPlanes& planes, int plane) const;
 
   const SurfaceModel& model;
   const Mesh& mesh;
@@ -136,7 +142,9 @@ struct MirrorMatcher::Tables {
   NearestTriangle all;
   std::vector<Face> faces;
   BoxTree<Vec3> lines;
-  std::vector<char> is_whisker, is_seam;             // of each curve
+  std::vector<char> is_whisker, is_seam;  // of each curve
+  std::vector<double> curve_tolerance;
+  std::vector<int> single_points;                    // in faces
   std::vector<std::vector<int>> faces_of, lines_of;  // of each curve
 };
 
@@ -168,6 +176,24 @@ void MirrorMatcher::Tables::fill_faces() {
   }
 }
 
+/// Within the tolerance a narrow face could be anywhere: of such it is less.
+void MirrorMatcher::Tables::fill_tolerances() {
+  const std::vector<int> twin = side_twins(mesh);
+  std::vector<double> area(faces.size(), 0), outline(faces.size(), 0);
+  for (int s = 0; s < static_cast<int>(twin.size()); ++s) {
+    const int face = mesh.triangle_region[s / 3];
+    if (s % 3 == 0) area[face] += norm(area_of(mesh, s / 3)) / 2;
+    if (twin[s] < 0 || mesh.triangle_region[twin[s] / 3] != face)
+      outline[face] += norm(mesh.points[side_end(mesh, s)] - mesh.points[side_start(mesh, s)]);
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    faces[f].tolerance = kSymmetric * diagonal;
+    // Of a long strip this is its width.
+    if (outline[f] > 0)
+      faces[f].tolerance = std::min(faces[f].tolerance, kSymmetricOfWidth * 2 * area[f] / outline[f]);
+  }
+}
+
 void MirrorMatcher::Tables::fill_curves() {
   for (const EmbeddedCurve& e : model.embedded) is_whisker[e.curve] = e.is_whisker;
   std::vector<Box<Vec3>> boxes;
@@ -188,6 +214,24 @@ void MirrorMatcher::Tables::fill_curves() {
     some.erase(begin, end);
   }
   lines = BoxTree<Vec3>(boxes);
+  curve_tolerance.assign(mesh.curves.size(), kSymmetric * diagonal);
+  for (std::size_t c = 0; c < faces_of.size(); ++c)
+    for (const int f : faces_of[c]) curve_tolerance[c] = std::min(curve_tolerance[c], faces[f].tolerance);
+}
+
+/// Where two whiskers begin, and no other curve is.
+void MirrorMatcher::Tables::fill_points() {
+  std::vector<int> whisker_at(mesh.points.size(), -1);
+  std::vector<char> is_single(mesh.points.size(), 0), is_on_curve(mesh.points.size(), 0);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    for (const int v : mesh.lines[l]) {
+      const int curve = mesh.line_curve[l];
+      if (!is_whisker[curve]) is_on_curve[v] = 1;
+      if (whisker_at[v] >= 0 && whisker_at[v] != curve) is_single[v] = 1;
+      whisker_at[v] = curve;
+    }
+  for (const int p : model.corners)
+    if (is_single[p] && !is_on_curve[p]) single_points.push_back(p);
 }
 
 /// How far the image of face f is from face g, where that is worst.
@@ -199,10 +243,10 @@ MirrorMatcher::Tables::Off MirrorMatcher::Tables::compare(int f, int g, const Sy
   for (std::size_t i = 0; i < face.points.size(); ++i) {
     const Vec3 x = planes.reflect(plane, mesh.points[face.points[i]]);
     const NearestTriangle::Found found = other.nearest->find(x);
-    double distance = found.distance, allowed = tolerance() + bends[other.triangles[found.triangle]];
+    double distance = found.distance, allowed = face.tolerance + bends[other.triangles[found.triangle]];
     if (model.projector && i % step == 0 && distance <= allowed) {
       distance = norm(model.projector->to_face(g, x) - x);
-      allowed = tolerance();
+      allowed = face.tolerance;
     }
     if (distance > allowed) worst.is_on = false;
     if (distance > allowed && distance > worst.distance) worst = {distance, x, false};
@@ -237,7 +281,7 @@ void MirrorMatcher::Tables::match_face(int f, const SymmetryPlanes& planes, int 
   off = {-1, {}, false};
   for (int g = 0; g < static_cast<int>(faces.size()); ++g) {
     if (faces[g].triangles.empty()) continue;
-    const double slack = tolerance() + face.bend + faces[g].bend;
+    const double slack = face.tolerance + face.bend + faces[g].bend;
     const Vec3 low = box.low - faces[g].box.low, high = box.high - faces[g].box.high;
     if (std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y),
                   std::abs(high.z)}) > slack)
@@ -265,7 +309,7 @@ std::string MirrorMatcher::Tables::no_image(int f, const SymmetryPlanes& planes,
     const Vec3 x = planes.reflect(plane, mesh.points[p]);
     const NearestTriangle::Found found = all.find(x);
     hit.insert(mesh.regions[mesh.triangle_region[found.triangle]].tag);
-    if (found.distance > std::max(worst.distance, tolerance() + bends[found.triangle]))
+    if (found.distance > std::max(worst.distance, faces[f].tolerance + bends[found.triangle]))
       worst = {found.distance, x, false};
   }
   const std::string face = label("face", mesh.regions[f]);
@@ -273,7 +317,7 @@ std::string MirrorMatcher::Tables::no_image(int f, const SymmetryPlanes& planes,
   if (!worst.is_on && worst.distance > 0)
     return fmt::format("the mirror image of {} is {:.3g} away from {} at {}: expected at most {:.3g}", face,
                        worst.distance, worst.at == off.at ? "any face like it" : "the model",
-                       show_point(worst.at), tolerance());
+                       show_point(worst.at), faces[f].tolerance);
   return fmt::format(
       "no face of the model has the outline of the mirror image of {}, which lies on face(s) {}", face,
       fmt::join(hit, ", "));
@@ -299,11 +343,11 @@ MirrorMatcher::Tables::Off MirrorMatcher::Tables::match_curve(int c, const Symme
         if (d * d < best2) best2 = d * d, nearest = other;
       });
       if (nearest < 0) return {std::numeric_limits<double>::infinity(), x, false};
-      double distance = std::sqrt(best2), allowed = tolerance() + line_bends[l] + line_bends[nearest];
+      double distance = std::sqrt(best2), allowed = curve_tolerance[c] + line_bends[l] + line_bends[nearest];
       const int curve = mesh.line_curve[nearest];
       if (model.projector && t == 0 && i % step == 0 && distance <= allowed) {
         distance = norm(model.projector->to_curve(curve, x) - x);
-        allowed = tolerance();
+        allowed = curve_tolerance[c];
       }
       if (distance > allowed && !(distance < worst.distance)) worst = {distance, x, false};
       if (t == 0.5 && std::ranges::find(found, curve) == found.end()) found.push_back(curve);
@@ -318,8 +362,8 @@ std::string MirrorMatcher::Tables::match_curves(const SymmetryPlanes& planes, in
   for (std::size_t c = 0; c < faces_of.size(); ++c) by_faces[faces_of[c]].push_back(static_cast<int>(c));
   std::vector<char> is_embedded(mesh.curves.size(), 0), may_be(mesh.curves.size(), 0);
   for (const EmbeddedCurve& e : model.embedded) is_embedded[e.curve] = 1;
-  std::string failure;
-  double farthest = 0;
+  int worst = -1;  // of those without an image; curves of the model before embedded ones
+  Off farthest;
   for (int c = 0; c < static_cast<int>(mesh.curves.size()); ++c) {
     if (is_whisker[c] || lines_of[c].empty()) continue;
     check_cancelled();
@@ -336,16 +380,10 @@ std::string MirrorMatcher::Tables::match_curves(const SymmetryPlanes& planes, in
     match.curves[c].clear();
     if (is_seam[c] && !is_embedded[c] && mesh.curves[c].names.empty()) {
       match.is_loose_seam[c] = 1;
-    } else if (!(off.distance <= farthest)) {
-      farthest = off.distance;
-      const std::string where = show_point(off.at);
-      failure = std::isfinite(off.distance)
-                    ? fmt::format(
-                          "the mirror image of {} is {:.3g} away from curves at {}: expected at most "
-                          "{:.3g}",
-                          label("curve", mesh.curves[c]), off.distance, where, tolerance())
-                    : fmt::format("no curve is the mirror image of {} at {}", label("curve", mesh.curves[c]),
-                                  where);
+    } else if (worst < 0 || is_embedded[c] < is_embedded[worst] ||
+               (is_embedded[c] == is_embedded[worst] && off.distance > farthest.distance)) {
+      worst = c;
+      farthest = off;
     }
   }
   for (int c = 0; c < static_cast<int>(mesh.curves.size()); ++c)
@@ -353,7 +391,34 @@ std::string MirrorMatcher::Tables::match_curves(const SymmetryPlanes& planes, in
       if (std::ranges::find(match.curves[other], c) == match.curves[other].end())
         match.curves[other].push_back(c);
   for (std::vector<int>& some : match.curves) std::ranges::sort(some);
-  return failure;
+  if (worst < 0) return {};
+  match.by_embedded = is_embedded[worst] != 0;
+  return no_image(worst, farthest);
+}
+
+std::string MirrorMatcher::Tables::no_image(int c, const Off& off) const {
+  const std::string curve = label("curve", mesh.curves[c]), where = show_point(off.at);
+  if (!std::isfinite(off.distance))
+    return fmt::format("no curve is the mirror image of {} at {}", curve, where);
+  return fmt::format("the mirror image of {} is {:.3g} away from curves at {}: expected at most {:.3g}",
+                     curve, off.distance, where, curve_tolerance[c]);
+}
+
+/// Each single point needs another one as its image.
+std::string MirrorMatcher::Tables::match_points(const SymmetryPlanes& planes, int plane) const {
+  for (const int p : single_points) {
+    const Vec3 at = mesh.points[p], image = planes.reflect(plane, at);
+    if (std::ranges::any_of(single_points, [&](int other) {
+          return norm(mesh.points[other] - image) <= kSymmetric * diagonal;
+        }))
+      continue;
+    std::string name;
+    for (const NamedPoint& n : mesh.named_points)
+      if (n.point == p && name.empty() && !n.entity.names.empty()) name = " '" + n.entity.names[0] + "'";
+    return fmt::format("the point{} at {} has no mirror image at {}", name, show_point(at),
+                       show_point(image));
+  }
+  return {};
 }
 
 MirrorMatcher::MirrorMatcher(const SurfaceModel& model) : tables_(std::make_unique<Tables>(model)) {}
@@ -366,7 +431,8 @@ MirrorMatch MirrorMatcher::match(const SymmetryPlanes& planes, int plane) const 
                     std::vector<int>(n),
                     std::vector<char>(n, 0),
                     std::vector<std::vector<int>>(t.mesh.curves.size()),
-                    std::vector<char>(t.mesh.curves.size(), 0)};
+                    std::vector<char>(t.mesh.curves.size(), 0),
+                    false};
   for (std::size_t f = 0; f < n; ++f) match.face[f] = static_cast<int>(f);
   std::vector<Tables::Off> offs(n);
   parallel_for(
@@ -379,6 +445,10 @@ MirrorMatch MirrorMatcher::match(const SymmetryPlanes& planes, int plane) const 
   }
   match.failure =
       worst < 0 ? t.match_curves(planes, plane, match) : t.no_image(worst, planes, plane, offs[worst]);
+  if (match.failure.empty()) {
+    match.failure = t.match_points(planes, plane);
+    match.by_embedded = !match.failure.empty();
+  }
   return match;
 }
 

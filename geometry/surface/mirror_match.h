@@ -10,8 +10,9 @@
 namespace delquad {
 
 /// A symmetric model's places have their images on it to this part of the model's diagonal; on a
-/// triangulation by so much besides as its triangles may lie off the surface that they stand for.
-inline constexpr double kSymmetric = 1e-4;
+/// triangulation by so much besides as its triangles may lie off the surface that they stand for. On faces
+/// that are narrow, and on their curves, it is this part of the width.
+inline constexpr double kSymmetric = 1e-4, kSymmetricOfWidth = 0.05;
 
 /// What of a model is the image of what, at one plane.
 struct MirrorMatch {
@@ -22,6 +23,7 @@ struct MirrorMatch {
   /// nameless seams, which have the same face on both sides.
   std::vector<std::vector<int>> curves;
   std::vector<char> is_loose_seam;  ///< of each curve: such a seam, without an image
+  bool by_embedded = false;         ///< all but embedded curves and single points is symmetric
 };
 
 /// Compares a model with its images.

@@ -10,6 +10,12 @@ SymmetryPlanes::SymmetryPlanes(const std::vector<SymmetryPlane>& planes) {
   for (const SymmetryPlane& p : planes) planes_.push_back({p.point, (1 / norm(p.normal)) * p.normal});
 }
 
+std::vector<SymmetryPlane> SymmetryPlanes::all() const {
+  std::vector<SymmetryPlane> all;
+  for (const Plane& p : planes_) all.push_back({p.at, p.normal});
+  return all;
+}
+
 Vec3 SymmetryPlanes::put_on(int plane, const Vec3& x) const { return x - height(plane, x) * normal(plane); }
 
 Vec3 SymmetryPlanes::put_on_all(int mask, Vec3 x) const {

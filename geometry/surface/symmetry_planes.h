@@ -14,6 +14,7 @@ class SymmetryPlanes {
   explicit SymmetryPlanes(const std::vector<SymmetryPlane>& planes);
 
   int count() const { return static_cast<int>(planes_.size()); }
+  std::vector<SymmetryPlane> all() const;
   const Vec3& normal(int plane) const { return planes_[plane].normal; }
   double height(int plane, const Vec3& x) const { return dot(x - planes_[plane].at, planes_[plane].normal); }
   Vec3 put_on(int plane, const Vec3& x) const;

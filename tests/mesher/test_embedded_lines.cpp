@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -80,6 +82,38 @@ TEST(EmbeddedLines, RandomSetsOnASphereBecomeEdgesAndNodes) {
     }
     expect_embedded(problem, mesh(problem));
   }
+}
+
+TEST(EmbeddedLines, GetSizesByName) {
+  MeshProblem problem = sphere_problem();
+  // The chord is far below the surface.
+  const double s = std::sqrt(0.5);
+  problem.surface.embed = {{{{1, 0, 0}, {0, 1, 0}}, "rib", "test"}, {{{0, -s, -s}}, "point", "test"}};
+  const auto longest_at_rib = [](const Mesh& mesh) {
+    double longest = 0;
+    for (const auto& [a, b] : lines_on(mesh, "rib"))
+      longest = std::max(longest, norm(mesh.points[b] - mesh.points[a]));
+    return longest;
+  };
+  const auto longest_at_point = [](const Mesh& mesh) {
+    const int point = mesh.named_points.at(0).point;
+    double longest = 0;
+    for (const auto& quad : mesh.quads)
+      for (int k = 0; k < 4; ++k)
+        if (quad[k] == point || quad[(k + 1) % 4] == point)
+          longest = std::max(longest, norm(mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]));
+    return longest;
+  };
+  const Mesh plain = mesh(problem).mesh;
+  EXPECT_GT(longest_at_rib(plain), 0.1);
+  EXPECT_GT(longest_at_point(plain), 0.08);
+  problem.size.named = {{.name = "rib", .size = 0.03}, {.name = "point", .size = 0.02}};
+  const MeshResult fine = mesh(problem);
+  EXPECT_TRUE(fine.soundness.sound());
+  EXPECT_LT(longest_at_rib(fine.mesh), 1.4 * 0.03);
+  EXPECT_LT(longest_at_point(fine.mesh), 2 * 0.02);
+  problem.size.named[0].name = "rip";
+  expect_input_error([&] { mesh(problem); }, {"nothing is called 'rip'", "'rib'"});
 }
 
 TEST(EmbeddedLines, NamedPointsAndLinesOfATriangulationStay) {

@@ -7,6 +7,9 @@
 #include <set>
 
 #include "delquad/mesher.h"
+#include "geometry/surface/mirror_match.h"
+#include "geometry/surface/triangulated_model.h"
+#include "mesher/prepare.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/surfaces.h"
 #include "tests/support/triangulated_shapes.h"
@@ -269,23 +272,115 @@ TEST(SymmetricSurfaces, LinesAndPointsInFacesHaveImages) {
     if (r.mesh.curves[r.mesh.line_curve[l]].names == std::vector<std::string>{"line"})
       length += norm(r.mesh.points[r.mesh.lines[l][1]] - r.mesh.points[r.mesh.lines[l][0]]);
   EXPECT_NEAR(length, 0.6, 1e-9);
-  problem.surface.embed = {{{{0.3, 0.5, 0.7}}, "left", ""}};
-  expect_input_error([&] { mesh(problem); }, {"s 1: the model is not symmetric: the point 'left'",
-                                              "has no mirror image at (0.7, 0.5, 0.7)"});
 }
 
-TEST(SymmetricSurfaces, SizesBeforeThePlaneCount) {
+TEST(SymmetricSurfaces, LinesAndPointsWithoutImagesSpoilPlanes) {
+  const std::vector<std::pair<std::vector<Vec3>, const char*>> items{
+      {{{0.3, 0.5, 0.7}}, "the point 'item' at (0.3, 0.5, 0.7) has no mirror image at (0.7, 0.5, 0.7)"},
+      {{{0.7, 0.5, 0.7}}, "the point 'item' at (0.7, 0.5, 0.7) has no mirror image at (0.3, 0.5, 0.7)"},
+      {{{0.2, 0.2, 0.7}, {0.7, 0.3, 0.7}}, "'item' is 0."}};
+  for (const auto& [points, says] : items) {
+    MeshProblem problem = problem_of(block(5), 0.13, at({kMiddleX}));
+    problem.surface.embed = {{points, "item", ""}};
+    expect_input_error([&] { mesh(problem); },
+                       {"s 1: the model is not symmetric at the plane through", says});
+    problem.symmetry = {{}, true, "s 1"};
+    const MeshResult r = mesh(problem);
+    EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const Warning& w) {
+      return w.text.find("s 1: no plane of symmetry was found: all of the model is meshed; the plane") == 0 &&
+             w.text.find("would be one, but") != std::string::npos &&
+             w.text.find("'item'") != std::string::npos;
+    }));
+    problem.symmetry = {};
+    EXPECT_EQ(mesh(problem).mesh.points, r.mesh.points);
+  }
+  // A point in the middle of a side leaves two planes.
+  MeshProblem problem = problem_of(block(5), 0.13, {{}, true, "s 1"});
+  problem.surface.embed = {{{{0.5, 0.4, 0.7}}, "item", ""}};
+  const PreparedProblem p = prepare(problem);
+  EXPECT_EQ(p.symmetry.size(), 2u);
+  EXPECT_TRUE(std::ranges::any_of(p.warnings, [](const Warning& w) {
+    return w.text.find(
+               "s 1: the plane through (0.5, 0.4, 0.35) with the normal (0, 0, 1) would be one, but the "
+               "point 'item'") == 0;
+  }));
+}
+
+/// A strip of length 20 and width 0.0004 at x = 0, `end` at x = 20.
+MirrorMatch match_of_strip(double end) {
+  constexpr int n = 400;
+  Mesh strip;
+  for (int i = 0; i <= n; ++i) {
+    const double x = 20.0 * i / n, w = 0.0004 + (end - 0.0004) * i / n;
+    strip.points.push_back({x, -w / 2, 0});
+    strip.points.push_back({x, w / 2, 0});
+  }
+  for (int i = 0; i < n; ++i) {
+    strip.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+    strip.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+  }
+  strip.triangle_region.assign(strip.triangles.size(), 0);
+  strip.regions = {{1, {}}};
+  const SurfaceModel model = make_surface_model(std::move(strip));
+  return MirrorMatcher(model).match(SymmetryPlanes(std::vector<SymmetryPlane>{{{10, 0, 0}, {1, 0, 0}}}), 0);
+}
+
+TEST(SymmetricSurfaces, OnSliversTheToleranceIsAPartOfTheirWidth) {
+  EXPECT_EQ(match_of_strip(0.0004).failure, "");
+  EXPECT_NE(match_of_strip(0.0002).failure, "");
+}
+
+TEST(SymmetricSurfaces, TheMostCurvatureOfAllImagesCounts) {
+  Mesh torus = testing_support::torus(40, 18, 1, 0.4).fine;
+  torus.lines.clear();
+  torus.line_curve.clear();
+  torus.curves.clear();
+  torus.regions = {{1, {}}, {2, {}}};
+  for (std::size_t t = 0; t < torus.triangles.size(); ++t) {
+    const auto& [a, b, c] = torus.triangles[t];
+    torus.triangle_region[t] = torus.points[a].x + torus.points[b].x + torus.points[c].x < 0;
+  }
+  std::vector<std::size_t> counts;
+  for (const char* name : {"region_1", "region_2", ""}) {
+    MeshProblem problem = problem_of(torus, 0.2, at({{{0, 0, 0}, {1, 0, 0}}}));
+    if (*name != 0) problem.size.named = {{.name = name, .curvature = 40}};
+    counts.push_back(mesh(problem).mesh.quads.size());
+  }
+  EXPECT_EQ(counts[0], counts[1]);
+  EXPECT_GT(counts[0], 2 * counts[2]);
+}
+
+TEST(SymmetricSurfaces, TheLeastSizeOfAllImagesCounts) {
   MeshProblem problem = problem_of(block(5), 0.1, at({kMiddleX}));
   problem.size.field = nullptr;
   problem.size.function = [](std::span<const Vec3> x, std::span<double> size) {
     for (std::size_t i = 0; i < x.size(); ++i) size[i] = x[i].x > 0.5 ? 0.05 : 0.2;
   };
-  const MeshResult fine = mesh(problem);
+  const MeshResult before = mesh(problem);
   problem.symmetry.planes[0].normal = {-1, 0, 0};
-  const MeshResult coarse = mesh(problem);
-  expect_mirrored(fine.mesh, kMiddleX);
-  expect_mirrored(coarse.mesh, kMiddleX);
-  EXPECT_GT(fine.mesh.quads.size(), 8 * coarse.mesh.quads.size());
+  const MeshResult behind = mesh(problem);
+  expect_mirrored(before.mesh, kMiddleX);
+  expect_mirrored(behind.mesh, kMiddleX);
+  const double n = static_cast<double>(before.mesh.quads.size());
+  EXPECT_NEAR(static_cast<double>(behind.mesh.quads.size()), n, 0.1 * n);
+  EXPECT_GT(n, 0.8 * 2 * (0.8 + 0.7 + 0.8 * 0.7) / (0.05 * 0.05));
+  // Faces by name: what both sides ask for is what one of them does.
+  const auto quads = [](const std::vector<std::string>& names) {
+    MeshProblem named = problem_of(block(5), 0.2, at({kMiddleX}));
+    for (const std::string& name : names) named.size.named.push_back({.name = name, .size = 0.05});
+    return static_cast<double>(mesh(named).mesh.quads.size());
+  };
+  const double both = quads({"region_1", "region_2"});
+  EXPECT_NEAR(quads({"region_1"}), both, 0.03 * both);
+  EXPECT_NEAR(quads({"region_2"}), both, 0.03 * both);
+  EXPECT_GT(both, 2 * quads({}));
+}
+
+TEST(SymmetricSurfaces, PlanesThatAreFoundAreTold) {
+  const PreparedProblem p = prepare(problem_of(block(5), 0.2, {{}, true}));
+  ASSERT_EQ(p.symmetry.size(), 3u);
+  for (const SymmetryPlane& plane : p.symmetry)
+    EXPECT_NEAR(dot(Vec3{0.5, 0.4, 0.35} - plane.point, plane.normal), 0, 1e-9);
 }
 
 TEST(SymmetricSurfaces, DividedCurvesShareTheirEdges) {

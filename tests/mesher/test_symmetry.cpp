@@ -6,6 +6,7 @@
 #include <set>
 
 #include "delquad/mesher.h"
+#include "mesher/prepare.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {
@@ -50,12 +51,12 @@ void expect_mirrored(const Mesh& mesh, const std::function<Vec3(Vec3)>& mirror) 
     EXPECT_TRUE(middles.contains({mesh.quad_region[q], key(mirror(middle(q)))}));
 }
 
-/// All is meshed, as without, and a warning says so.
-void expect_no_plane(const PlanarModel& model) {
+/// All is meshed, as without, and a warning says so, and what spoils a plane of the outline.
+void expect_no_plane(const PlanarModel& model, const std::string& spoiled = "") {
   const MeshResult r = mesh(symmetric_problem(model, 0.2, {{}, true, "s 1"}));
   EXPECT_EQ(r.mesh.points, mesh(symmetric_problem(model, 0.2, {})).mesh.points);
-  EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const Warning& w) {
-    return w.text == "s 1: no plane of symmetry was found: all of the model is meshed";
+  EXPECT_TRUE(std::ranges::any_of(r.warnings, [&](const Warning& w) {
+    return w.text == "s 1: no plane of symmetry was found: all of the model is meshed" + spoiled;
   }));
 }
 
@@ -95,7 +96,61 @@ TEST(Symmetry, EdgesAtSinglePointsAreMirrored) {
       },
       {"s 1: the model is not symmetric: the point 'sensor' (m 3) has no mirror image at (0.6, 1.59)"});
   // The other points' planes are none of this one.
-  expect_no_plane(model);
+  expect_no_plane(model,
+                  "; the plane through (2, 1) with the normal (1, 0) would be one, but point 'sensor' (m 3) "
+                  "has no mirror image at (3.4, 0.41)");
+}
+
+TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
+  PlanarModel model = symmetric_plate();
+  model.curves.push_back({make_segment({0.2, 0.2}, {0.2, 1.2}), "rib", "m 4"});
+  expect_no_plane(
+      model,
+      "; the plane through (2, 1) with the normal (1, 0) would be one, but curve 'rib' (m 4) has no "
+      "mirror image at (3.8, 0.274)");
+}
+
+TEST(Symmetry, PlanesThatAreFoundAreTold) {
+  const PreparedProblem p = prepare(symmetric_problem(symmetric_plate(), 0.2, {{}, true}));
+  ASSERT_EQ(p.symmetry.size(), 2u);
+  EXPECT_NEAR(std::abs(p.symmetry[0].normal.x), 1, 1e-12);
+  EXPECT_NEAR(std::abs(p.symmetry[1].normal.y), 1, 1e-12);
+  for (const SymmetryPlane& plane : p.symmetry) EXPECT_NEAR(norm(plane.point - Vec3{2, 1, 0}), 0, 1e-12);
+  EXPECT_TRUE(prepare(symmetric_problem(symmetric_plate(), 0.2, {})).symmetry.empty());
+}
+
+TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
+  PlanarModel model;
+  model.curves = {{make_segment({0, 0}, {4, 0}), "below", {}},
+                  {make_segment({4, 0}, {4, 2}), "right", {}},
+                  {make_segment({4, 2}, {0, 2}), "above", {}},
+                  {make_segment({0, 2}, {0, 0}), "left", {}}};
+  model.loops = {{{0, 1, 2, 3}, "plate", {}}};
+  const SymmetrySpec one{{{{2, 1, 0}, {1, 0, 0}}}}, two{{{{2, 1, 0}, {1, 0, 0}}, {{2, 1, 0}, {0, 1, 0}}}};
+  const auto meshed = [&](const std::vector<std::string>& names, const SymmetrySpec& spec) {
+    MeshProblem problem = symmetric_problem(model, 0.2, spec);
+    for (const std::string& name : names) problem.size.named.push_back({.name = name, .size = 0.05});
+    return mesh(problem).mesh;
+  };
+  for (const SymmetrySpec& spec : {one, two}) {
+    const Mesh both = meshed({"left", "right"}, spec);
+    const auto n = static_cast<double>(both.quads.size());
+    EXPECT_GT(n, 1.5 * static_cast<double>(meshed({}, spec).quads.size()));
+    EXPECT_NEAR(static_cast<double>(meshed({"right"}, spec).quads.size()), n, 0.03 * n);
+    EXPECT_NEAR(static_cast<double>(meshed({"left"}, spec).quads.size()), n, 0.03 * n);
+    expect_mirrored(both, about_x2);
+  }
+  std::vector<double> counts;
+  for (const double x : {0.5, 3.5})
+    for (const double y : {0.25, 1.75}) {
+      MeshProblem problem = symmetric_problem(model, 0.2, two);
+      const Vec3 at{x, y, 0};
+      problem.size.sources = {{at, at, 0.02, 0.2, 0.1, 0.5}};
+      counts.push_back(static_cast<double>(mesh(problem).mesh.quads.size()));
+    }
+  const auto [least, most] = std::ranges::minmax(counts);
+  EXPECT_LT(most, 1.1 * least);
+  EXPECT_GT(least, 2 * static_cast<double>(meshed({}, two).quads.size()));
 }
 
 TEST(Symmetry, PlanesAreFound) {
