@@ -294,7 +294,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
       mesh->add_option("--quality", arguments.quality, "time against quality: " + qualities)
           ->capture_default_str();
   mesh->add_option("--pipeline", arguments.pipeline,
-                   "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C and O")
+                   "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C, Q and O")
       ->excludes(quality);
   mesh->add_flag("--keep-going", arguments.keep_going,
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");

@@ -324,6 +324,64 @@ void QuadTopology::pillow(std::span<const int> quads) {
   }
 }
 
+/// Whether one of these has two edges to one vertex.
+bool QuadTopology::has_double_edge(std::span<const int> vertices) const {
+  std::vector<int> ends;
+  return std::ranges::any_of(vertices, [&](int v) {
+    ends.clear();
+    int last = -1;
+    for_each_out(v, [&](int h) { ends.push_back(target(h)), last = h; });
+    if (around(last) < 0) ends.push_back(origin(prev(last)));
+    std::ranges::sort(ends);
+    return std::ranges::adjacent_find(ends) != ends.end();
+  });
+}
+
+bool QuadTopology::refill(std::span<const int> quads, std::span<const int> rim, std::span<const Vec2> inside,
+                          std::span<const std::array<int, 4>> fill) {
+  const Mark start = mark();
+  const int n_rim = static_cast<int>(rim.size());
+  std::vector<int> vertex, across;
+  for (const int h : rim) vertex.push_back(origin(h)), across.push_back(twin_[h]);
+  const std::vector<int> on_rim = vertex;
+  for (const Vec2 at : inside) vertex.push_back(add_vertex(at));
+  for (const int e : quads)
+    for (int k = 0; k < 4; ++k) {
+      const int v = corner_[4 * e + k];
+      add_to_valence(v, -1);
+      if (valence_[v] == 0) write(kOut, v, -1);
+    }
+  for (const int e : quads) kill_element(e);
+
+  struct Side {
+    int from, to, half_edge;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  const int first = element_slots();
+  for (std::size_t q = 0; q < fill.size(); ++q) {
+    const int e = add_element();
+    for (int k = 0; k < 4; ++k) sides.push_back({fill[q][k], fill[q][(k + 1) % 4], 4 * e + k});
+  }
+  std::ranges::sort(sides);
+  for (std::size_t q = 0; q < fill.size(); ++q) {
+    std::array<int, 4> corners, twins;
+    for (int k = 0; k < 4; ++k) {
+      const int a = fill[q][k], b = fill[q][(k + 1) % 4];
+      corners[k] = vertex[a];
+      add_to_valence(corners[k], 1);
+      if (a < n_rim && b == (a + 1) % n_rim)
+        twins[k] = across[a];
+      else
+        twins[k] = std::ranges::lower_bound(sides, Side{b, a, 0})->half_edge;
+    }
+    set_element(first + static_cast<int>(q), corners, twins);
+  }
+  if (!has_double_edge(on_rim)) return true;
+  rollback(start);
+  return false;
+}
+
 void QuadTopology::move(int v, Vec2 to) {
   move_log_.push_back({v, points_[v]});
   points_[v] = to;

@@ -112,6 +112,13 @@ class QuadTopology {
   /// vertices, one for each on the outline, are the last slots. Of a single quad: one becomes five.
   void pillow(std::span<const int> quads);
 
+  /// Puts other quads in place of some. `rim`: the half-edges of their outline, one loop, in its order
+  /// counterclockwise. In `fill` vertex i is the origin of rim[i], those after them are new ones, the last
+  /// slots, at `inside`. Vertices within the outline go. False, and nothing is done, where that would give
+  /// two vertices a second edge in common.
+  bool refill(std::span<const int> quads, std::span<const int> rim, std::span<const Vec2> inside,
+              std::span<const std::array<int, 4>> fill);
+
   void move(int v, Vec2 to);
 
   /// A state to come back to.
@@ -135,6 +142,7 @@ class QuadTopology {
   };
 
   std::vector<int> outline(std::span<const int> quads) const;
+  bool has_double_edge(std::span<const int> vertices) const;
   std::vector<int>& array(Array which);
   void write(Array which, int index, int value);
   void add_to_valence(int v, int change) { write(kValence, v, valence_[v] + change); }

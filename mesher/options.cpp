@@ -11,6 +11,7 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/insertion_options.h"
+#include "algorithms/regularity/regularity.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "mesher/recombination_options.h"
@@ -22,8 +23,9 @@ namespace delquad {
 namespace {
 
 std::deque<OptionGroup>& groups() {
-  static std::deque<OptionGroup> all = {insertion_group(), smoothing_group(),    recombination_group(),
-                                        cleanup_group(),   optimisation_group(), repair_group()};
+  static std::deque<OptionGroup> all = {insertion_group(), smoothing_group(),  recombination_group(),
+                                        cleanup_group(),   regularity_group(), optimisation_group(),
+                                        repair_group()};
   return all;
 }
 

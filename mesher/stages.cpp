@@ -11,6 +11,7 @@
 #include "algorithms/insertion/packing.h"
 #include "algorithms/recombination/greedy.h"
 #include "algorithms/recombination/recombine.h"
+#include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/degree_treatment.h"
 #include "base/activity.h"
 #include "base/stopwatch.h"
@@ -131,22 +132,34 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
   merge_greedily(patch, log, {kGoodPair, true, 0});
 }
 
-void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+/// What `work`, clean_up() or make_regular(), makes of a patch, unless it closes too tightly.
+template <class Summary, class Options>
+void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
+                      const Options& options, const char* step, const StageInput& in, PatchMesh& patch,
+                      StageLog& log) {
   const Stopwatch watch;
-  CleanupSummary summary;
-  QuadPatch cleaned = clean_up(patch.quads, in.size, cleanup_options(in.options), &summary);
-  const bool discarded = closes_too_tightly(cleaned, in.boundary.point_node);
+  Summary summary;
+  QuadPatch result = work(patch.quads, in.size, options, &summary);
+  const bool discarded = closes_too_tightly(result, in.boundary.point_node);
   if (discarded) {
-    CleanupSummary nothing;
+    Summary nothing;
     nothing.irregular_before = nothing.irregular_after = summary.irregular_before;
     nothing.seconds = summary.seconds;
     summary = nothing;
   } else {
-    patch.quads = std::move(cleaned);
+    patch.quads = std::move(result);
   }
   add_summary(log, summary);
   add_summary(log, DiscardSummary{.cleanups = discarded});
-  log.add_time("clean-up", watch.time());
+  log.add_time(step, watch.time());
+}
+
+void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  lessen_irregular(clean_up, cleanup_options(in.options), "clean-up", in, patch, log);
+}
+
+void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  lessen_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
 void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -219,6 +232,7 @@ std::deque<Stage>& stages() {
       {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
       {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
+      {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},
   };
   return all;

@@ -278,6 +278,7 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_matching", "matching s", "matching"},
                                               {"seconds_treatment", "treatment s", "treatment"},
                                               {"seconds_cleanup", "clean-up s", "clean-up"},
+                                              {"seconds_regularity", "regularity s", "regularity"},
                                               {"seconds_optimisation", "optimisation s", "optimisation"},
                                               {"seconds_parting", "parting s", "parting"},
                                               {"seconds_lifting", "lifting s", "lifting"},

@@ -26,10 +26,9 @@ constexpr double kSettled = 0.08, kSettledAtLast = 0.02;
 constexpr double kGreedyLoss = 0.02;
 /// An edit is given up where a sweep leaves it so much farther away than it may be.
 constexpr double kHopeless = 0.05;
-/// Weight of the size deviation against eta: with 1 the annealing pays for regular vertices with tau.
-constexpr double kSizeWeight = 1.5;
 
-/// Vertices whose valence is not ideal, see ValenceEnergy.
+}  // namespace
+
 int count_irregular(const QuadPatch& mesh) {
   std::vector<int> valence(mesh.points.size(), 0);
   std::vector<double> angle(mesh.n_boundary, 0);
@@ -57,8 +56,6 @@ int count_irregular(const QuadPatch& mesh) {
   }
   return irregular;
 }
-
-}  // namespace
 
 CleanupProcess::CleanupProcess(const QuadBlock& block, const ParametricSize& size,
                                const CleanupOptions& options)
@@ -180,18 +177,18 @@ bool CleanupProcess::has_failed(int v, const TreatmentMove& move) const {
 bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
   const TouchedVertices touched = touched_by(mesh_, move);
   touched_.assign(touched.begin(), touched.end());
-  const Quality before = quality(touched_);
+  const ElementQuality before = quality(touched_);
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
   const auto start = mesh_.mark();
   apply(mesh_, relocation_, move, touched_);
   for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
     for (const int v : touched_) relocation_.step(v);
-    const Quality after = quality(touched_);
-    if (after.least_sine >= least && after.mean >= before.mean - loss) {
+    const ElementQuality after = quality(touched_);
+    if (after.least_sine >= least && after.value >= before.value - loss) {
       count(move);
       return true;
     }
-    if (after.mean < before.mean - loss - kHopeless) break;
+    if (after.value < before.value - loss - kHopeless) break;
   }
   mesh_.rollback(start);
   return false;
@@ -225,39 +222,16 @@ void CleanupProcess::count(const TreatmentMove& move) {
   ++(summary_.*kCounters[move.kind]);
 }
 
-/// eta - weighted size deviation, and the least sine, of one element.
-CleanupProcess::Quality CleanupProcess::quality_of(int element) const {
-  const int n = mesh_.is_quad(element) ? 4 : 3;
-  std::array<Vec2, 4> at, side;
-  std::array<double, 4> delta;
-  for (int k = 0; k < n; ++k) {
-    const int v = mesh_.corner(element, k);
-    at[k] = mesh_.point(v), delta[k] = relocation_.delta(v);
-  }
-  double deviation = 0;
-  for (int k = 0; k < n; ++k) {
-    const int next = k + 1 < n ? k + 1 : 0;
-    const Vec2 along = at[next] - at[k];
-    const double length = norm(along), l = length / (0.5 * (delta[k] + delta[next]));
-    deviation += 1 - std::min(l, 1 / l);
-    side[k] = (1 / std::max(length, kTinyLength)) * along;
-  }
-  double least = std::min(1.0, cross(side[n - 1], side[0]));
-  for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
-  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least};
-}
-
-CleanupProcess::Quality CleanupProcess::quality(std::span<const int> vertices) {
-  Quality total;
+/// The mean over the elements around these, and their least sine.
+ElementQuality CleanupProcess::quality(std::span<const int> vertices) {
+  ElementQuality total;
   int n = 0;
   elements_met_.begin(mesh_.element_slots());
   for_each_element_around(mesh_, vertices, elements_met_, [&](int e) {
-    const Quality own = quality_of(e);
-    total.least_sine = std::min(total.least_sine, own.least_sine);
-    total.mean += own.mean;
+    total.add(element_quality(mesh_, relocation_, e));
     ++n;
   });
-  total.mean /= std::max(n, 1);
+  total.value /= std::max(n, 1);
   return total;
 }
 

@@ -45,6 +45,9 @@ struct Counters<CleanupSummary> {
       counter("looks", &S::looks), counter("seconds", &S::seconds));
 };
 
+/// Vertices whose valence is not ideal, see ValenceEnergy.
+int count_irregular(const QuadPatch& mesh);
+
 /// Lowers the number of irregular vertices of a quad mesh.
 ///
 /// Edits are diamond collapses, edge rotations, vertex splits, doublet removals and openings (which give a

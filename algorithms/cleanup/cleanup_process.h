@@ -9,6 +9,7 @@
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"
 #include "mesh/quad_blocks.h"
+#include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
@@ -24,12 +25,6 @@ class CleanupProcess {
   const CleanupSummary& summary() const { return summary_; }
 
  private:
-  /// Of the elements around some vertices.
-  struct Quality {
-    double mean = 0;        ///< of eta - weighted size deviation
-    double least_sine = 1;  ///< of all corners
-  };
-
   void greedy();
   template <class F>
   void for_each_edit_near(int v, F&& f);
@@ -41,8 +36,7 @@ class CleanupProcess {
   bool attempt(const TreatmentMove& move, double loss);
   void accept();
   void count(const TreatmentMove& move);
-  Quality quality(std::span<const int> vertices);
-  Quality quality_of(int element) const;
+  ElementQuality quality(std::span<const int> vertices);
   void list_irregular(int v);
   bool has_failed(int v, const TreatmentMove& move) const;
 

@@ -48,6 +48,8 @@ class ValenceEnergy {
     return static_cast<std::size_t>(valence) < inside_.size() ? inside_[valence] : misfit(valence, kInside);
   }
   int of(int v) const { return of(v, mesh_.valence(v)); }
+  /// The ideal valence.
+  int ideal(int v) const { return mesh_.on_boundary(v) ? ideal_[v].valence : kInside.valence; }
   /// What the move takes off the sum. Not for insets, which are never chosen for it.
   int gain(const TreatmentMove& move) const;
 

@@ -7,6 +7,7 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
+#include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "delquad/extend.h"
@@ -92,6 +93,16 @@ void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const 
   const QuadPatch cleaned = clean_up(treated, size, {}, &cleanup);
   EXPECT_LT(static_cast<double>(cleanup.looks), kMostLooks * n) << what;
   EXPECT_LT(static_cast<double>(cleaned.quads.size()), 6 * n) << what;
+  for (const QuadPatch* mesh : {&treated, &cleaned}) {
+    RegularitySummary regularity;
+    const QuadPatch regular = make_regular(*mesh, size, {}, &regularity);
+    EXPECT_LT(static_cast<double>(regularity.looks), kMostLooks * n) << what;
+    EXPECT_LT(static_cast<double>(regular.quads.size()), 6 * n) << what;
+    EXPECT_LE(regularity.irregular_after, regularity.irregular_before) << what;
+    EXPECT_GE(testing_support::worst_sine(regular),
+              std::min(testing_support::worst_sine(*mesh), sine_of_eta(kCleanupFloorEta)))
+        << what;
+  }
 }
 
 void mesh_random_patches(const char* name, const std::function<std::vector<Vec2>(std::mt19937_64&)>& make) {

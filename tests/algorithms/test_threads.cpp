@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "algorithms/cleanup/cleanup.h"
+#include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/context.h"
 #include "tests/support/analytic_fields.h"
@@ -37,7 +38,7 @@ int irregular(const QuadPatch& mesh) {
   return n;
 }
 
-TEST(Threads, SameTreatmentAndCleanup) {
+TEST(Threads, SameTreatmentCleanupAndRegularity) {
   const QuadPatch mesh = scrambled(grid_patch(kWide, kHigh), 5, 700);
   const FunctionSize size(1);
   const QuadPatch treated = expect_same(mesh, [&](const QuadPatch& m) { return treat_paper(m, size); });
@@ -47,6 +48,8 @@ TEST(Threads, SameTreatmentAndCleanup) {
       expect_same(treated, [&](const QuadPatch& m) { return clean_up(m, size, {}, &summary); });
   EXPECT_LT(irregular(cleaned), irregular(treated));
   EXPECT_EQ(summary.irregular_after, irregular(cleaned)) << "the boundary has none";
+  const QuadPatch regular = expect_same(treated, [&](const QuadPatch& m) { return make_regular(m, size); });
+  EXPECT_LT(irregular(regular), irregular(treated));
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(MeshCommand, QualityChoosesWordAndCross) {
   EXPECT_TRUE(has(record({}), "DBCO", "size-aware"));
   EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "boundary"));
   EXPECT_TRUE(has(record({"--quality", "good"}), "DBCO", "size-aware"));
-  EXPECT_TRUE(has(record({"--quality", "best"}), "DLBCO", "size-aware"));
+  EXPECT_TRUE(has(record({"--quality", "best"}), "DLBCQO", "size-aware"));
   // What is said elsewhere counts.
   EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBCO", "0.1"));
   EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "boundary"));

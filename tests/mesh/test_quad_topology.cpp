@@ -204,6 +204,46 @@ TEST(QuadTopology, PillowAroundSeveralQuads) {
   EXPECT_FALSE(QuadTopology(triangle).can_pillow(std::vector<int>{0}));
 }
 
+TEST(QuadTopology, RefillAndBack) {
+  const QuadPatch grid = grid_patch(4, 3);
+  const PatchBoundary boundary = shapes::rectangle(4, 3, 4, 3);
+  QuadTopology mesh(grid);
+  // The two by two quads in the lower left corner; counterclockwise from there. One quad, then two by two
+  // again.
+  const int inside = grid.n_boundary, east = inside + 1, north = inside + 3, far = inside + 4;
+  const std::array<int, 4> quads{0, 1, 4, 5};
+  const std::array<int, 8> loop{0, 1, 2, east, far, north, 12, 13};
+  std::array<int, 8> rim;
+  for (int i = 0; i < 8; ++i) rim[i] = half_edge(mesh, loop[i], loop[(i + 1) % 8]);
+  ASSERT_TRUE(std::ranges::none_of(rim, [](int h) { return h < 0; }));
+  const std::vector<std::array<int, 4>> same = {{0, 1, 8, 7}, {1, 2, 3, 8}, {8, 3, 4, 5}, {7, 8, 5, 6}};
+  const auto start = mesh.mark();
+  ASSERT_TRUE(mesh.refill(quads, rim, std::array{Vec2{1, 1}}, same));
+  EXPECT_TRUE(mesh.check_invariants().empty());
+  EXPECT_FALSE(mesh.vertex_alive(inside));
+  const auto wrong = check_quad_patch(mesh.to_patch(), boundary, 1);
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  for (int v = inside + 1; v < mesh.vertex_slots(); ++v) EXPECT_EQ(mesh.valence(v), 4);
+  mesh.rollback(start);
+  expect_same(mesh.to_patch(), grid);
+  EXPECT_TRUE(mesh.check_invariants().empty());
+}
+
+TEST(QuadTopology, NoRefillWithADoubleEdge) {
+  QuadPatch patch;
+  patch.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}, {1.5, 1}, {2, 0.6}};
+  patch.quads = {{0, 1, 6, 5}, {1, 4, 5, 6}, {0, 5, 4, 3}, {1, 2, 3, 4}};
+  patch.n_boundary = 4;
+  QuadTopology mesh(patch);
+  const std::array<int, 6> loop{5, 6, 1, 4, 3, 0};
+  std::array<int, 6> rim;
+  for (int i = 0; i < 6; ++i) rim[i] = half_edge(mesh, loop[i], loop[(i + 1) % 6]);
+  // An edge from 0 to 1, beside the one on the boundary.
+  const std::vector<std::array<int, 4>> fill = {{5, 0, 1, 2}, {2, 3, 4, 5}};
+  EXPECT_FALSE(mesh.refill(std::array{1, 2}, rim, {}, fill));
+  expect_same(mesh.to_patch(), patch);
+}
+
 TEST(QuadTopology, SplitIsTheInverseOfCollapse) {
   const QuadPatch grid = grid_patch(4, 4);
   QuadTopology mesh(grid);

@@ -9,6 +9,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
 #include "algorithms/recombination/recombine.h"
+#include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "geometry/surface/triangulated_model.h"
 #include "mesh/quad_topology.h"
@@ -31,9 +32,9 @@ using Json = nlohmann::json;
 template <class... Summaries>
 struct Types {};
 /// The summaries of all steps.
-using AllSummaries =
-    Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary, TreatmentSummary,
-          CleanupSummary, OptimisationSummary, DiscardSummary, PartingSummary, LiftingSummary>;
+using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
+                           TreatmentSummary, CleanupSummary, RegularitySummary, OptimisationSummary,
+                           DiscardSummary, PartingSummary, LiftingSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
@@ -151,7 +152,7 @@ TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
                                                    make_constant_size(0.3), [](double) {});
   RunResult result;
-  const Json record = record_of(c, prepared, "DBCO", &result);
+  const Json record = record_of(c, prepared, "DBCQO", &result);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {
     const bool was_made = step != std::string("adaptation") && step != std::string("smoothing");
     ASSERT_EQ(record.contains(step), was_made) << step;
@@ -260,6 +261,23 @@ TEST_F(Tube, ACleanUpThatIsTakenBackIsNotCountedAsDone) {
   EXPECT_EQ(counted("discarded", "cleanups"), 0);
   EXPECT_LT(counted("cleanup", "irregular_after"), irregular);
   EXPECT_GT(counted("cleanup", "diamonds"), 0);
+  EXPECT_LT(patch_.quads.quads.size(), before.size());
+}
+
+TEST_F(Tube, FillsThatAreTakenBackAreNotCountedAsDone) {
+  make_quads();
+  const auto before = patch_.quads.quads;
+  run('Q');
+  EXPECT_EQ(counted("discarded", "cleanups"), 1);
+  EXPECT_EQ(patch_.quads.quads, before);
+  EXPECT_EQ(counted("regularity", "irregular_after"), counted("regularity", "irregular_before"));
+  EXPECT_EQ(counted("regularity", "accepted"), 0);
+
+  cut_open();
+  log_ = {};
+  run('Q');
+  EXPECT_EQ(counted("discarded", "cleanups"), 0);
+  EXPECT_GT(counted("regularity", "accepted"), 0);
   EXPECT_LT(patch_.quads.quads.size(), before.size());
 }
 

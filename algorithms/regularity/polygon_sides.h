@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace delquad {
+
+/// The edges of each side of a convex polygon, from `start`, the place of its first corner on the outline.
+struct PolygonSides {
+  std::vector<int> edges;
+  int start = 0;
+};
+
+/// `turn`: as Outline has it. None where a vertex is concave or there are fewer than two corners.
+std::optional<PolygonSides> sides_of(std::span<const int> turn);
+
+/// The distances x[i] from the start of side i to the foot of a star's arm on that side; none where there is
+/// no such star. Arm i has x[(i + 1) % N] edges. N, the number of sides, is 3 or 5.
+std::optional<std::array<int, 5>> star_feet(std::span<const int> sides);
+
+/// The sides of what is left of a polygon beside a grid of `along` edges on side `at`, at its start, and
+/// `back` edges on the side before: first the new one, then what is left of side `at`, and on.
+std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int along, int back);
+
+/// Calls f(at, along, back) for all grids in corners of a polygon of two or four sides that leave a star,
+/// until f returns true. Whether it did.
+template <class F>
+bool any_corner(std::span<const int> sides, F&& f) {
+  const int n = static_cast<int>(sides.size());
+  for (int at = 0; at < n; ++at)
+    for (int along = 1; along < sides[at]; ++along)
+      for (int back = 1; back < sides[(at + n - 1) % n]; ++back) {
+        const std::array<int, 5> rest = sides_without_corner(sides, at, along, back);
+        if (star_feet(std::span(rest).first(n + 1)) && f(at, along, back)) return true;
+      }
+  return false;
+}
+
+}  // namespace delquad

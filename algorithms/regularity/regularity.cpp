@@ -1,0 +1,277 @@
+#include "algorithms/regularity/regularity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/regularity/regularity_process.h"
+#include "base/cancel.h"
+#include "base/stopwatch.h"
+#include "mesh/quad_corners.h"
+
+namespace delquad {
+
+namespace {
+
+/// How many irregular vertices near one make cavities with it, and among how many vertices they are looked
+/// for. With 6, and 4 trials, cavities of the plate of 16 holes cost 1.7 times as much and leave 3 % fewer.
+constexpr std::size_t kNear = 4, kMostMet = 600;
+/// Cavities of a vertex that are tried in a round.
+constexpr std::size_t kMostTrials = 2;
+/// Rings of quads that a cavity grows by until it has a pattern.
+constexpr int kMostRings = 2;
+/// Cavities with few quads are tried first, an irregular vertex that stays counts as so many.
+constexpr double kQuadsPerIrregular = 10;
+/// Sweeps within which a fill must settle.
+constexpr int kFillSweeps = 12;
+/// A fill is given up where a sweep mends less than this part of what it loses too much.
+constexpr double kHopelessPart = 0.12;
+/// As in CleanupProcess: the part of an edge below which a move calls for no more, in the end, too.
+constexpr double kRelaxed = 0.08, kRelaxedAtLast = 0.02;
+
+}  // namespace
+
+RegularityProcess::RegularityProcess(const QuadBlock& block, const ParametricSize& size,
+                                     const RegularityOptions& options)
+    : block_(block),
+      mesh_(block.mesh, block.first_held),
+      energy_(mesh_),
+      relocation_(mesh_, size),
+      options_(options),
+      cavity_(mesh_, energy_) {}
+
+void RegularityProcess::run() {
+  relocation_.keep_convex_corners();
+  relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
+  for (int round = 0; round < options_.rounds; ++round) {
+    tolerance_ =
+        options_.rounds > 1 ? options_.tolerance * round / (options_.rounds - 1) : options_.tolerance;
+    work_.clear();
+    listed_.assign(mesh_.vertex_slots(), 0);
+    for (int v = 0; v < mesh_.vertex_slots(); ++v)
+      if (block_.is_near(v)) list(v);
+    while (!work_.empty()) {
+      visiting_.swap(work_);
+      work_.clear();
+      for (const int v : visiting_) listed_[v] = 0;
+      for (const int v : visiting_)
+        if (mesh_.vertex_alive(v) && energy_.of(v) > 0) visit(v);
+    }
+  }
+  if (summary_.accepted > 0) {
+    relocation_.activate_all(block_);
+    summary_.relocated += relocation_.relax(kRelaxedAtLast, 30);
+    summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
+  }
+  summary_.looks = relocation_.looks();
+}
+
+void RegularityProcess::list(int v) {
+  listed_.resize(mesh_.vertex_slots(), 0);
+  if (listed_[v] || !mesh_.vertex_alive(v) || energy_.of(v) == 0) return;
+  listed_[v] = 1;
+  work_.push_back(v);
+}
+
+/// Irregular vertices around v, as far as quads go from vertex to vertex.
+void RegularityProcess::find_near(int v) {
+  near_.clear();
+  vertices_met_.begin(mesh_.vertex_slots());
+  from_.resize(mesh_.vertex_slots());
+  vertices_met_.meet(v);
+  std::vector<int> queue{v};
+  from_[v] = v;
+  for (std::size_t i = 0; i < queue.size() && queue.size() < kMostMet; ++i) {
+    const int at = queue[i];
+    const auto reach = [&](int w) {
+      if (mesh_.held(w) || !vertices_met_.meet(w)) return;
+      from_[w] = at;
+      queue.push_back(w);
+      if (energy_.of(w) > 0) near_.push_back(w);
+    };
+    mesh_.for_each_out(at, [&](int h) {
+      reach(mesh_.target(h));
+      reach(mesh_.target(mesh_.next(h)));
+      reach(mesh_.origin(mesh_.prev(h)));
+    });
+    if (near_.size() >= kNear) break;
+  }
+  if (near_.size() > kNear) near_.resize(kNear);
+}
+
+/// Adds the quads around `from` and those on the way to the visited vertex.
+bool RegularityProcess::add_path(int from) {
+  if (!cavity_.add_around(from)) return false;
+  bool good = true;
+  for (int v = from; from_[v] != v && good; v = from_[v])
+    mesh_.for_each_out(v, [&](int h) {
+      const int e = QuadTopology::element(h);
+      bool on_way = false;
+      for (int k = 0; k < 4; ++k) on_way |= mesh_.corner(e, k) == from_[v];
+      if (on_way) good = good && cavity_.add(e);
+    });
+  return good;
+}
+
+/// Makes a candidate of the cavity, or of it with rings of quads more, if it is one.
+void RegularityProcess::consider() {
+  for (int ring = 0; ring <= kMostRings; ++ring) {
+    if (!cavity_.close()) return;
+    const int irregular = cavity_.irregular();
+    if (irregular <= std::abs(4 - cavity_.corners())) return;
+    const std::uint64_t key = cavity_.key();
+    const auto [at, is_new] = known_.try_emplace(key);
+    Known& known = at->second;
+    if (is_new) known.least = least_irregular(outline()).value_or(-1);
+    if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
+      ++summary_.cavities;
+      if (known.loss > tolerance_) return;
+      const double n = static_cast<double>(cavity_.elements().size());
+      candidates_.push_back({(n + kQuadsPerIrregular * known.least) / gain,
+                             gain,
+                             key,
+                             {cavity_.elements().begin(), cavity_.elements().end()}});
+      return;
+    }
+    for (const int h : cavity_.rim())
+      if (!cavity_.add_around(mesh_.origin(h))) return;
+  }
+}
+
+Outline RegularityProcess::outline() const {
+  Outline outline;
+  for (const int h : cavity_.rim()) {
+    outline.places.push_back(mesh_.point(mesh_.origin(h)));
+    outline.delta.push_back(relocation_.delta(mesh_.origin(h)));
+  }
+  outline.turn.assign(cavity_.turns().begin(), cavity_.turns().end());
+  return outline;
+}
+
+void RegularityProcess::visit(int v) {
+  check_cancelled();
+  find_near(v);
+  candidates_.clear();
+  cavity_.begin(options_.quads);
+  if (cavity_.add_around(v)) consider();
+  for (std::size_t j = 0; j < near_.size(); ++j) {
+    cavity_.begin(options_.quads);
+    if (cavity_.add_around(v) && add_path(near_[j])) consider();
+    if (j == 0) continue;
+    cavity_.begin(options_.quads);
+    bool good = cavity_.add_around(v);
+    for (std::size_t i = 0; i <= j && good; ++i) good = add_path(near_[i]);
+    if (good) consider();
+  }
+  std::ranges::sort(candidates_, std::less<>());
+  const auto same = std::ranges::unique(candidates_, {}, &Candidate::key);
+  candidates_.erase(same.begin(), same.end());
+  for (std::size_t i = 0; i < candidates_.size() && i < kMostTrials; ++i)
+    if (attempt(candidates_[i])) return accept();
+}
+
+/// The vertices of the rim and of the quads around it; those within are others before and after.
+void RegularityProcess::collect_region() {
+  region_.clear();
+  vertices_met_.begin(mesh_.vertex_slots());
+  for (const int h : cavity_.rim())
+    mesh_.for_each_out(mesh_.origin(h), [&](int g) {
+      const int e = QuadTopology::element(g);
+      for (int k = 0; k < 4; ++k)
+        if (const int v = mesh_.corner(e, k); v >= 0 && !cavity_.is_inside(v) && vertices_met_.meet(v))
+          region_.push_back(v);
+    });
+}
+
+RegularityProcess::Quality RegularityProcess::quality() {
+  ElementQuality total;
+  int n = 0;
+  elements_met_.begin(mesh_.element_slots());
+  for_each_element_around(mesh_, region_, elements_met_, [&](int e) {
+    total.add(element_quality(mesh_, relocation_, e));
+    ++n;
+  });
+  return {total.value / std::max(n, 1), total.least_sine, n};
+}
+
+/// Relocates the region; whether the loss of the mean gets as small as allowed.
+bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
+  const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  double last = std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep < kFillSweeps; ++sweep) {
+    for (const int v : region_) relocation_.step(v);
+    const Quality after = quality();
+    loss = before.mean - after.mean;
+    if (after.least_sine >= least && loss <= allowed) return true;
+    if (sweep > 1 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
+    last = loss;
+  }
+  return false;
+}
+
+/// Fills a cavity with its best pattern; takes all back where that costs too much.
+bool RegularityProcess::attempt(const Candidate& candidate) {
+  cavity_.begin(options_.quads);
+  for (const int e : candidate.elements) cavity_.add(e);
+  if (!cavity_.close()) return false;
+  const Outline rim = outline();
+  Known& known = known_[candidate.key];
+  const std::optional<Pattern> pattern = best_pattern(rim, known.least);
+  known.loss = std::numeric_limits<double>::infinity();
+  if (!pattern) return false;
+  ++summary_.tried;
+  collect_region();
+  const std::size_t n_outer = region_.size();
+  for (const int v : cavity_.vertices())
+    if (cavity_.is_inside(v)) region_.push_back(v);
+  const Quality before = quality();
+  region_.resize(n_outer);
+
+  const PatternMesh fill = mesh_pattern(rim, *pattern);
+  const auto start = mesh_.mark();
+  const int first = mesh_.vertex_slots();
+  if (!mesh_.refill(cavity_.elements(), cavity_.rim(), fill.inside, fill.quads)) return false;
+  relocation_.adopt_new_vertices(first);
+  region_.insert(region_.begin(), fill.inside.size(), 0);
+  std::iota(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(fill.inside.size()), first);
+  double loss = 0;
+  if (settles(before, tolerance_ * candidate.gain / before.n, loss)) {
+    ++summary_.accepted;
+    summary_.grids += pattern->kind == Pattern::kGrid ? 1 : 0;
+    return true;
+  }
+  known.loss = loss * before.n / candidate.gain;
+  mesh_.rollback(start);
+  return false;
+}
+
+void RegularityProcess::accept() {
+  mesh_.commit();
+  for (const int v : region_) {
+    relocation_.activate(v);
+    list(v);
+  }
+  relocation_.relax(kRelaxed, 3);
+}
+
+QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size, const RegularityOptions& options,
+                       RegularitySummary* summary) {
+  const Stopwatch watch;
+  RegularitySummary total;
+  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, RegularitySummary& part) {
+    RegularityProcess process(block, size, options);
+    process.run();
+    part = process.summary();
+    return process.result();
+  });
+  if (summary == nullptr) return result;
+  *summary = total;
+  summary->irregular_before = count_irregular(mesh);
+  summary->irregular_after = count_irregular(result);
+  summary->seconds = watch.work_seconds();
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,36 @@
+#include "smoothing/relocation/element_quality.h"
+
+#include <array>
+
+#include "mesh/quad_corners.h"
+
+namespace delquad {
+
+namespace {
+
+constexpr double kSizeWeight = 1.5;
+
+}  // namespace
+
+ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element) {
+  const int n = mesh.is_quad(element) ? 4 : 3;
+  std::array<Vec2, 4> at, side;
+  std::array<double, 4> delta;
+  for (int k = 0; k < n; ++k) {
+    const int v = mesh.corner(element, k);
+    at[k] = mesh.point(v), delta[k] = relocation.delta(v);
+  }
+  double deviation = 0;
+  for (int k = 0; k < n; ++k) {
+    const int next = k + 1 < n ? k + 1 : 0;
+    const Vec2 along = at[next] - at[k];
+    const double length = norm(along), l = length / (0.5 * (delta[k] + delta[next]));
+    deviation += 1 - std::min(l, 1 / l);
+    side[k] = (1 / std::max(length, kTinyLength)) * along;
+  }
+  double least = std::min(1.0, cross(side[n - 1], side[0]));
+  for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
+  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least};
+}
+
+}  // namespace delquad

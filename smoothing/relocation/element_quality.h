@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+
+#include "mesh/quad_topology.h"
+#include "smoothing/relocation/quad_relocation.h"
+
+namespace delquad {
+
+/// Of one element or of several.
+struct ElementQuality {
+  double value = 0;       ///< eta - 1.5 * (size deviation), or the sum of it
+  double least_sine = 1;  ///< of all corners
+  void add(const ElementQuality& other) {
+    value += other.value;
+    least_sine = std::min(least_sine, other.least_sine);
+  }
+};
+
+/// The size deviation is the mean over the sides of 1 - min(l, 1/l), l = length / delta'. Its weight: with 1,
+/// edits that are weighed by this pay for regular vertices with tau.
+ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element);
+
+}  // namespace delquad

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "algorithms/regularity/patterns.h"
+#include "mesh/quad_topology.h"
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/shapes.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::worst_sine;
+
+/// A polygon whose corners are given, with vertices a unit apart (about; `edges` of each side are given).
+Outline polygon_outline(const std::vector<Vec2>& corners, const std::vector<int>& edges,
+                        const std::vector<int>& turns) {
+  Outline outline;
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < edges[i]; ++k) {
+      const double t = double(k) / edges[i];
+      outline.places.push_back((1 - t) * corners[i] + t * corners[(i + 1) % n]);
+      outline.delta.push_back(norm(corners[(i + 1) % n] - corners[i]) / edges[i]);
+      outline.turn.push_back(k == 0 ? turns[i] : 0);
+    }
+  return outline;
+}
+
+/// With corners on a circle.
+Outline convex_outline(const std::vector<int>& edges) {
+  const int total = std::reduce(edges.begin(), edges.end());
+  const double radius = total / (2 * std::numbers::pi);
+  std::vector<Vec2> corners;
+  for (int i = 0, at = 0; i < static_cast<int>(edges.size()); at += edges[i++]) {
+    const double angle = 2 * std::numbers::pi * at / total;
+    corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return polygon_outline(corners, edges, std::vector<int>(edges.size(), 1));
+}
+
+QuadPatch filled(const Outline& outline, const Pattern& pattern) {
+  const PatternMesh mesh = mesh_pattern(outline, pattern);
+  QuadPatch patch;
+  patch.points = outline.places;
+  patch.n_boundary = static_cast<int>(patch.points.size());
+  patch.points.insert(patch.points.end(), mesh.inside.begin(), mesh.inside.end());
+  patch.quads = mesh.quads;
+  return patch;
+}
+
+/// The mesh of the best pattern, a conforming disk in which all vertices have the quads they should have;
+/// empty where there is no pattern.
+QuadPatch expect_filled(const Outline& outline) {
+  const std::optional<int> least = least_irregular(outline);
+  const std::optional<Pattern> pattern = best_pattern(outline, least.value_or(0));
+  EXPECT_EQ(least.has_value(), pattern.has_value());
+  if (!pattern || !least) return {};
+  EXPECT_EQ(irregular_vertices(*pattern), *least);
+  const QuadPatch patch = filled(outline, *pattern);
+  PatchBoundary boundary;
+  boundary.points = outline.places;
+  for (int i = 0; i < patch.n_boundary; ++i) boundary.edges.push_back({i, (i + 1) % patch.n_boundary});
+  testing_support::expect_sound(patch, boundary);
+  const QuadTopology topology(patch);
+  int irregular = 0;
+  for (int v = 0; v < topology.vertex_slots(); ++v) {
+    const int valence = topology.valence(v);
+    if (v < patch.n_boundary) {
+      EXPECT_EQ(valence, 2 - outline.turn[v]) << "rim " << v;
+    } else {
+      EXPECT_TRUE(valence >= 3 && valence <= 5) << valence;
+      irregular += valence != 4;
+    }
+  }
+  EXPECT_EQ(irregular, *least);
+  return patch;
+}
+
+TEST(Patterns, Grid) {
+  const QuadPatch patch =
+      expect_filled(polygon_outline({{0, 0}, {5, 0}, {5, 3}, {0, 3}}, {5, 3, 5, 3}, {1, 1, 1, 1}));
+  EXPECT_EQ(patch.quads.size(), 15u);
+  EXPECT_GT(worst_sine(patch), 1 - 1e-12);
+}
+
+TEST(Patterns, StarsHaveTheirPlaceByTheSides) {
+  for (const auto& edges :
+       {std::vector{4, 4, 4}, {3, 4, 5}, {2, 2, 2}, {2, 2, 2, 2, 2}, {4, 5, 4, 4, 5}, {7, 3, 6, 5, 3}}) {
+    const QuadPatch patch = expect_filled(convex_outline(edges));
+    ASSERT_FALSE(patch.quads.empty());
+    EXPECT_GT(worst_sine(patch), 0);
+  }
+  EXPECT_FALSE(least_irregular(convex_outline({2, 2, 4}))) << "the third arm has no length";
+  EXPECT_FALSE(least_irregular(convex_outline({3, 3, 3}))) << "an odd number of edges";
+}
+
+TEST(Patterns, PairsWhereOppositeSidesDiffer) {
+  for (int a = 4; a < 9; ++a)
+    for (int b = 4; b < 9; ++b)
+      for (int more = 1; more < 4; ++more) {
+        const Outline outline = convex_outline({a, b, a + more, b + more});
+        const QuadPatch patch = expect_filled(outline);
+        ASSERT_EQ(least_irregular(outline), 2);
+        EXPECT_GT(worst_sine(patch), 0) << a << " " << b << " " << more;
+      }
+}
+
+TEST(Patterns, TwoStars) {
+  for (const auto& edges : {std::vector{6, 6}, {5, 7}, {4, 4, 4, 4, 4, 4}, {5, 4, 6, 5, 4, 6}}) {
+    const Outline outline = convex_outline(edges);
+    expect_filled(outline);
+    EXPECT_EQ(least_irregular(outline), 2);
+  }
+}
+
+TEST(Patterns, ConcaveCornerIsCut) {
+  const std::vector<Vec2> l = {{0, 0}, {8, 0}, {8, 3}, {4, 3}, {4, 7}, {0, 7}};
+  const Outline outline = polygon_outline(l, {8, 3, 4, 4, 4, 7}, {1, 1, 1, -1, 1, 1});
+  const QuadPatch patch = expect_filled(outline);
+  EXPECT_EQ(least_irregular(outline), 0);
+  EXPECT_EQ(patch.quads.size(), 8u * 3 + 4u * 4);
+  EXPECT_GT(worst_sine(patch), 1 - 1e-12);
+  // Two edges too many on one side.
+  const Outline longer = polygon_outline(l, {10, 3, 4, 4, 4, 7}, {1, 1, 1, -1, 1, 1});
+  EXPECT_EQ(least_irregular(longer), 2);
+  EXPECT_GT(worst_sine(expect_filled(longer)), 0);
+}
+
+TEST(Patterns, RandomPolygons) {
+  std::mt19937_64 random(1);
+  int found = 0;
+  for (int round = 0; round < 600; ++round) {
+    std::vector<int> edges(2 + random() % 5);
+    for (int& n : edges) n = 1 + static_cast<int>(random() % 9);
+    found += expect_filled(convex_outline(edges)).quads.empty() ? 0 : 1;
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(Patterns, NoneForOtherPolygons) {
+  EXPECT_FALSE(least_irregular(convex_outline({8})));
+  EXPECT_FALSE(least_irregular(convex_outline(std::vector<int>(7, 4))));
+  Outline round = convex_outline({4, 4, 4, 4});
+  std::ranges::fill(round.turn, 0);
+  EXPECT_FALSE(least_irregular(round));
+  round.turn[0] = -2;
+  EXPECT_FALSE(least_irregular(round));
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,206 @@
+#include "algorithms/regularity/regularity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/treatment/treatment.h"
+#include "delquad/extend.h"
+#include "smoothing/relocation/quad_relocation.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
+#include "tests/support/quad_patches.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+
+/// Makes a mesh regular and checks what must hold for any input.
+QuadPatch regular(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
+                  const RegularityOptions& options = {}, RegularitySummary* summary = nullptr) {
+  RegularitySummary own;
+  const QuadPatch result = make_regular(mesh, size, options, &own);
+  expect_sound(result, boundary);
+  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
+  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
+  EXPECT_EQ(own.irregular_before, count_irregular(mesh));
+  EXPECT_EQ(own.irregular_after, count_irregular(result));
+  EXPECT_LE(own.irregular_after + own.accepted, own.irregular_before);
+  if (own.accepted == 0) {
+    EXPECT_EQ(result.points, mesh.points);
+    EXPECT_EQ(result.quads, mesh.quads);
+  }
+  const QuadPatch again = make_regular(mesh, size, options);
+  EXPECT_EQ(again.points, result.points);
+  EXPECT_EQ(again.quads, result.quads);
+  if (summary != nullptr) *summary = own;
+  return result;
+}
+
+QuadPatch meshed(const PatchBoundary& boundary, const PointPlacement& placement, const ParametricSize& size,
+                 const CrossField& cross = FunctionCross(0.3)) {
+  return treat_paper(recombine(mesh_frontal(boundary, placement, cross, size), *make_primal_dual_solver()),
+                     size);
+}
+
+/// A grid in which edges were turned at random, so that pairs of three and five wander, four irregular
+/// vertices at most; relocated.
+QuadPatch with_two_pairs(int nx, int ny, std::uint64_t seed) {
+  QuadTopology topology(grid_patch(nx, ny));
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 2000; ++i) {
+    const int h = static_cast<int>(random() % (4 * topology.element_slots()));
+    const bool forward = random() % 2 == 0;
+    bool near = false;
+    for (const int v : topology.twin(h) < 0 ? std::array<int, 6>{} : topology.hexagon(h))
+      near |= topology.on_boundary(v);
+    if (near || !topology.can_rotate(h, forward)) continue;
+    const auto start = topology.mark();
+    topology.rotate(h, forward);
+    int irregular = 0;
+    bool bad = false;
+    for (int v = 0; v < topology.vertex_slots(); ++v)
+      if (!topology.on_boundary(v)) {
+        irregular += topology.valence(v) != 4;
+        bad |= std::abs(topology.valence(v) - 4) > 1;
+      }
+    if (bad || irregular > 4 || irregular == 0)
+      topology.rollback(start);
+    else
+      topology.commit();
+  }
+  const FunctionSize size(1);
+  QuadRelocation relocation(topology, size);
+  relocation.activate_all();
+  relocation.relax(0.01, 200);
+  return topology.to_patch();
+}
+
+TEST(Regularity, RegularGridStays) {
+  const QuadPatch grid = grid_patch(7, 5);
+  RegularitySummary summary;
+  const QuadPatch result = regular(grid, shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
+  EXPECT_EQ(result.quads, grid.quads);
+  EXPECT_EQ(summary.cavities, 0);
+}
+
+TEST(Regularity, OppositePairsBecomeTheGrid) {
+  for (int seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const QuadPatch mesh = with_two_pairs(16, 13, seed);
+    ASSERT_EQ(count_irregular(mesh), 4);
+    RegularitySummary summary;
+    const QuadPatch result = regular(mesh, shapes::rectangle(16, 13, 16, 13), FunctionSize(1), {}, &summary);
+    EXPECT_EQ(summary.irregular_after, 0);
+    EXPECT_EQ(result.quads.size(), 16u * 13);
+    EXPECT_GT(worst_sine(result), 0.99);
+    EXPECT_GT(summary.grids, 0);
+  }
+}
+
+TEST(Regularity, NothingIsPaidWithoutTolerance) {
+  const auto mean = [](const QuadPatch& mesh) {
+    const QuadTopology topology(mesh);
+    double sum = 0;
+    for (int e = 0; e < topology.element_slots(); ++e) sum += eta_of_sine(least_sine(topology, e));
+    return sum / topology.element_slots();
+  };
+  const FunctionSize size(0.06);
+  int without = 0, with = 0;
+  for (int seed = 0; seed < 4; ++seed) {
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 0, .rounds = 1});
+    EXPECT_GE(mean(result), mean(mesh) - 0.002) << seed;
+    without += count_irregular(result);
+    with += count_irregular(regular(mesh, boundary, size, {.tolerance = 10}));
+  }
+  EXPECT_LT(with, 0.8 * without);
+}
+
+TEST(Regularity, FewerThanCleanUpLeaves) {
+  const FunctionSize size(0.03);
+  const PatchBoundary boundary = shapes::rectangle(1, 0.9, 34, 30);
+  const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+  ASSERT_GT(count_irregular(mesh), 20);
+  EXPECT_LT(count_irregular(regular(mesh, boundary, size)), 0.6 * count_irregular(mesh));
+}
+
+TEST(Regularity, RandomPolygonsWithHoles) {
+  const FunctionSize size(0.06);
+  for (int seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
+    const QuadPatch mesh = meshed(boundary, *placement, size);
+    regular(mesh, boundary, size);
+    regular(clean_up(mesh, size), boundary, size);
+  }
+}
+
+TEST(Regularity, ManyIrregularVerticesInOnePlace) {
+  for (int seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const QuadPatch mesh = scrambled(grid_patch(14, 14), seed, 400);
+    RegularitySummary summary;
+    regular(mesh, shapes::rectangle(14, 14, 14, 14), FunctionSize(1), {}, &summary);
+    // Each visit tries a few, and is made when something around was filled or another round begins.
+    EXPECT_LT(summary.tried, 60 * summary.irregular_before);
+  }
+}
+
+TEST(Regularity, SmallestMeshes) {
+  regular(grid_patch(1, 1), shapes::rectangle(1, 1, 1, 1), FunctionSize(1));
+  regular(grid_patch(2, 1), shapes::rectangle(2, 1, 2, 1), FunctionSize(1));
+  regular(triangle_patch(), shapes::disk(1, 3), FunctionSize(1));
+  // Two quads around the middle of a square: nothing better than a doublet has the same boundary.
+  QuadPatch doublet;
+  doublet.points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  doublet.quads = {{0, 1, 2, 4}, {0, 4, 2, 3}};
+  doublet.n_boundary = 4;
+  const QuadPatch one = regular(doublet, shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), FunctionSize(2));
+  EXPECT_EQ(one.quads.size(), 1u);
+}
+
+TEST(Regularity, HoleOfThreeEdges) {
+  PatchBoundary boundary = shapes::rectangle(1, 1, 13, 14);
+  const int n = static_cast<int>(boundary.points.size());
+  for (int k = 0; k < 3; ++k) {
+    const double angle = -2 * std::numbers::pi * k / 3;
+    boundary.points.push_back({0.5 + 0.05 * std::cos(angle), 0.5 + 0.05 * std::sin(angle)});
+    boundary.edges.push_back({n + k, n + (k + 1) % 3});
+  }
+  const FunctionSize size(0.075);
+  const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), size);
+  EXPECT_EQ(mesh.triangles.size(), 1u) << "an odd number of edges";
+  regular(mesh, boundary, size);
+}
+
+TEST(Regularity, SizesGradedByAThousand) {
+  const FunctionSize size([](Vec2 p) { return 0.001 + 0.3 * norm(p); });
+  PatchBoundary boundary;
+  std::vector<Vec2> corners = {{0, 0}};
+  for (double x = 0.001; x < 3; x += 0.001 + 0.3 * x) corners.push_back({x, 0});
+  corners.insert(corners.end(), {{3.5, 0}, {3.5, 1}, {3.5, 2}, {3.5, 3.5}, {2, 3.5}, {1, 3.5}, {0, 3.5}});
+  for (std::size_t i = corners.size() - 8; i > 0; --i) corners.push_back({0, corners[i].x});
+  shapes::add_polygon(boundary, corners, std::vector<int>(corners.size(), 1));
+  ASSERT_EQ(boundary.points.size() % 2, 0u);
+  regular(meshed(boundary, *make_linf_delquad(), size), boundary, size);
+}
+
+TEST(Regularity, LeftoverTrianglesStay) {
+  const PatchBoundary boundary = shapes::disk(1, 31);
+  const FunctionSize size(0.2);
+  const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), size);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_GT(worst_sine(regular(mesh, boundary, size)), 0);
+}
+
+}  // namespace
+}  // namespace delquad
