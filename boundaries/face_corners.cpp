@@ -8,8 +8,6 @@ namespace delquad {
 
 namespace {
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
-
 /// At each point of a map, the sum of the angles that its triangles have in space.
 std::vector<double> angles_at(const Mesh& fine, const FlatPatch& map) {
   std::vector<double> angles(map.flat.points.size(), 0);

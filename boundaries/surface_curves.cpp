@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/activity.h"
@@ -40,6 +41,35 @@ std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
       }
   }
   return limits;
+}
+
+/// The angle by which a chain turns at each of its points, its ends as the points beside them by half.
+std::vector<double> turns_along(const Mesh& fine, const CurveChain& chain) {
+  const std::size_t last = chain.points.size() - 1;
+  std::vector<double> turns(last + 1, 0);
+  const auto at = [&](std::size_t i) { return fine.points[chain.points[i]]; };
+  for (std::size_t i = 1; i < last; ++i) turns[i] = angle_between(at(i) - at(i - 1), at(i + 1) - at(i));
+  turns[0] = turns[1] / 2, turns[last] = turns[last - 1] / 2;
+  return turns;
+}
+
+/// Chains that turn by more than an edge may have so many edges, and more where they turn most. Kinks, which
+/// turn by more between two fine lines, do not count.
+void demand_turns(const Mesh& fine, const CurveChain& chain, double edge_turn, std::vector<double>& limits,
+                  CurveDemand& demand) {
+  if (!(edge_turn > 0) || chain.points.size() < 3) return;
+  std::vector<double> turns = turns_along(fine, chain);
+  for (double& turn : turns)
+    if (turn > edge_turn) turn = 0;
+  const double all = std::accumulate(turns.begin(), turns.end(), 0.0);
+  demand.minimum = std::max(demand.minimum, static_cast<int>(std::lround(all / edge_turn)));
+  if (all < edge_turn) return;
+  limits.resize(turns.size(), std::numeric_limits<double>::max());
+  const auto length = [&](std::size_t i) {
+    return norm(fine.points[chain.points[i + 1]] - fine.points[chain.points[i]]);
+  };
+  for (std::size_t i = 1; i + 1 < turns.size(); ++i)
+    if (turns[i] > 0) limits[i] = std::min(limits[i], edge_turn / turns[i] * (length(i - 1) + length(i)) / 2);
 }
 
 /// The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
@@ -134,18 +164,20 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
                             const SurfaceSize& size, const SizeField& asked,
                             const std::vector<CurveDivision>& divisions) {
   const std::vector<CurveChain>& chains = curves.chains;
-  const std::vector<std::vector<double>> limits = limits_on_curves(curves);
+  std::vector<std::vector<double>> limits = limits_on_curves(curves);
   CurveDemands wanted;
   const SizeOnLine delta = size_on_lines(size);
   const SizeOnLine delta_asked = [&](int, int, double, const Vec3& x, int& hint) {
     return asked.at(x, hint);
   };
   for (std::size_t c = 0; c < chains.size(); ++c) {
+    CurveDemand demand{0, chains[c].closed() ? 3 : 1, {}};
+    demand_turns(fine, chains[c], size.edge_turn(), limits[c], demand);
     wanted.integrals.push_back(size_integral(fine, chains[c], delta, limits[c]));
-    const double total = wanted.integrals.back().total();
+    const double total = demand.integral = wanted.integrals.back().total();
     const bool same = limits[c].empty() && &asked == static_cast<const SizeField*>(&size);
     wanted.lengths.push_back(same ? total : size_integral(fine, chains[c], delta_asked).total());
-    wanted.demands.push_back({total, chains[c].closed() ? 3 : 1, {}});
+    wanted.demands.push_back(std::move(demand));
   }
   for (std::size_t p = 0; p < curves.maps.size(); ++p)
     for (const auto& loop : curves.outlines[p])

@@ -7,11 +7,18 @@ namespace delquad {
 
 namespace {
 
-double binomial(int n, int k) {
-  double result = 1;
-  for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-  return result;
+/// The highest degree of products: four factors of an element's degree.
+constexpr int kMostDegree = 4 * kMostOrder;
+
+constexpr auto make_binomials() {
+  std::array<std::array<double, kMostDegree + 1>, kMostDegree + 1> rows{};
+  for (int n = 0; n <= kMostDegree; ++n)
+    for (int k = 0; k <= n; ++k) rows[n][k] = k == 0 || k == n ? 1 : rows[n - 1][k - 1] + rows[n - 1][k];
+  return rows;
 }
+constexpr auto kBinomials = make_binomials();
+
+double binomial(int n, int k) { return kBinomials[n][k]; }
 
 /// Takes values at equal distances to Bernstein coefficients, exact to rounding: at most degree 4.
 Eigen::MatrixXd coefficients_of_values(int degree) {
@@ -33,13 +40,15 @@ Bernstein<T> product(const Bernstein<F>& f, const Bernstein<G>& g, const Times& 
     return binomial(m, i) * binomial(n, k) / binomial(m + n, i + k);
   };
   for (int j = 0; j <= f.dv; ++j)
-    for (int l = 0; l <= g.dv; ++l)
+    for (int l = 0; l <= g.dv; ++l) {
+      const double across = part(f.dv, j, g.dv, l);
       for (int i = 0; i <= f.du; ++i)
         for (int k = 0; k <= g.du; ++k) {
-          const double weight = part(f.du, i, g.du, k) * part(f.dv, j, g.dv, l);
+          const double weight = part(f.du, i, g.du, k) * across;
           T& sum = result.c[static_cast<std::size_t>(j + l) * (du + 1) + i + k];
           sum = sum + weight * times(f.at(i, j), g.at(k, l));
         }
+    }
   return result;
 }
 

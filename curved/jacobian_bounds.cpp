@@ -58,7 +58,7 @@ Vec3 mean_normal(std::span<const Vec3> nodes, int order) {
   return length > 0 ? (1 / length) * sum : Vec3{};
 }
 
-JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order) {
+JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double enough) {
   const Bernstein<Vec3> x = bernstein_of(nodes, order);
   const Bernstein<Vec3> xu = derivative_u(x), xv = derivative_v(x);
   const Bernstein<Vec3> normal = cross_product(xu, xv);
@@ -78,7 +78,9 @@ JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order) {
   for (int made = 1; made < kMostBoxes; made += 2) {
     bounds.proven = std::min(boxes.top().low, bounds.found);
     const double gap = bounds.found - bounds.proven;
-    if (gap <= kClose || (bounds.proven > 0 && gap <= kClosePart * bounds.found) || bounds.found <= 0) break;
+    if (bounds.proven >= enough || gap <= kClose || (bounds.proven > 0 && gap <= kClosePart * bounds.found) ||
+        bounds.found <= 0)
+      break;
     const Box box = boxes.top();
     boxes.pop();
     const bool along_u = box.depth % 2 == 0;
@@ -107,14 +109,14 @@ ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds) {
   return all;
 }
 
-JacobianBounds element_bounds(std::span<const Vec3> nodes, int order) {
-  const JacobianBounds all = jacobian_bounds(nodes, order);
+JacobianBounds element_bounds(std::span<const Vec3> nodes, int order, double enough) {
+  const JacobianBounds all = jacobian_bounds(nodes, order, enough);
   if (order != 2) return all;
   // The eight-node quad is the nine-node one whose middle is there.
   std::vector<Vec3> eight(nodes.begin(), nodes.end());
   eight[4] =
       middle_of_eight({nodes[0], nodes[2], nodes[6], nodes[8]}, {nodes[1], nodes[3], nodes[5], nodes[7]});
-  const JacobianBounds without_middle = jacobian_bounds(eight, order);
+  const JacobianBounds without_middle = jacobian_bounds(eight, order, enough);
   return {std::min(all.proven, without_middle.proven), std::min(all.found, without_middle.found)};
 }
 

@@ -26,11 +26,12 @@ ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds);
 /// Bounds by Bernstein coefficients of numerator and squared denominators, halved until they are close to
 /// each other [Johnen, Remacle, Geuzaine 2013, section 3; they bound the Jacobian alone]. `nodes` as
 /// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive.
-JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order);
+/// `enough`: bounds that prove so much are not made closer.
+JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
 /// Of an element of order 2 bounds that hold with its middle node and without, as formats of eight nodes
 /// have it; of other orders the same as jacobian_bounds().
-JacobianBounds element_bounds(std::span<const Vec3> nodes, int order);
+JacobianBounds element_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
 /// Integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.
 Vec3 mean_normal(std::span<const Vec3> nodes, int order);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,10 @@ class ModelGeometry {
   /// Points of the curve of a line (index into Mesh::lines) at these parts of the way, by length along the
   /// curve, from its first end to its second; parts strictly between 0 and 1, ascending.
   virtual std::vector<Vec3> on_line(int line, std::span<const double> parts) const = 0;
+  /// The point of a curve (index into Mesh::curves) nearest to x; none: its lines are straight.
+  virtual std::optional<Vec3> on_curve(int curve, const Vec3& x) const = 0;
+  /// Whether a vertex of the straight mesh is one inside of a curve along which it may be moved.
+  virtual bool slides(int vertex) const = 0;
   /// The point of a face (index into Mesh::regions) nearest to x.
   virtual Vec3 on_face(int region, const Vec3& x) const = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 
 #include "base/cancel.h"
@@ -24,6 +25,12 @@ struct Side {
   std::vector<Vec3> points = {};  ///< strictly inside
 };
 
+/// What a side gets of a line's bend, by how near it is: 1 on the line, 0 out of reach.
+struct Bend {
+  double part = 0;
+  std::vector<Vec3> shift = {};
+};
+
 class OrderRaiser {
  public:
   OrderRaiser(Mesh& mesh, int order, const ModelGeometry& geometry)
@@ -36,7 +43,12 @@ class OrderRaiser {
     place_sides();
     bend_thin_quads();
     number_nodes();
-    place_inside();
+    parallel_ranges(mesh_.quads.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) {
+        check_cancelled();
+        place_inside(mesh_, q, geometry_);
+      }
+    });
   }
 
  private:
@@ -96,20 +108,20 @@ class OrderRaiser {
     std::vector<std::vector<int>> at_side(sides_.size());
     for (std::size_t i = 0; i < quad_sides_.size(); ++i)
       at_side[quad_sides_[i]].push_back(static_cast<int>(i));
-    std::vector<std::vector<Vec3>> added(sides_.size());
+    std::vector<Bend> added(sides_.size());
     for (std::size_t first = 0; first < sides_.size(); ++first) {
       if (sides_[first].line < 0 || !is_bent(sides_[first])) continue;
       for (const int i : at_side[first]) bend_across(i, at_side, added);
     }
     parallel_ranges(sides_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s)
-        for (std::size_t k = 0; k < added[s].size(); ++k)
-          sides_[s].points[k] = geometry_.on_face(sides_[s].region, sides_[s].points[k] + added[s][k]);
+        for (std::size_t k = 0; k < added[s].shift.size(); ++k)
+          sides_[s].points[k] = geometry_.on_face(sides_[s].region, sides_[s].points[k] + added[s].shift[k]);
     });
   }
 
   void bend_across(int quad_side, const std::vector<std::vector<int>>& at_side,
-                   std::vector<std::vector<Vec3>>& added) const {
+                   std::vector<Bend>& added) const {
     const Side& line = sides_[quad_sides_[quad_side]];
     const std::vector<Vec3> bent = bend(line);
     // Which end of the side that is reached lies over the line's lower one.
@@ -131,13 +143,14 @@ class OrderRaiser {
       const double part = 1 - height / (kReach * length(line));
       const int reached = quad_sides_[4 * quad + (k + 2) % 4];
       if (part <= 0 || sides_[reached].line >= 0) return;
-      // Of several lines that bend a side the nearest counts most; the sum would count them twice.
-      std::vector<Vec3>& sum = added[reached];
-      if (sum.empty()) sum.resize(parts_.size());
-      for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const std::size_t j = sides_[reached].lo == from ? i : parts_.size() - 1 - i;
-        const Vec3 shift = part * bent[i];
-        if (norm(shift) > norm(sum[j])) sum[j] = shift;
+      // Of the same curvature a side has a bend that grows with the square of its length.
+      const double shorter = std::min(1.0, std::pow(length(sides_[reached]) / length(line), 2));
+      // Of several lines that bend a side the nearest counts.
+      Bend& now = added[reached];
+      if (part > now.part) {
+        now = {part, std::vector<Vec3>(parts_.size())};
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+          now.shift[sides_[reached].lo == from ? i : parts_.size() - 1 - i] = part * shorter * bent[i];
       }
       int next = -1;
       for (const int other : at_side[reached])
@@ -169,26 +182,6 @@ class OrderRaiser {
     mesh_.order = order_;
   }
 
-  /// Between opposite sides [Coons 1967], then on the face.
-  void place_inside() {
-    const int p = order_, row = p + 1;
-    parallel_ranges(mesh_.quads.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) {
-        check_cancelled();
-        const std::vector<int> nodes = nodes_of_quad(mesh_, q);
-        const auto at = [&](int i, int j) { return mesh_.points[nodes[j * row + i]]; };
-        for (int j = 1; j < p; ++j)
-          for (int i = 1; i < p; ++i) {
-            const double u = static_cast<double>(i) / p, v = static_cast<double>(j) / p;
-            const Vec3 across = (1 - v) * at(i, 0) + v * at(i, p) + (1 - u) * at(0, j) + u * at(p, j);
-            const Vec3 corners = (1 - u) * (1 - v) * at(0, 0) + u * (1 - v) * at(p, 0) + u * v * at(p, p) +
-                                 (1 - u) * v * at(0, p);
-            mesh_.points[nodes[j * row + i]] = geometry_.on_face(mesh_.quad_region[q], across - corners);
-          }
-      }
-    });
-  }
-
   Mesh& mesh_;
   const int order_;
   const ModelGeometry& geometry_;
@@ -199,6 +192,20 @@ class OrderRaiser {
 };
 
 }  // namespace
+
+void place_inside(Mesh& mesh, std::size_t quad, const ModelGeometry& geometry) {
+  const int p = mesh.order, row = p + 1;
+  const std::vector<int> nodes = nodes_of_quad(mesh, quad);
+  const auto at = [&](int i, int j) { return mesh.points[nodes[j * row + i]]; };
+  for (int j = 1; j < p; ++j)
+    for (int i = 1; i < p; ++i) {
+      const double u = static_cast<double>(i) / p, v = static_cast<double>(j) / p;
+      const Vec3 across = (1 - v) * at(i, 0) + v * at(i, p) + (1 - u) * at(0, j) + u * at(p, j);
+      const Vec3 corners =
+          (1 - u) * (1 - v) * at(0, 0) + u * (1 - v) * at(p, 0) + u * v * at(p, p) + (1 - u) * v * at(0, p);
+      mesh.points[nodes[j * row + i]] = geometry.on_face(mesh.quad_region[quad], across - corners);
+    }
+}
 
 void raise_order(Mesh& mesh, int order, const ModelGeometry& geometry) {
   OrderRaiser(mesh, order, geometry).run();

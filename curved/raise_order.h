@@ -12,4 +12,7 @@ namespace delquad {
 /// all the same, see untangle_curved().
 void raise_order(Mesh& mesh, int order, const ModelGeometry& geometry);
 
+/// Puts the nodes inside of a quad where its sides have them [Coons 1967], on the face.
+void place_inside(Mesh& mesh, std::size_t quad, const ModelGeometry& geometry);
+
 }  // namespace delquad

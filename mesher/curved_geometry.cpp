@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -18,11 +20,17 @@ Vec3 straight_point(const Mesh& mesh, int line, double part) {
   return (1 - part) * mesh.points[a] + part * mesh.points[b];
 }
 
+/// Vertices by where they are: meshes number them in their own ways.
+using PlaceSet = std::set<std::array<double, 3>>;
+std::array<double, 3> place_of(const Vec3& x) { return {x.x, x.y, x.z}; }
+
 /// Curves of the plane.
 class PlanarGeometry final : public ModelGeometry {
  public:
-  PlanarGeometry(const PreparedProblem& prepared, const Mesh& mesh)
+  PlanarGeometry(const PreparedProblem& prepared, const SurfaceNodes& nodes, const Mesh& mesh)
       : mesh_(mesh), tolerance_(kOnCurve * diagonal(mesh)) {
+    for (std::size_t i = 0; i < prepared.curve_places.size(); ++i)
+      if (prepared.curve_places[i].curve) sliding_.insert(place_of(nodes.points[i]));
     std::map<const Curve*, int> known;
     std::vector<std::shared_ptr<const Curve>> curves;
     std::vector<int> edges;
@@ -59,6 +67,18 @@ class PlanarGeometry final : public ModelGeometry {
     }
     return points;
   }
+  std::optional<Vec3> on_curve(int curve, const Vec3& x) const override {
+    std::optional<Vec3> best;
+    double least = std::numeric_limits<double>::infinity();
+    if (static_cast<std::size_t>(curve) >= searches_of_.size()) return best;
+    for (const int s : searches_of_[curve])
+      if (const CurveSearch::Found found = searches_[s].nearest({x.x, x.y}); found.distance < least) {
+        const Vec2 at = searches_[s].point(found.t);
+        least = found.distance, best = Vec3{at.x, at.y, x.z};
+      }
+    return best;
+  }
+  bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
   Vec3 on_face(int, const Vec3& x) const override { return x; }
 
  private:
@@ -69,6 +89,7 @@ class PlanarGeometry final : public ModelGeometry {
   double tolerance_;
   std::vector<std::vector<int>> searches_of_;  ///< by curve of the mesh
   std::vector<CurveSearch> searches_;
+  PlaceSet sliding_;
 };
 
 /// Faces and curves of space.
@@ -77,7 +98,10 @@ class SurfaceGeometry final : public ModelGeometry {
   SurfaceGeometry(const PreparedSurface& surface, const SurfaceNodes& nodes, const Mesh& mesh)
       : surface_(surface), mesh_(mesh) {
     const SurfaceDomain& domain = surface.domain;
-    for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    for (std::size_t c = 0; c < domain.chains.size(); ++c) {
+      chains_of_[domain.chains[c].curve].push_back(static_cast<int>(c));
+      for (std::size_t k = 1; k + 1 < nodes.on_curve[c].size(); ++k)
+        if (!domain.chain_stays[c]) sliding_.insert(place_of(nodes.points[nodes.on_curve[c][k].node]));
       for (std::size_t k = 0; k + 1 < nodes.on_curve[c].size(); ++k) {
         const CurveNode &a = nodes.on_curve[c][k], &b = nodes.on_curve[c][k + 1];
         spans_.emplace(key(domain.chains[c].curve, nodes.points[a.node], nodes.points[b.node]),
@@ -85,6 +109,7 @@ class SurfaceGeometry final : public ModelGeometry {
         spans_.emplace(key(domain.chains[c].curve, nodes.points[b.node], nodes.points[a.node]),
                        Span{static_cast<int>(c), b.s, a.s});
       }
+    }
     if (surface.model.projector) return;
     const Mesh& fine = surface.model.fine;
     std::vector<std::vector<std::array<int, 3>>> of_face(fine.regions.size());
@@ -104,6 +129,26 @@ class SurfaceGeometry final : public ModelGeometry {
                                              : on_span(found->second, part));
     return points;
   }
+  std::optional<Vec3> on_curve(int curve, const Vec3& x) const override {
+    const auto found = chains_of_.find(curve);
+    if (found == chains_of_.end()) return std::nullopt;
+    if (const auto& projector = surface_.model.projector) {
+      const int face = surface_.domain.cut_face[curve];
+      return face >= 0 ? projector->to_face(face, x) : projector->to_curve(curve, x);
+    }
+    const std::vector<Vec3>& p = surface_.model.fine.points;
+    Vec3 best = p[surface_.domain.chains[found->second.front()].points.front()];
+    for (const int c : found->second) {
+      const std::vector<int>& chain = surface_.domain.chains[c].points;
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const Vec3 &a = p[chain[i]], d = p[chain[i + 1]] - a;
+        const Vec3 at = a + std::clamp(dot(x - a, d) / dot(d, d), 0.0, 1.0) * d;
+        if (norm(at - x) < norm(best - x)) best = at;
+      }
+    }
+    return best;
+  }
+  bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
   Vec3 on_face(int region, const Vec3& x) const override {
     if (surface_.model.projector) return surface_.model.projector->to_face(region, x);
     if (!faces_[region]) return x;
@@ -146,6 +191,8 @@ class SurfaceGeometry final : public ModelGeometry {
   const PreparedSurface& surface_;
   const Mesh& mesh_;
   std::map<Key, Span> spans_;
+  std::map<int, std::vector<int>> chains_of_;  ///< of each curve
+  PlaceSet sliding_;
   std::vector<std::unique_ptr<NearestTriangle>> faces_;  ///< of a triangulation, by face
 };
 
@@ -154,7 +201,7 @@ class SurfaceGeometry final : public ModelGeometry {
 std::unique_ptr<ModelGeometry> geometry_behind(const PreparedProblem& prepared, const SurfaceNodes& nodes,
                                                const Mesh& mesh) {
   if (prepared.surface) return std::make_unique<SurfaceGeometry>(*prepared.surface, nodes, mesh);
-  return std::make_unique<PlanarGeometry>(prepared, mesh);
+  return std::make_unique<PlanarGeometry>(prepared, nodes, mesh);
 }
 
 }  // namespace delquad

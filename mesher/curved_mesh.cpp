@@ -3,16 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <set>
 
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "curved/bernstein.h"
+#include "curved/curve_corners.h"
+#include "curved/flat_corners.h"
+#include "curved/open_cusps.h"
 #include "curved/raise_order.h"
 #include "curved/untangle_curved.h"
 #include "mesh/element_nodes.h"
 #include "mesher/curved_geometry.h"
+#include "mesher/planar_layers.h"
 
 namespace delquad {
 namespace {
@@ -62,11 +69,11 @@ double distance_to_model(const Mesh& mesh, const ModelGeometry& geometry) {
     for (std::size_t l = begin; l < end; ++l) {
       std::vector<Vec3> places;
       for (const int v : nodes_of_line(mesh, l)) places.push_back(mesh.points[v]);
-      std::vector<double> parts;
-      for (int i = 0; i < mesh.order; ++i) parts.push_back((i + 0.5) / mesh.order);
-      const std::vector<Vec3> wanted = geometry.on_line(static_cast<int>(l), parts);
-      for (int i = 0; i < mesh.order; ++i)
-        of_lines[l] = std::max(of_lines[l], norm(value_on_line(places, parts[i]) - wanted[i]));
+      for (int i = 0; i < mesh.order; ++i) {
+        const Vec3 x = value_on_line(places, (i + 0.5) / mesh.order);
+        if (const auto on_curve = geometry.on_curve(mesh.line_curve[l], x))
+          of_lines[l] = std::max(of_lines[l], norm(x - *on_curve));
+      }
     }
   });
   double most = 0;
@@ -75,17 +82,82 @@ double distance_to_model(const Mesh& mesh, const ModelGeometry& geometry) {
   return most / diagonal(mesh);
 }
 
+/// What corners of the model allow the scaled Jacobian of each quad to be.
+std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::size_t n_quads) {
+  std::vector<double> allowed(n_quads, 1);
+  for (const CurveCorner& corner : corners)
+    if (corner.angle < kCuspAngle)
+      allowed[corner.quad] = 0;
+    else if (corner.angle < std::numbers::pi / 2)
+      allowed[corner.quad] = std::min(allowed[corner.quad], std::sin(corner.angle));
+  return allowed;
+}
+
+/// Vertices that no untangling moves: of layers, and of grids that were asked for.
+std::vector<int> held_vertices(const PreparedProblem& prepared, const Mesh& mesh) {
+  std::vector<char> is_grid(prepared.boundary.regions.size(), 0);
+  for (const PreparedPatch& patch : prepared.patches)
+    if (patch.grid && patch.grid_stays) is_grid[patch.region] = 1;
+  const std::vector<char> in_layers = quads_in_layers(prepared, mesh);
+  std::set<int> held;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    if (in_layers[q] || is_grid[mesh.quad_region[q]]) held.insert(mesh.quads[q].begin(), mesh.quads[q].end());
+  return {held.begin(), held.end()};
+}
+
+/// Whether a narrow corner of the model explains that an element has no more than `proven`.
+bool is_in_corner(double proven, double allowed) {
+  const double explained = kPartOfAllowed * allowed;
+  return explained < kLowJacobian && (allowed == 0 || proven >= explained);
+}
+
+std::string show_element(const Mesh& mesh, std::size_t q) {
+  Vec3 centre;
+  for (const int v : mesh.quads[q]) centre = centre + 0.25 * mesh.points[v];
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) in region {}", centre.x, centre.y, centre.z,
+                     mesh.regions[mesh.quad_region[q]].tag);
+}
+
+/// Counts elements with little, and tells of those that are positive.
+void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<double>& allowed,
+               const std::string& name, CurvingSummary& summary, RunResult& result) {
+  std::vector<std::pair<double, std::size_t>> low[2];  // elsewhere, in corners
+  for (std::size_t q = 0; q < bounds.size(); ++q) {
+    const double proven = bounds[q].proven;
+    const bool in_corner = is_in_corner(proven, allowed[q]);
+    if (!in_corner) summary.least_elsewhere = std::min(summary.least_elsewhere, proven);
+    if (proven >= kLowJacobian) continue;
+    ++summary.below;
+    summary.in_corners += in_corner;
+    summary.unproven_elsewhere += !in_corner && proven <= 0;
+    if (proven > 0) low[in_corner].emplace_back(proven, q);
+  }
+  for (const bool in_corner : {false, true}) {
+    auto& these = low[in_corner];
+    if (these.empty()) continue;
+    std::ranges::sort(these);
+    constexpr std::size_t kShown = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kShown, these.size()); ++i)
+      text += fmt::format("{}{:.2g} at {}", i > 0 ? ", " : "", these[i].first,
+                          show_element(result.mesh, these[i].second));
+    result.warnings.push_back(fmt::format(
+        "{}: {} curved element(s) with a scaled Jacobian below {} {}: {}{}", name, these.size(), kLowJacobian,
+        in_corner ? "lie in corners of the model that allow no more" : "that no corner of the model explains",
+        text, these.size() > kShown ? ", ..." : ""));
+  }
+}
+
 void tell_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, Soundness& soundness) {
   Places places;
   std::string text;
   for (std::size_t q = 0; q < bounds.size(); ++q) {
     if (bounds[q].positive()) continue;
-    Vec3 centre;
-    for (const int v : mesh.quads[q]) centre = centre + 0.25 * mesh.points[v];
     constexpr int kShown = 3;
     if (places.count < kShown)
-      text += fmt::format("{} ({:.6g}, {:.6g}, {:.6g}) in {} {}", places.count > 0 ? "," : "", centre.x,
-                          centre.y, centre.z, "region", mesh.regions[mesh.quad_region[q]].tag);
+      text += fmt::format("{} {}", places.count > 0 ? "," : "", show_element(mesh, q));
+    Vec3 centre;
+    for (const int v : mesh.quads[q]) centre = centre + 0.25 * mesh.points[v];
     places.add({centre, mesh.quad_region[q]});
   }
   if (places.count == 0) return;
@@ -96,9 +168,15 @@ void tell_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, 
 
 }  // namespace
 
-void curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result) {
+int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh) {
+  if (prepared.order == 1 || !mesh.triangles.empty() || !has_finite_points(mesh)) return 0;
+  const Mesh given = mesh;
+  return part_flat_corners(mesh, *geometry_behind(prepared, nodes, given));
+}
+
+bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, int rings, RunResult& result) {
   Mesh& mesh = result.mesh;
-  if (prepared.order == 1 || !result.soundness.sound()) return;
+  if (prepared.order == 1 || !result.soundness.sound()) return false;
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("{}: elements of order {} need a mesh of quads alone: {} triangles are left",
                                  prepared.where, prepared.order, mesh.triangles.size()));
@@ -106,24 +184,43 @@ void curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunR
   const DoingStage curving("curving");
   CurvingSummary summary;
   summary.order = prepared.order;
+  summary.rings = rings;
   const Mesh straight = mesh;
   const auto geometry = geometry_behind(prepared, nodes, straight);
   summary.distance_straight = distance_to_model(straight, *geometry);
   raise_order(mesh, prepared.order, *geometry);
   pair_curved_lines(mesh);
   std::vector<JacobianBounds> bounds = jacobian_bounds(mesh);
-  const UntanglingSummary untangled = untangle_curved(mesh, *geometry, bounds);
+  const std::vector<CurveCorner> corners = curve_corners(straight, *geometry);
+  open_cusps(mesh, *geometry, corners, bounds);
+  const UntanglingLimits limits{allowed_by(corners, mesh.quads.size()), held_vertices(prepared, straight)};
+  const UntanglingSummary untangled = untangle_curved(mesh, *geometry, limits, bounds);
   summary.poor = untangled.poor;
   summary.improved = untangled.improved;
   const ProvenJacobians proven = proven_jacobians(bounds);
   summary.unproven = proven.unproven;
   summary.least_jacobian = proven.least;
   summary.mean_jacobian = proven.mean;
+  count_low(bounds, limits.allowed, prepared.name, summary, result);
   summary.distance = distance_to_model(mesh, *geometry);
   tell_unproven(mesh, bounds, result.soundness);
   summary.seconds = watch.work_seconds();
   add_summary(result.log, summary);
   result.log.add_time("curving", watch.time());
+  return untangled.moved_vertices;
+}
+
+Mesh straight_form(const Mesh& curved) {
+  Mesh mesh = curved;
+  int n = 0;
+  for (const auto& quad : mesh.quads) n = std::max(n, *std::ranges::max_element(quad) + 1);
+  mesh.points.resize(static_cast<std::size_t>(n));
+  mesh.order = 1;
+  mesh.line_nodes.clear();
+  mesh.quad_nodes.clear();
+  for (PeriodicNodes& pair : mesh.periodic)
+    std::erase_if(pair.nodes, [&](const auto& both) { return both[0] >= n; });
+  return mesh;
 }
 
 }  // namespace delquad

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "base/activity.h"
 #include "base/located.h"
@@ -120,10 +121,17 @@ std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
   return per_turn;
 }
 
+/// Edges of curves that get curved elements turn by no more, in radians: polynomials hardly follow more, and
+/// of a quad between two such edges the normal is never far from its mean.
+constexpr double kCurvedEdgeTurn = std::numbers::pi / 2;
+
 /// `cut`: null, or the model is the part.
-WantedSize wanted_size(const SizeSpec& spec, const SurfaceModel& model, std::shared_ptr<const SizeField> base,
-                       const std::vector<SizeSpot>& spots, const CutSurface* cut) {
+WantedSize wanted_size(const MeshProblem& problem, const SurfaceModel& model,
+                       std::shared_ptr<const SizeField> base, const std::vector<SizeSpot>& spots,
+                       const CutSurface* cut) {
+  const SizeSpec& spec = problem.size;
   WantedSize wanted;
+  if (problem.order > 1 && model.projector) wanted.edge_turn = kCurvedEdgeTurn;
   wanted.base = std::move(base);
   wanted.gradation = spec.gradation;
   wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
@@ -273,7 +281,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   const DoingStage measuring("sizes");
   const std::shared_ptr<const SizeField> given = size;
   if (!divisions.empty()) size = as_near(size, edges_of(model, divisions));
-  const WantedSize wanted = wanted_size(problem.size, model, std::move(size), spots, part);
+  const WantedSize wanted = wanted_size(problem, model, std::move(size), spots, part);
   const TimeSpent size_time = sizes.time();
 
   const Stopwatch maps;

@@ -380,6 +380,21 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
+/// Of a curved mesh, after its vertices moved.
+void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
+                           RunResult& result) {
+  RunResult straight;
+  straight.mesh = straight_form(result.mesh);
+  measure(prepared, left_out, straight);
+  result.log.add(straight.log);
+  result.metrics = std::move(straight.metrics);
+  result.surface = std::move(straight.surface);
+  for (std::string& reason : straight.soundness.reasons)
+    result.soundness.reasons.push_back(std::move(reason));
+  result.soundness.places.insert(result.soundness.places.end(), straight.soundness.places.begin(),
+                                 straight.soundness.places.end());
+}
+
 bool is_worse(const RunResult& after, const RunResult& before) {
   if (before.soundness.sound() != after.soundness.sound()) return before.soundness.sound();
   bool worse = false;
@@ -549,12 +564,13 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
     lift(prepared, state, left_out, result.log);
   result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
   state.patches.clear();
+  const int rings = part_flat_corners(prepared, state.nodes, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
   if (is_cut_mesh(prepared) && !state.of_quads.empty() && result.failures.empty())
     try_across_cuts(prepared, state.of_quads, left_out, result);
   if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
-  curve_mesh(prepared, state.nodes, result);
+  if (curve_mesh(prepared, state.nodes, rings, result)) measure_straight_form(prepared, left_out, result);
   result.peak_memory = peak_memory();
   count_bad_quads(label, prepared, result);
   if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);

@@ -278,7 +278,8 @@ void limit_slope(const Mesh& fine, double slope, std::vector<double>& values) {
 
 SurfaceSize::SurfaceSize(std::shared_ptr<const SizeField> base) : base_(std::move(base)) {}
 
-SurfaceSize::SurfaceSize(const SurfaceModel& model, const WantedSize& wanted) : base_(wanted.base) {
+SurfaceSize::SurfaceSize(const SurfaceModel& model, const WantedSize& wanted)
+    : base_(wanted.base), edge_turn_(wanted.edge_turn) {
   if (!wanted.lives_on_surface()) return;
   delta_ = wanted_at_points(model.fine, wanted);
   limit_slope(model.fine, wanted.gradation, delta_);

@@ -36,6 +36,8 @@ struct WantedSize {
   /// Of each curve (index into Mesh::curves), the largest size on it; empty: as the base.
   std::vector<double> curve_limit;
   std::vector<SizeSpot> spots = {};
+  /// Edges of curves should turn by no more, in radians; 0: by any angle. It changes no size inside of faces.
+  double edge_turn = 0;
 
   /// Without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
@@ -65,9 +67,11 @@ class SurfaceSize final : public SizeField {
   double on_fine(std::span<const int> nodes, std::span<const double> weights, const Vec3& x, int& hint) const;
   /// At the point of the surface nearest to x, for measuring meshes.
   double at(const Vec3& x, int& hint) const override;
+  double edge_turn() const { return edge_turn_; }
 
  private:
   std::shared_ptr<const SizeField> base_;
+  double edge_turn_ = 0;
   std::vector<double> delta_;                 ///< of each fine point; empty: the base is all
   std::optional<NearestTriangle> triangles_;  ///< where sizes are less than the base
 };

@@ -20,6 +20,8 @@ class CurveSearch {
   };
   /// The parameter of the point next to x.
   Found nearest(Vec2 x) const;
+  /// Of a closed curve any parameter, of another one those nearest to [0, 1].
+  Vec2 point(double t) const;
   /// The part of the curve between two points of it; of a closed curve the shorter one.
   struct Span {
     double from, to;  ///< of a closed curve perhaps beyond [0, 1]
@@ -30,8 +32,6 @@ class CurveSearch {
   std::vector<Vec2> at_parts(const Span& span, std::span<const double> parts) const;
 
  private:
-  Vec2 point(double t) const;
-
   std::shared_ptr<const Curve> curve_;
   std::vector<double> t_;  ///< of the samples, ascending
   std::vector<Vec2> samples_;
