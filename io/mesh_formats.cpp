@@ -43,7 +43,9 @@ template <Mesh (*read)(const std::filesystem::path&)>
 Mesh read_plainly(const std::filesystem::path& path, ReadNotes*) {
   return read(path);
 }
-Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes*) { return read_msh(path); }
+Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes* notes) {
+  return read_msh(path, nullptr, notes);
+}
 
 /// Writers of hexahedra that have no binary form.
 template <void (*write)(const std::filesystem::path&, const HexMesh&)>
@@ -59,6 +61,7 @@ std::vector<std::string> renamed_by(const Mesh& mesh) {
 
 /// Of formats whose files do not tell what became of names, by extension.
 const std::map<std::string, std::vector<std::string> (*)(const Mesh&)> kRenamed = {
+    {".msh", renamed_in_msh},
     {".vtk", renamed_in_vtk},
     {".e", renamed_by<kExodusLabels>},
     {".cgns", renamed_by<kCgnsLabels>},

@@ -52,8 +52,10 @@ bool fits_msh(std::string_view name);
 /// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
 /// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
 /// by its number), and so are the further names that write_msh() leaves; points are ignored, and so are nodes
-/// that no other element uses. Throws InputError with file and line, or byte.
-Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr);
+/// that no other element uses. `notes` tells of periodic pairs, which are not read. Throws InputError with
+/// file and line, or byte.
+Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
+              ReadNotes* notes = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
 Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
@@ -141,8 +143,9 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 void write_inp(const std::filesystem::path& path, const Mesh& mesh);
 /// VTK's older format, as text. Cells have tags as in VTU; names are field arrays "region_NAME" of tags.
 void write_vtk(const std::filesystem::path& path, const Mesh& mesh);
-/// What becomes of its names, as renamed_in_file() tells it.
+/// What becomes of names there, as renamed_in_file() tells it.
 std::vector<std::string> renamed_in_vtk(const Mesh& mesh);
+std::vector<std::string> renamed_in_msh(const Mesh& mesh);
 /// Unstructured cell data of AVS, as deal.II reads it, too: the material of a cell is the number of its name,
 /// which comments tell.
 void write_ucd(const std::filesystem::path& path, const Mesh& mesh);

@@ -59,6 +59,7 @@ struct Contents {
   std::map<DimTag, std::vector<std::string>> more_names;  ///< of entities, besides their groups
   std::string unit;                                       ///< of lengths
   std::vector<View> views;
+  bool has_periodic = false;  ///< a $Periodic section, which is not read
 };
 
 /// The tags of what a mesh was made of.

@@ -235,11 +235,14 @@ bool fits_msh(std::string_view name) {
   return name.find_first_of(std::string_view("\"\r\n\0", 4)) == std::string_view::npos;
 }
 
-Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces) {
+Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces, ReadNotes* notes) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner);
   if (surfaces) *surfaces = msh::surfaces_of(contents);
+  if (notes != nullptr && contents.has_periodic)
+    notes->push_back(
+        "the periodic pairs of the file ($Periodic) are not read: nothing keeps their nodes alike");
   return msh::to_mesh(std::move(contents), scanner);
 }
 

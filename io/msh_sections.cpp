@@ -87,6 +87,7 @@ class SectionReader {
     const bool is_view = name == "NodeData" || name == "ElementData";
     if (is_view && with_views_) return view(name);
     const auto reader = readers.find(name);
+    contents_.has_periodic |= name == "Periodic";
     if (reader == readers.end()) return skip(name);
     if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
     if (version_ == Version::kUnknown && name != "MeshFormat") {

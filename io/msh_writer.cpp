@@ -234,11 +234,31 @@ void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   out.end_section("$EndPeriodic");
 }
 
+std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {
+  std::vector<Entity> entities;
+  for (const NamedPoint& named : points) entities.push_back(named.entity);
+  return entities;
+}
+
 }  // namespace
 
+std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
+  const std::vector<Entity> point_entities = entities_of(mesh.named_points);
+  std::vector<Block> blocks = make_blocks(mesh, point_entities, MshCurves::kNamed);
+  std::map<std::pair<int, int>, std::string> label_of;
+  for (const auto& [dim, tag, label] : number_groups(blocks).labels) label_of[{dim, tag}] = label;
+  std::vector<std::string> lines;
+  std::set<UniqueLabels::Key> told;
+  constexpr std::array kKinds = {"point", "curve", "region"};
+  for (const Block& b : blocks)
+    if (const std::string& label = label_of.at({b.dim, b.group_tag});
+        label != b.group && told.emplace(b.dim, b.group).second)
+      lines.push_back(std::string(kKinds[b.dim]) + " \"" + one_line(b.group) + "\" is " + label);
+  return lines;
+}
+
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes) {
-  std::vector<Entity> point_entities;
-  for (const NamedPoint& named : mesh.named_points) point_entities.push_back(named.entity);
+  const std::vector<Entity> point_entities = entities_of(mesh.named_points);
   std::vector<Block> blocks = make_blocks(mesh, point_entities, options.curves);
   const MshGroups groups = number_groups(blocks);
   MshNumbers out(stream, options.binary);

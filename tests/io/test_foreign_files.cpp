@@ -56,6 +56,20 @@ TEST(BinaryMsh, ReadsLegacyFiles) {
   EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"plate"}));
 }
 
+TEST(PeriodicMsh, SaysThatPairsAreNotRead) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 2);
+  ReadNotes notes;
+  write_msh(folder / "a.msh", mesh);
+  read_mesh(folder / "a.msh", &notes);
+  EXPECT_TRUE(notes.empty());
+  mesh.periodic = {{0, 1, {}, {{0, 1}}}};
+  write_msh(folder / "a.msh", mesh);
+  read_mesh(folder / "a.msh", &notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("$Periodic"), std::string::npos);
+}
+
 TEST(BinaryMsh, DamagedFilesGiveOneMessage) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(3, 2);

@@ -46,6 +46,8 @@ TEST(RenamedInFile, TellsWhatNoCommentTells) {
   EXPECT_EQ(renamed_in_file("a.vtk", mesh),
             Names{"curve \"c\xc3\xb4t\xc3\xa9 sud\" is c\xc3\xb4t\xc3\xa9_sud"});
   EXPECT_EQ(renamed_in_file("a.su2", mesh), Names()) << "its comments tell";
+  mesh.regions[0].names = {"in/out"};
+  EXPECT_EQ(renamed_in_file("a.msh", mesh), Names{"region \"in/out\" is in/out_2"});
   mesh.regions[0].names = {std::string(90, 'x')};
   EXPECT_EQ(renamed_in_file("a.e", mesh),
             Names{"region \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
