@@ -331,7 +331,7 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
   expect_input_error(meshing(ModelMaker(square).point({1.5, 0.5}, "far")),
                      {"'far'", "outside of every region"});
   expect_input_error(meshing(ModelMaker(square).point({0.5, 0.5}, "p").point({0.50001, 0.5}, "q")),
-                     {"'q'", "nearer than a thousandth", "(0.50001, 0.5)"});
+                     {"'p'", "nearer than a thousandth", "(0.5, 0.5)"});
   expect_input_error(meshing(ModelMaker(square).point({0.5, 0.5}, "p").point({0.50009, 0.5}, "q")),
                      {"nearer than a thousandth"});
   expect_input_error(meshing(ModelMaker(square).curve(make_segment({0.2, 0}, {0.8, 0}), "on the border")),
