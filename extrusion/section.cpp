@@ -16,10 +16,10 @@ namespace delquad {
 namespace {
 
 void require_quads(const Mesh& mesh) {
-  require_readable(mesh, "the mesh");
   if (mesh.order > 1)
     throw InputError(
         fmt::format("the mesh has elements of order {}: only quads of order 1 are swept", mesh.order));
+  require_readable(mesh, "the mesh");
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("the mesh has {} triangles beside {} quads: only meshes of quads are swept",
                                  mesh.triangles.size(), mesh.quads.size()));
