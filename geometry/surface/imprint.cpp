@@ -284,8 +284,9 @@ class Imprinter {
     for (const auto& [v, w] : section_path(mesh_, editor_, plane, a, b, kSnap * diagonal_))
       chain.push_back(w < 0 ? v : split(v, w, position(mesh_, plane, {v, w}), &plane));
     if (chain.empty()) {
-      refuse(line, fmt::format("leaves the surface between {} and {}", show_point(mesh_.points[a]),
-                               show_point(mesh_.points[b])));
+      refuse(line,
+             fmt::format("leaves the surface between {} and {}: expected points between them on the way",
+                         show_point(mesh_.points[a]), show_point(mesh_.points[b])));
       return;
     }
     double along = 0;
