@@ -329,6 +329,7 @@ TEST(PeriodicFaces, CadFacesMatch) {
   try {
     write_example("fins", CadFormat::kBrep, file);
   } catch (const InputError& error) {
+    if (std::string(error.what()).find("OpenCASCADE") == std::string::npos) throw;
     GTEST_SKIP() << error.what();
   }
   MeshProblem problem = problem_of(CadModel{.file = {}, .bytes = file.str()}, 2, {});
