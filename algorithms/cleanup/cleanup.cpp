@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "algorithms/cleanup/cleanup_process.h"
+#include "algorithms/cleanup/edit_in_blocks.h"
 #include "base/cancel.h"
-#include "base/stopwatch.h"
 #include "mesh/quad_corners.h"
 #include "smoothing/relocation/short_edges.h"
 
@@ -237,20 +237,7 @@ ElementQuality CleanupProcess::quality(std::span<const int> vertices) {
 
 QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options,
                    CleanupSummary* summary) {
-  const Stopwatch watch;
-  CleanupSummary total;
-  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, CleanupSummary& part) {
-    CleanupProcess process(block, size, options);
-    process.run();
-    part = process.summary();
-    return process.result();
-  });
-  if (summary == nullptr) return result;
-  *summary = total;
-  summary->irregular_before = count_irregular(mesh);
-  summary->irregular_after = count_irregular(result);
-  summary->seconds = watch.work_seconds();
-  return result;
+  return edit_in_blocks<CleanupProcess>(mesh, size, options, summary);
 }
 
 }  // namespace delquad

@@ -5,10 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/cleanup/edit_in_blocks.h"
 #include "algorithms/regularity/regularity_process.h"
 #include "base/cancel.h"
-#include "base/stopwatch.h"
 #include "mesh/quad_corners.h"
 
 namespace delquad {
@@ -258,20 +257,7 @@ void RegularityProcess::accept() {
 
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size, const RegularityOptions& options,
                        RegularitySummary* summary) {
-  const Stopwatch watch;
-  RegularitySummary total;
-  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, RegularitySummary& part) {
-    RegularityProcess process(block, size, options);
-    process.run();
-    part = process.summary();
-    return process.result();
-  });
-  if (summary == nullptr) return result;
-  *summary = total;
-  summary->irregular_before = count_irregular(mesh);
-  summary->irregular_after = count_irregular(result);
-  summary->seconds = watch.work_seconds();
-  return result;
+  return edit_in_blocks<RegularityProcess>(mesh, size, options, summary);
 }
 
 }  // namespace delquad

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "algorithms/cleanup/cleanup.h"
+#include "base/stopwatch.h"
+#include "mesh/quad_blocks.h"
+
+namespace delquad {
+
+/// What a stage of edits is: a process for each block, and the numbers of irregular vertices before and
+/// after.
+template <class Process, class Summary, class StageOptions>
+QuadPatch edit_in_blocks(const QuadPatch& mesh, const ParametricSize& size, const StageOptions& options,
+                         Summary* summary) {
+  const Stopwatch watch;
+  Summary total;
+  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, Summary& part) {
+    Process process(block, size, options);
+    process.run();
+    part = process.summary();
+    return process.result();
+  });
+  if (summary == nullptr) return result;
+  *summary = total;
+  summary->irregular_before = count_irregular(mesh);
+  summary->irregular_after = count_irregular(result);
+  summary->seconds = watch.work_seconds();
+  return result;
+}
+
+}  // namespace delquad
