@@ -21,10 +21,11 @@ struct PatchBoundaries {
 /// loops that are turned inside out.
 bool meshable(const PatchBoundary& boundary);
 
-/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts().
+/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts(). `agreement`: see
+/// make_surface_domain().
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
-                                 const MappedSpec& spec, std::vector<MappedFace>& mapped);
+                                 const MappedSpec& spec, double agreement, std::vector<MappedFace>& mapped);
 
 }  // namespace delquad

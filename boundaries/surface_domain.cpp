@@ -27,9 +27,11 @@ constexpr int kRefinements = 8;
 PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                        const AcrossView& across, CurveDemands& wanted,
                                        const SurfaceSize& size, const MatchingSolver& solver,
-                                       const MappedSpec& spec, std::vector<MappedFace>& mapped) {
+                                       const MappedSpec& spec, double agreement,
+                                       std::vector<MappedFace>& mapped) {
   for (int attempt = 0;; ++attempt) {
-    PatchBoundaries placed = place_boundaries(model, curves, across, wanted, size, solver, spec, mapped);
+    PatchBoundaries placed =
+        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, mapped);
     const FlatPatch* crossing = nullptr;
     bool can_change = false;
     for (size_t p = 0; p < curves.maps.size(); ++p) {
@@ -258,7 +260,7 @@ SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening,
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                                  const MappedSpec& mapped) {
+                                  const MappedSpec& mapped, double agreement) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size, periodic);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
@@ -268,7 +270,8 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
   if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
-  PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, grids);
+  PatchBoundaries placed =
+      place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, grids);
   domain.mapped = grid_patches(grids, curves, placed.counts);
   check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
   for (const int p : placed.odd_patches)

@@ -54,13 +54,14 @@ struct SurfaceDomain {
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
-/// `mapped` asks, get numbers that fit. Throws FaceError when no
-/// refinement gives a valid boundary, naming the face, and InputError where divisions leave a patch with an
-/// odd number of edges.
+/// `mapped` asks, get numbers that fit. `agreement`: the price of agree_on_counts(); 0: numbers follow the
+/// size alone. Throws FaceError when no refinement gives a valid boundary, naming the face, and InputError
+/// where divisions leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
-                                  const PeriodicSides& periodic = {}, const MappedSpec& mapped = {});
+                                  const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
+                                  double agreement = 0);
 
 /// The same of a model whose curves are kept point by point: all their points are nodes, and no stage moves
 /// those that are on no cut. The k-th point of a patch's boundary is the vertex of its map from which the

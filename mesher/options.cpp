@@ -14,6 +14,7 @@
 #include "algorithms/regularity/regularity.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
+#include "mesher/curve_options.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
 #include "smoothing/cvt/cvt_options.h"
@@ -23,9 +24,9 @@ namespace delquad {
 namespace {
 
 std::deque<OptionGroup>& groups() {
-  static std::deque<OptionGroup> all = {insertion_group(), smoothing_group(),  recombination_group(),
-                                        cleanup_group(),   regularity_group(), optimisation_group(),
-                                        repair_group()};
+  static std::deque<OptionGroup> all = {curve_group(),         insertion_group(), smoothing_group(),
+                                        recombination_group(), cleanup_group(),   regularity_group(),
+                                        optimisation_group(),  repair_group()};
   return all;
 }
 

@@ -15,6 +15,7 @@
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
 #include "mesher/add_grids.h"
+#include "mesher/curve_options.h"
 #include "mesher/fine_spots.h"
 #include "mesher/mirrored_surface.h"
 #include "mesher/named_parts.h"
@@ -99,7 +100,8 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, divisions, periodic, problem.mapped);
+                                 *solver, asked, divisions, periodic, problem.mapped,
+                                 curve_options(problem.options).agreement);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });

@@ -194,6 +194,34 @@ TEST(SurfaceDomain, ARingNarrowerThanTheSizeIsOneRowOfQuads) {
   EXPECT_GT(*std::min_element(etas.begin(), etas.end()), 0.3);
 }
 
+/// Edges on the circles of a flat ring of inner radius 1.
+std::vector<std::size_t> edges_of_ring(double outer, double agreement) {
+  SurfaceModel ring = surfaces::grid_surface({160, 4, true}, [&](double u, double v) {
+    const double phi = 2 * std::numbers::pi * u, r = 1 + (outer - 1) * v;
+    return Vec3{r * std::cos(phi), -r * std::sin(phi), 0};
+  });
+  const SurfaceSize size(make_constant_size(0.1));
+  Flattening flattening = flatten(ring);
+  const SurfaceDomain domain = make_surface_domain(
+      ring, std::move(flattening), size, *make_primal_dual_solver(), nullptr, {}, {}, {}, agreement);
+  std::vector<std::size_t> edges;
+  for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    if (domain.chains[c].closed()) edges.push_back(domain.nodes.on_curve[c].size() - 1);
+  std::ranges::sort(edges);
+  return edges;
+}
+
+TEST(SurfaceDomain, SidesThatDifferLittleGetEqualNumbersOfEdges) {
+  const std::vector<std::size_t> by_size = edges_of_ring(1.2, 0), agreed = edges_of_ring(1.2, 3);
+  ASSERT_EQ(by_size.size(), 2u);
+  EXPECT_GE(by_size[1], by_size[0] + 10);
+  EXPECT_EQ(agreed[0], agreed[1]);
+  EXPECT_GT(agreed[0], by_size[0]);
+  EXPECT_LT(agreed[1], by_size[1]);
+  // Where one is half as long again, rows end all the same.
+  EXPECT_GT(edges_of_ring(1.5, 3)[1], edges_of_ring(1.5, 3)[0] + 20);
+}
+
 // delta' of a known conformal map: the stretch of the map cancels in the lengths on the surface.
 TEST(SurfaceDomain, EdgesOnACurvedCapHaveTheSizeInSpace) {
   const Mesh mesh = mesh_surface(surfaces::sphere_cap(60, 30, 1.2), 0.08).mesh;

@@ -28,6 +28,7 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
   for (int seed = 0; seed < 8; ++seed) {
     MeshProblem c;
     c.name = c.where = "ball";
+    c.options.set("curves.agreement", 0);  // with it, they are not needed
     const PreparedProblem prepared =
         prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4), [](double) {});
     const RunResult result = run_word(prepared, parse_word("DB"));

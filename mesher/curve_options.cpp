@@ -1,0 +1,24 @@
+#include "mesher/curve_options.h"
+
+#include "base/option_table.h"
+
+namespace delquad {
+namespace {
+
+const OptionTable<CurveOptions>& curve_table() {
+  static const auto all =
+      OptionTable<CurveOptions>("curves", "of surfaces: numbers of edges on curves")
+          .add({.name = "agreement",
+                .help = "what an irregular vertex less is worth: quads times eta; 0: by the size alone",
+                .least = 0,
+                .most = 100},
+               &CurveOptions::agreement);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup curve_group() { return curve_table().group(); }
+CurveOptions curve_options(const Options& options) { return curve_table().read(options); }
+
+}  // namespace delquad
