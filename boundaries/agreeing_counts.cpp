@@ -129,7 +129,7 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
 }  // namespace
 
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::vector<int>& fixed,
+                     const SurfaceSize& size, double price, const std::set<int>& kept,
                      std::vector<int>& counts) {
   std::vector<int> leader(curves.chains.size());
   std::iota(leader.begin(), leader.end(), 0);
@@ -137,7 +137,7 @@ void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveD
   std::vector<AgreeingCurve> agreeing;
   for (const CurveDemand& d : joined_demands(wanted.demands, curves.images.pairs))
     agreeing.push_back({std::max(d.integral, 1e-3), d.minimum, d.exact == 0, 0, d.patches});
-  for (const int c : fixed) agreeing[leader[c]].is_free = false;
+  for (const int c : kept) agreeing[leader[c]].is_free = false;
 
   std::vector<ClosureSum> sums = closure_sums(curves, wanted);
   std::vector<char> closes(curves.maps.size(), 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "boundaries/surface_curves.h"
@@ -15,9 +16,9 @@ namespace delquad {
 std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
 
 /// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
-/// irregular vertex less is worth, in quads times eta. Chains of `fixed` keep their numbers.
+/// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::vector<int>& fixed,
+                     const SurfaceSize& size, double price, const std::set<int>& kept,
                      std::vector<int>& counts);
 
 }  // namespace delquad

@@ -70,17 +70,18 @@ std::vector<int> curves_at_fault(const PatchBoundary& boundary, const std::vecto
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
-                                 const MappedSpec& spec, double agreement, std::vector<MappedFace>& mapped) {
+                                 const MappedSpec& spec, const Agreement& agreement,
+                                 std::vector<MappedFace>& mapped) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
   placed.counts = mapped.empty() ? even_counts(joined_demands(wanted.demands, curves.images.pairs),
                                                static_cast<int>(maps.size()), solver, placed.odd_patches)
                                  : grid_counts(spec, model.fine, curves, wanted, mapped, placed.odd_patches);
-  if (agreement > 0) {
-    std::vector<int> of_grids;
+  if (agreement.price > 0) {
+    std::set<int> kept = agreement.kept;
     for (const MappedFace& face : mapped)
-      for (const auto& side : face.sides) of_grids.insert(of_grids.end(), side.begin(), side.end());
-    agree_on_counts(model.fine, curves, wanted, size, agreement, of_grids, placed.counts);
+      for (const auto& side : face.sides) kept.insert(side.begin(), side.end());
+    agree_on_counts(model.fine, curves, wanted, size, agreement.price, kept, placed.counts);
   }
   for (const ChainPair& pair : curves.images.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "boundaries/surface_curves.h"
@@ -21,11 +22,17 @@ struct PatchBoundaries {
 /// loops that are turned inside out.
 bool meshable(const PatchBoundary& boundary);
 
-/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts(). `agreement`: see
-/// make_surface_domain().
+/// How far numbers of edges agree, see agree_on_counts().
+struct Agreement {
+  double price = 0;         ///< 0: not at all
+  std::set<int> kept = {};  ///< chains that have the numbers that their sizes ask for
+};
+
+/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts().
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
-                                 const MappedSpec& spec, double agreement, std::vector<MappedFace>& mapped);
+                                 const MappedSpec& spec, const Agreement& agreement,
+                                 std::vector<MappedFace>& mapped);
 
 }  // namespace delquad

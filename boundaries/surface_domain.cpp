@@ -23,15 +23,22 @@ namespace {
 /// So many times curves are refined to keep boundary polygons from crossing.
 constexpr int kRefinements = 8;
 
-/// Demands more edges of the curves that keep boundaries from enclosing quads, until none do.
+/// The curves that keep boundaries from enclosing quads do not take part in agreement, then get more edges,
+/// until there are none.
 PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                        const AcrossView& across, CurveDemands& wanted,
                                        const SurfaceSize& size, const MatchingSolver& solver,
-                                       const MappedSpec& spec, double agreement,
+                                       const MappedSpec& spec, double price,
                                        std::vector<MappedFace>& mapped) {
-  for (int attempt = 0;; ++attempt) {
+  Agreement agreement{price};
+  for (int attempt = 0;;) {
     PatchBoundaries placed =
         place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, mapped);
+    const std::size_t n_kept = agreement.kept.size();
+    if (price > 0)
+      for (const std::vector<int>& at_fault : placed.at_fault)
+        agreement.kept.insert(at_fault.begin(), at_fault.end());
+    if (agreement.kept.size() > n_kept) continue;
     const FlatPatch* crossing = nullptr;
     bool can_change = false;
     for (size_t p = 0; p < curves.maps.size(); ++p) {
@@ -41,7 +48,7 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
           std::ranges::any_of(placed.at_fault[p], [&](int c) { return wanted.demands[c].exact == 0; });
     }
     if (crossing == nullptr) return placed;
-    if (attempt == kRefinements || !can_change)
+    if (attempt++ == kRefinements || !can_change)
       throw FaceError(crossing->face, fmt::format("{}: its boundary crosses itself in the parameter plane {}",
                                                   face_name(model.fine, *crossing),
                                                   can_change ? "however fine its curves are"
