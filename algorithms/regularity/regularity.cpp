@@ -18,7 +18,7 @@ namespace {
 /// for. With 6, and 4 trials, cavities of the plate of 16 holes cost 1.7 times as much and leave 3 % fewer.
 constexpr std::size_t kNear = 4, kMostMet = 600;
 /// Cavities of a vertex that are tried in a round.
-constexpr std::size_t kMostTrials = 2;
+constexpr int kMostTrials = 2;
 /// Rings of quads that a cavity grows by until it has a pattern.
 constexpr int kMostRings = 2;
 /// Cavities with few quads are tried first, an irregular vertex that stays counts as so many.
@@ -123,7 +123,7 @@ void RegularityProcess::consider() {
     const std::uint64_t key = cavity_.key();
     const auto [at, is_new] = known_.try_emplace(key);
     Known& known = at->second;
-    if (is_new) known.least = least_irregular(outline()).value_or(-1);
+    if (is_new) known.least = least_irregular(outline(), irregular - 1).value_or(-1);
     if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
       ++summary_.cavities;
       if (known.loss > tolerance_) return;
@@ -167,8 +167,11 @@ void RegularityProcess::visit(int v) {
   std::ranges::sort(candidates_, std::less<>());
   const auto same = std::ranges::unique(candidates_, {}, &Candidate::key);
   candidates_.erase(same.begin(), same.end());
-  for (std::size_t i = 0; i < candidates_.size() && i < kMostTrials; ++i)
-    if (attempt(candidates_[i])) return accept();
+  const long long tried = summary_.tried;
+  for (const Candidate& candidate : candidates_) {
+    if (attempt(candidate)) return accept();
+    if (summary_.tried == tried + kMostTrials) return;
+  }
 }
 
 /// The vertices of the rim and of the quads around it; those within are others before and after.
