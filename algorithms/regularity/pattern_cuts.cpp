@@ -10,7 +10,7 @@ namespace delquad {
 namespace {
 
 /// Of a cut: its edges are at least and at most so many times as long as wanted.
-constexpr double kShortestEdge = 0.6, kLongestEdge = 1.7;
+constexpr double kShortestEdge = 0.75, kLongestEdge = 1.4;
 /// How many cuts of an outline are followed, those with the least strain, and of each of its parts so many
 /// times less.
 constexpr int kMostCuts = 8, kFewerOfParts = 4;

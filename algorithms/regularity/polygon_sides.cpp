@@ -23,18 +23,18 @@ std::optional<PolygonSides> sides_of(std::span<const int> turn) {
 
 std::optional<std::array<int, 5>> star_feet(std::span<const int> sides) {
   const int n = static_cast<int>(sides.size());
+  const auto after_next = [n](int i) { return i + 2 < n ? i + 2 : i + 2 - n; };
   // x[i + 2] = sides[i] - x[i], n times around.
   int sum = 0;
-  for (int k = 0, i = 0; k < n; ++k, i = (i + 2) % n) sum = sides[i] - sum;
+  for (int k = 0, i = 0; k < n; ++k, i = after_next(i)) sum = sides[i] - sum;
   if (sum < 0 || sum % 2 != 0) return std::nullopt;
   std::array<int, 5> x{};
   int on_rim = 0;
-  for (int k = 0, i = 0, value = sum / 2; k < n; ++k) {
+  for (int k = 0, i = 0, value = sum / 2; k < n; ++k, i = after_next(i)) {
     on_rim += value == 0 ? 1 : 0;
-    if (value < 0 || value > sides[i] || on_rim > (n == 5 ? 1 : 0)) return std::nullopt;
+    if (value < 0 || on_rim > (n == 5 ? 1 : 0)) return std::nullopt;
     x[i] = value;
     value = sides[i] - value;
-    i = (i + 2) % n;
   }
   return x;
 }

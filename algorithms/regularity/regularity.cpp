@@ -27,6 +27,10 @@ constexpr double kQuadsPerIrregular = 10;
 constexpr int kFillSweeps = 12;
 /// A fill is given up where a sweep mends less than this part of what it loses too much.
 constexpr double kHopelessPart = 0.12;
+/// And where at any time the sum loses so much more than it may, times the square root of the quads around.
+/// Without that, relocation costs half as much again and mends as many on the plate of 16 holes; with 1.2 it
+/// costs a fifth less and mends 2 % fewer.
+constexpr double kHopelessLoss = 1.6;
 /// As in CleanupProcess: the part of an edge below which a move calls for no more, in the end, too.
 constexpr double kRelaxed = 0.08, kRelaxedAtLast = 0.02;
 
@@ -201,13 +205,16 @@ RegularityProcess::Quality RegularityProcess::quality() {
 /// Relocates the region; whether the loss of the mean gets as small as allowed.
 bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
   double last = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < kFillSweeps; ++sweep) {
-    for (const int v : region_) relocation_.step(v);
+  for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
+    if (sweep > 0)
+      for (const int v : region_) relocation_.step(v);
     const Quality after = quality();
     loss = before.mean - after.mean;
     if (after.least_sine >= least && loss <= allowed) return true;
-    if (sweep > 1 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
+    if (loss > hopeless) return false;
+    if (sweep > 2 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
     last = loss;
   }
   return false;
