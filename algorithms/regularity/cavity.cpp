@@ -96,7 +96,7 @@ bool Cavity::trace() {
     h = mesh_.next(h);
     while (!is_outer(h)) h = mesh_.next(mesh_.twin(h));
   } while (h != first);
-  return rim_.size() == n_outer && corners_ >= 2 && corners_ <= 6;
+  return rim_.size() == n_outer && corners_ >= 2 && corners_ <= 8;
 }
 
 int Cavity::irregular() const {

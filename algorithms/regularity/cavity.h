@@ -24,7 +24,7 @@ class Cavity {
   bool add(int element);
   bool add_around(int vertex);
   /// Adds the quads at vertices of the rim that want none, or three and more, as long as there are any.
-  /// False, too, where the boundary is too concave, or the rim no loop with 2 to 6 corners (concave ones
+  /// False, too, where the boundary is too concave, or the rim no loop with 2 to 8 corners (concave ones
   /// taken off).
   bool close();
 

@@ -87,11 +87,24 @@ void PatternMesher::star(const std::vector<Row>& sides, Vec2 centre) {
   std::vector<int> lengths;
   for (const Row& side : sides) lengths.push_back(length(side));
   const std::array<int, 5> foot = star_feet(lengths).value();
-  const int middle = add(centre);
+  int short_arm = 0;
+  while (short_arm < n && foot[(short_arm + 1) % n] > 0) ++short_arm;
+  const int middle = short_arm < n ? sides[short_arm][foot[short_arm]] : add(centre);
   std::vector<Row> arms;
-  for (int i = 0; i < n; ++i) arms.push_back(line(sides[i][foot[i]], middle, foot[(i + 1) % n]));
+  for (int i = 0; i < n; ++i) {
+    const int edges = foot[(i + 1) % n];
+    if (i == short_arm)
+      arms.push_back({middle});
+    else if ((i + 1) % n == short_arm)
+      arms.push_back(part(sides[short_arm], 0, edges));
+    else if (i == (short_arm + 1) % n && short_arm < n)
+      arms.push_back(reversed(part(sides[short_arm], lengths[short_arm] - edges, lengths[short_arm])));
+    else
+      arms.push_back(line(sides[i][foot[i]], middle, edges));
+  }
   for (int i = 0; i < n; ++i) {
     const int before = (i + n - 1) % n;
+    if (i == short_arm || before == short_arm) continue;
     grid(part(sides[before], foot[before], lengths[before]), part(sides[i], 0, foot[i]), arms[i],
          reversed(arms[before]));
   }

@@ -20,12 +20,13 @@ struct Outline {
 /// those inside have four, but for a few of three or five. By its corners N, with no concave vertex:
 ///
 ///   N = 4, opposite sides alike: none, a grid            N = 3: one of three     N = 5: one of five
-///   N = 4 otherwise: one of three, one of five           N = 2: two of three     N = 6: two of five
+///   N = 4 otherwise: one of three, one of five           N = 2: two of three     N > 5: N - 4 of five
 ///
-/// A single irregular vertex (star) has its place by the sides' lengths. Otherwise a vertex T of three quads
-/// is the far corner of a grid in one of the polygon's corners, and what is left is a polygon of one corner
-/// more, in which T is no corner; or a row of edges cuts the polygon in two, a hexagon into pentagons and one
-/// with a concave vertex there. Both leave a choice.
+/// A single irregular vertex (star) has its place by the sides' lengths. That may be on a side: one of five
+/// is a vertex of the rim then that gets a quad more than it wants. Otherwise a vertex T of three quads is
+/// the far corner of a grid in one of the polygon's corners, and what is left is a polygon of one corner
+/// more, in which T is no corner; or a row of edges cuts the polygon in two: a pentagon off one of six or
+/// more corners, or from a concave vertex. The parts may be cut further. All but stars leave a choice.
 struct Pattern {
   enum Kind { kGrid, kStar, kCorner, kCut };
   Kind kind = kGrid;
@@ -42,11 +43,13 @@ struct Pattern {
 /// How many irregular vertices a pattern has.
 int irregular_vertices(const Pattern& pattern);
 
-/// The least number of irregular vertices of a pattern of this outline; none where there is no pattern.
-std::optional<int> least_irregular(const Outline& outline);
+/// The least number of irregular vertices of a pattern of this outline; none where that is more than `most`
+/// or there is no pattern.
+std::optional<int> least_irregular(const Outline& outline, int most);
 
-/// Of the patterns with this number of irregular vertices, the least, the one with the least strain.
-std::optional<Pattern> best_pattern(const Outline& outline, int least);
+/// Of the patterns with at most so many irregular vertices that with the fewest, of these the one with the
+/// least strain. Of cuts only those with the least strain of their own are tried.
+std::optional<Pattern> best_pattern(const Outline& outline, int most);
 
 struct PatternMesh {
   std::vector<Vec2> inside;               ///< vertices after those of the rim

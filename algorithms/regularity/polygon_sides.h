@@ -17,25 +17,37 @@ struct PolygonSides {
 std::optional<PolygonSides> sides_of(std::span<const int> turn);
 
 /// The distances x[i] from the start of side i to the foot of a star's arm on that side; none where there is
-/// no such star. Arm i has x[(i + 1) % N] edges. N, the number of sides, is 3 or 5.
+/// no such star. Arm i has x[(i + 1) % N] edges. N, the number of sides, is 3 or 5. Of five arms one may have
+/// none: its foot is the centre then, and the arms beside lie on its side.
 std::optional<std::array<int, 5>> star_feet(std::span<const int> sides);
 
 /// The sides of what is left of a polygon beside a grid of `along` edges on side `at`, at its start, and
 /// `back` edges on the side before: first the new one, then what is left of side `at`, and on.
 std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int along, int back);
 
-/// Calls f(at, along, back) for all grids in corners of a polygon of two or four sides that leave a star,
-/// until f returns true. Whether it did.
+/// Of the grids in a corner of a polygon of two or four sides that leave a star the least and the most edges.
+struct CornerGrids {
+  int least_along = 1, least_back = 1, most_along = 0, most_back = 0;
+};
+CornerGrids corner_grids(std::span<const int> sides, int at);
+
+/// Calls f(at, along, back) for all of them, until f returns true. Whether it did.
 template <class F>
 bool any_corner(std::span<const int> sides, F&& f) {
   const int n = static_cast<int>(sides.size());
-  for (int at = 0; at < n; ++at)
-    for (int along = 1; along < sides[at]; ++along)
-      for (int back = 1; back < sides[(at + n - 1) % n]; ++back) {
+  for (int at = 0; at < n; ++at) {
+    const CornerGrids grids = corner_grids(sides, at);
+    for (int along = grids.least_along; along <= grids.most_along; ++along)
+      for (int back = grids.least_back; back <= grids.most_back; ++back) {
         const std::array<int, 5> rest = sides_without_corner(sides, at, along, back);
         if (star_feet(std::span(rest).first(n + 1)) && f(at, along, back)) return true;
       }
+  }
   return false;
 }
+
+/// The least number of irregular vertices of a pattern of a convex polygon of two to five sides without cuts;
+/// negative where there is none.
+int least_irregular_of(std::span<const int> sides);
 
 }  // namespace delquad

@@ -18,7 +18,7 @@ namespace {
 /// for. With 6, and 4 trials, cavities of the plate of 16 holes cost 1.7 times as much and leave 3 % fewer.
 constexpr std::size_t kNear = 4, kMostMet = 600;
 /// Cavities of a vertex that are tried in a round.
-constexpr std::size_t kMostTrials = 2;
+constexpr int kMostTrials = 2;
 /// Rings of quads that a cavity grows by until it has a pattern.
 constexpr int kMostRings = 2;
 /// Cavities with few quads are tried first, an irregular vertex that stays counts as so many.
@@ -27,6 +27,10 @@ constexpr double kQuadsPerIrregular = 10;
 constexpr int kFillSweeps = 12;
 /// A fill is given up where a sweep mends less than this part of what it loses too much.
 constexpr double kHopelessPart = 0.12;
+/// And where at any time the sum loses so much more than it may, times the square root of the quads around.
+/// Without that, relocation costs half as much again and mends as many on the plate of 16 holes; with 1.2 it
+/// costs a fifth less and mends 2 % fewer.
+constexpr double kHopelessLoss = 1.6;
 /// As in CleanupProcess: the part of an edge below which a move calls for no more, in the end, too.
 constexpr double kRelaxed = 0.08, kRelaxedAtLast = 0.02;
 
@@ -123,7 +127,7 @@ void RegularityProcess::consider() {
     const std::uint64_t key = cavity_.key();
     const auto [at, is_new] = known_.try_emplace(key);
     Known& known = at->second;
-    if (is_new) known.least = least_irregular(outline()).value_or(-1);
+    if (is_new) known.least = least_irregular(outline(), irregular - 1).value_or(-1);
     if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
       ++summary_.cavities;
       if (known.loss > tolerance_) return;
@@ -167,8 +171,11 @@ void RegularityProcess::visit(int v) {
   std::ranges::sort(candidates_, std::less<>());
   const auto same = std::ranges::unique(candidates_, {}, &Candidate::key);
   candidates_.erase(same.begin(), same.end());
-  for (std::size_t i = 0; i < candidates_.size() && i < kMostTrials; ++i)
-    if (attempt(candidates_[i])) return accept();
+  const long long tried = summary_.tried;
+  for (const Candidate& candidate : candidates_) {
+    if (attempt(candidate)) return accept();
+    if (summary_.tried == tried + kMostTrials) return;
+  }
 }
 
 /// The vertices of the rim and of the quads around it; those within are others before and after.
@@ -198,13 +205,16 @@ RegularityProcess::Quality RegularityProcess::quality() {
 /// Relocates the region; whether the loss of the mean gets as small as allowed.
 bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
   double last = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < kFillSweeps; ++sweep) {
-    for (const int v : region_) relocation_.step(v);
+  for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
+    if (sweep > 0)
+      for (const int v : region_) relocation_.step(v);
     const Quality after = quality();
     loss = before.mean - after.mean;
     if (after.least_sine >= least && loss <= allowed) return true;
-    if (sweep > 1 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
+    if (loss > hopeless) return false;
+    if (sweep > 2 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
     last = loss;
   }
   return false;

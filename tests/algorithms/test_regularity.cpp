@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -166,6 +167,27 @@ TEST(Regularity, SmallestMeshes) {
   doublet.n_boundary = 4;
   const QuadPatch one = regular(doublet, shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), FunctionSize(2));
   EXPECT_EQ(one.quads.size(), 1u);
+}
+
+TEST(Regularity, AllVerticesOnTheBoundary) {
+  // Eight quads around a hole.
+  PatchBoundary boundary = shapes::rectangle(3, 3, 3, 3);
+  QuadPatch mesh = grid_patch(3, 3);
+  std::vector<std::array<int, 4>> ring;
+  for (const auto& quad : mesh.quads)
+    if (std::ranges::any_of(quad, [&](int v) { return v < mesh.n_boundary; })) ring.push_back(quad);
+  ASSERT_EQ(ring.size(), 8u);
+  mesh.quads = ring;
+  const int n = mesh.n_boundary;
+  mesh.n_boundary = static_cast<int>(mesh.points.size());
+  // The hole's outline: sides that one quad has, between what were vertices inside.
+  for (const auto& quad : ring)
+    for (int k = 0; k < 4; ++k)
+      if (const int a = quad[k], b = quad[(k + 1) % 4]; a >= n && b >= n) boundary.edges.push_back({a, b});
+  boundary.points = mesh.points;
+  RegularitySummary summary;
+  EXPECT_EQ(regular(mesh, boundary, FunctionSize(1), {}, &summary).quads, mesh.quads);
+  EXPECT_EQ(summary.tried, 0);
 }
 
 TEST(Regularity, HoleOfThreeEdges) {

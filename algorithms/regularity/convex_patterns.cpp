@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "algorithms/regularity/convex_patterns.h"
+
+namespace delquad {
+
+namespace {
+
+/// What a centre on the rim counts more than one inside: those come last.
+constexpr double kRimStrain = 1000;
+
+/// An irregular vertex and the lines from it to places that stay: springs, in which each edge is as strong as
+/// the others.
+struct Hub {
+  struct Line {
+    Vec2 to;
+    double delta;
+    int edges;
+  };
+  void add(Vec2 to, double delta, int edges) {
+    lines.push_back({to, delta, edges});
+    pull += (1.0 / edges) * to;
+    weight += 1.0 / edges;
+  }
+  Vec2 rest() const { return (1 / weight) * pull; }
+  double strain(Vec2 at) const {
+    double sum = 0;
+    for (const Line& l : lines) sum += strain_of(at, l.to, l.edges, l.delta);
+    return sum;
+  }
+  std::vector<Line> lines;
+  Vec2 pull;          ///< sum of the ends, each over its edges
+  double weight = 0;  ///< sum of 1 / edges
+};
+
+/// Patterns of an outline without concave vertices, but no cuts.
+class ConvexSearch {
+ public:
+  ConvexSearch(const Outline& outline, const PolygonSides& sides) : outline_(outline), sides_(sides) {}
+
+  std::optional<Pattern> best() const;
+
+ private:
+  std::size_t place(int i) const {
+    const int n = static_cast<int>(outline_.places.size());
+    return static_cast<std::size_t>(((sides_.start + i) % n + n) % n);
+  }
+  int start(int side) const { return std::accumulate(sides_.edges.begin(), sides_.edges.begin() + side, 0); }
+  void add_line(Hub& hub, int i, int edges) const {
+    hub.add(outline_.places[place(i)], outline_.delta[place(i)], edges);
+  }
+  /// The arms of a star to its sides from `first` on, which follow each other on the outline from `at`. The
+  /// side that has its centre; negative: none.
+  int add_arms(Hub& hub, std::span<const int> sides, std::size_t first, int at) const;
+  Pattern grid() const;
+  Pattern star() const;
+  std::optional<Pattern> corner(int at, int along, int back) const;
+
+  const Outline& outline_;
+  const PolygonSides& sides_;
+};
+
+int ConvexSearch::add_arms(Hub& hub, std::span<const int> sides, std::size_t first, int at) const {
+  const std::array<int, 5> x = star_feet(sides).value();
+  const std::size_t n = sides.size();
+  std::size_t on = 0;
+  while (on < n && x[(on + 1) % n] > 0) ++on;
+  for (std::size_t i = first; i < n; ++i) {
+    // The arms beside a centre on the rim lie on the rim.
+    if (on == n || (i + n - on + 1) % n > 2) add_line(hub, at + x[i], x[(i + 1) % n]);
+    at += sides[i];
+  }
+  return on < n ? static_cast<int>(on) : -1;
+}
+
+Pattern ConvexSearch::grid() const {
+  Pattern pattern{Pattern::kGrid};
+  for (int i = 0; i < 2; ++i) {
+    const int half = sides_.edges[i] / 2, across = sides_.edges[1 - i];
+    const std::size_t from = place(start(i) + half), to = place(start(i + 2) + sides_.edges[i] - half);
+    pattern.strain += strain_of(outline_.places[from], outline_.places[to], across, outline_.delta[from]);
+  }
+  return pattern;
+}
+
+Pattern ConvexSearch::star() const {
+  Pattern pattern{Pattern::kStar};
+  Hub hub;
+  const int on = add_arms(hub, sides_.edges, 0, 0);
+  pattern.places = {on < 0 ? hub.rest()
+                           : outline_.places[place(start(on) + star_feet(sides_.edges).value()[on])]};
+  pattern.strain = hub.strain(pattern.places[0]);
+  return pattern;
+}
+
+std::optional<Pattern> ConvexSearch::corner(int at, int along, int back) const {
+  Pattern pattern{Pattern::kCorner, at, along, back};
+  const std::size_t n = sides_.edges.size() + 1;
+  const auto all = sides_without_corner(sides_.edges, at, along, back);
+  const auto rest = std::span(all).first(n);
+  const auto x = star_feet(rest).value();
+  const int corner = start(at), between = x[1] + std::abs(x[0] - along);
+  const std::size_t ahead = place(corner + along), behind = place(corner - back);
+  Hub three, star;
+  add_line(three, corner + along, back);
+  add_line(three, corner - back, along);
+  const int on = add_arms(star, rest, 1, corner + along);
+  Vec2 t = three.rest(), c = t;
+  if (on < 0) {
+    // Both pull at each other.
+    const double w = 1.0 / between, a = three.weight + w, b = star.weight + w, det = a * b - w * w;
+    t = (1 / det) * (b * three.pull + w * star.pull);
+    c = (1 / det) * (w * three.pull + a * star.pull);
+    pattern.strain = strain_of(t, c, between, outline_.delta[ahead]);
+  } else if (on > 0) {
+    const int foot = std::accumulate(rest.begin() + 1, rest.begin() + on, corner + along + x[on]);
+    c = outline_.places[place(foot)];
+  } else if (x[0] != along) {
+    const double far = x[0] < along ? double(x[0]) / along : double(rest[0] - x[0]) / back;
+    c = (1 - far) * outline_.places[x[0] < along ? behind : ahead] + far * t;
+  } else {
+    return std::nullopt;  // both irregular vertices would be one
+  }
+  pattern.places = {t, c};
+  pattern.strain += three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain);
+  return pattern;
+}
+
+std::optional<Pattern> ConvexSearch::best() const {
+  const auto& s = sides_.edges;
+  if (s.size() == 3 || s.size() == 5) return star_feet(s) ? std::optional(star()) : std::nullopt;
+  if (s.size() == 4 && s[0] == s[2] && s[1] == s[3]) return grid();
+  std::optional<Pattern> least;
+  if (s.size() == 2 || s.size() == 4)
+    any_corner(s, [&](int at, int along, int back) {
+      auto pattern = corner(at, along, back);
+      if (pattern && (!least || pattern->strain < least->strain)) least = std::move(pattern);
+      return false;
+    });
+  return least;
+}
+
+}  // namespace
+
+double strain_of(Vec2 a, Vec2 b, int edges, double delta) {
+  const double misfit = std::log(std::max(norm(a - b), 1e-3 * delta) / (edges * delta));
+  return edges * misfit * misfit;
+}
+
+std::optional<Pattern> best_convex(const Outline& outline, const PolygonSides& sides) {
+  return ConvexSearch(outline, sides).best();
+}
+
+}  // namespace delquad

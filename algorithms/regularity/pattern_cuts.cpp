@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "algorithms/regularity/convex_patterns.h"
+
+namespace delquad {
+
+namespace {
+
+/// Of a cut: its edges are at least and at most so many times as long as wanted.
+constexpr double kShortestEdge = 0.75, kLongestEdge = 1.4;
+/// How many cuts of an outline are followed, those with the least strain, and of each of its parts so many
+/// times less.
+constexpr int kMostCuts = 8, kFewerOfParts = 4;
+/// Corners of an outline, less concave vertices.
+constexpr int kFewestCorners = 2, kMostCorners = 8;
+
+/// Irregular vertices that corners ask for.
+int bound_of(int corners) { return std::abs(4 - corners); }
+
+/// Adds up the sides of a polygon that consists of a piece of an outline and a cut.
+class PartSides {
+ public:
+  /// `turn`: at the place where the piece begins.
+  explicit PartSides(int turn) : corners_(turn), at_corner_(turn == 1), convex_(turn >= 0) {}
+  /// On to the next place that has a turn, or to the end of the piece.
+  void go(int edges, int turn) {
+    edges_[last_] += edges;
+    corners_ += turn;
+    convex_ = convex_ && turn >= 0;
+    if (turn == 1 && last_ + 1 < edges_.size()) ++last_;
+  }
+  /// The least number of irregular vertices of its patterns, or less; none where it has none.
+  std::optional<int> close(int cut) {
+    if (corners_ < kFewestCorners || corners_ > kMostCorners) return std::nullopt;
+    if (!convex_ || corners_ > 5) return bound_of(corners_);
+    edges_[last_] += cut;
+    if (!at_corner_) edges_[last_] += edges_[0];
+    const int least = least_irregular_of(std::span(edges_).subspan(at_corner_ ? 0 : 1, corners_));
+    return least >= 0 ? std::optional(least) : std::nullopt;
+  }
+
+ private:
+  std::array<int, 7> edges_{};
+  std::size_t last_ = 0;
+  int corners_;
+  bool at_corner_, convex_;
+};
+
+struct Cut {
+  int from, along, back, to, edges;  ///< as Pattern has them
+  int irregular;                     ///< of its parts, or less
+  double strain;
+  friend bool operator<(const Cut& a, const Cut& b) {
+    return a.irregular != b.irregular ? a.irregular < b.irregular : a.strain < b.strain;
+  }
+};
+
+/// Finds the cuts of an outline of one loop.
+class CutSearch {
+ public:
+  /// Cuts that leave more than `most` irregular vertices are left out.
+  CutSearch(const Outline& outline, int most);
+
+  /// So many, those with the fewest irregular vertices first, of these those with the least strain.
+  std::vector<Cut> first(int n) &&;
+
+ private:
+  void between_sides(const PolygonSides& sides);
+  void try_ends(int from, int to);
+  std::optional<int> estimate(int from, int to, int turn_from, int turn_to, int cut) const;
+
+  const Outline& outline_;
+  int n_, most_;
+  std::vector<int> to_turn_;  ///< edges from each place to the next one that has a turn
+  std::vector<Cut> cuts_;
+};
+
+CutSearch::CutSearch(const Outline& outline, int most)
+    : outline_(outline), n_(static_cast<int>(outline.turn.size())), most_(most), to_turn_(n_, n_) {
+  for (int i = 2 * n_ - 1; i >= 0; --i)
+    to_turn_[i % n_] = outline.turn[(i + 1) % n_] != 0 ? 1 : std::min(to_turn_[(i + 1) % n_] + 1, n_);
+}
+
+std::vector<Cut> CutSearch::first(int n) && {
+  if (const auto sides = sides_of(outline_.turn)) {
+    between_sides(*sides);
+  } else {
+    const auto concave = std::ranges::find_if(outline_.turn, [](int t) { return t < 0; });
+    const int from = static_cast<int>(concave - outline_.turn.begin());
+    for (int k = 2; k <= n_ - 2 && from < n_; ++k) try_ends(from, (from + k) % n_);
+  }
+  const auto end = cuts_.begin() + std::min<std::ptrdiff_t>(n, std::ssize(cuts_));
+  std::partial_sort(cuts_.begin(), end, cuts_.end());
+  cuts_.erase(end, cuts_.end());
+  return std::move(cuts_);
+}
+
+/// Cuts that leave a pentagon.
+void CutSearch::between_sides(const PolygonSides& sides) {
+  const auto& s = sides.edges;
+  const int n = static_cast<int>(s.size());
+  if (n < 6) return;
+  std::vector<int> start{sides.start};
+  for (int i = 1; i < 2 * n; ++i) start.push_back(start.back() + s[(i - 1) % n]);
+  for (int i = 0; i < (n == 6 ? 3 : n); ++i)
+    for (int a = 1; a < s[i]; ++a)
+      for (int b = 1; b < s[(i + 3) % n]; ++b) try_ends((start[i] + a) % n_, (start[i + 3] + b) % n_);
+}
+
+void CutSearch::try_ends(int from, int to) {
+  if (outline_.turn[to] > 0) return;
+  const double delta = 0.5 * (outline_.delta[from] + outline_.delta[to]);
+  const Vec2 a = outline_.places[from], b = outline_.places[to];
+  const double length = norm(a - b) / delta;
+  const int most = static_cast<int>(std::min(1.0 * n_, length / kShortestEdge));
+  int cut = std::max(1, static_cast<int>(std::ceil(length / kLongestEdge)));
+  if ((cut + to - from + n_) % 2 != 0) ++cut;
+  const int all_from = 2 - outline_.turn[from], all_to = 2 - outline_.turn[to];
+  for (; cut <= most; cut += 2)
+    for (int at_from = 1; at_from < all_from; ++at_from)
+      for (int at_to = 1; at_to < all_to; ++at_to) {
+        const auto one = estimate(from, to, 2 - at_from, 2 - at_to, cut);
+        if (!one || *one > most_) continue;
+        const auto other = estimate(to, from, 2 - all_to + at_to, 2 - all_from + at_from, cut);
+        if (!other || *one + *other > most_) continue;
+        cuts_.push_back({from, at_from, at_to, to, cut, *one + *other, strain_of(a, b, cut, delta)});
+      }
+}
+
+std::optional<int> CutSearch::estimate(int from, int to, int turn_from, int turn_to, int cut) const {
+  PartSides part(turn_from);
+  int left = (to - from + n_) % n_;
+  for (int at = from; to_turn_[at] < left;) {
+    const int step = to_turn_[at];
+    at = (at + step) % n_, left -= step;
+    part.go(step, outline_.turn[at]);
+  }
+  part.go(left, turn_to);
+  return part.close(cut);
+}
+
+/// Makes outlines of pieces of another one.
+struct OutlineMaker {
+  const Outline& whole;
+  Outline made = {};
+
+  void add(int i, int turn) {
+    made.places.push_back(whole.places[i]), made.delta.push_back(whole.delta[i]), made.turn.push_back(turn);
+  }
+  /// The places between two of a loop.
+  void add_between(int from, int to, int begin, int end) {
+    for (int i = from + 1 < end ? from + 1 : begin; i != to; i = i + 1 < end ? i + 1 : begin)
+      add(i, whole.turn[i]);
+  }
+  void add_row(int from, int to, int edges) {
+    for (int i = 1; i < edges; ++i) {
+      const double t = double(i) / edges;
+      made.places.push_back((1 - t) * whole.places[from] + t * whole.places[to]);
+      made.delta.push_back((1 - t) * whole.delta[from] + t * whole.delta[to]);
+      made.turn.push_back(0);
+    }
+  }
+};
+
+Outline part_of(const Outline& whole, int from, int to, int turn_from, int turn_to, int cut) {
+  OutlineMaker maker{whole};
+  maker.add(from, turn_from);
+  maker.add_between(from, to, 0, static_cast<int>(whole.turn.size()));
+  maker.add(to, turn_to);
+  maker.add_row(to, from, cut);
+  return std::move(maker.made);
+}
+
+/// The best pattern of at most `most` irregular vertices; so many cuts are followed.
+std::optional<Pattern> search(const Outline& outline, int most, int n_cuts) {
+  if (const auto sides = sides_of(outline.turn))
+    if (auto pattern = best_convex(outline, *sides))
+      return irregular_vertices(*pattern) <= most ? pattern : std::nullopt;
+  if (n_cuts == 0) return std::nullopt;
+  std::optional<Pattern> best;
+  for (const Cut& c : CutSearch(outline, most).first(n_cuts)) {
+    if (c.irregular > most) break;
+    Pattern pattern{Pattern::kCut, c.from, c.along, c.back, c.to, c.edges};
+    pattern.strain = c.strain;
+    const Outline halves[2] = {
+        part_of(outline, c.from, c.to, 2 - c.along, 2 - c.back, c.edges),
+        part_of(outline, c.to, c.from, outline.turn[c.to] + c.back, outline.turn[c.from] + c.along, c.edges)};
+    for (const Outline& half : halves) {
+      auto part =
+          search(half, most - irregular_vertices(pattern), (n_cuts + kFewerOfParts / 2) / kFewerOfParts);
+      if (!part) break;
+      pattern.strain += part->strain;
+      pattern.parts.push_back(*std::move(part));
+    }
+    if (pattern.parts.size() < 2) continue;
+    const int irregular = irregular_vertices(pattern);
+    if (!best || irregular < most || pattern.strain < best->strain) best = std::move(pattern);
+    most = irregular;
+  }
+  return best;
+}
+
+}  // namespace
+
+int irregular_vertices(const Pattern& pattern) {
+  switch (pattern.kind) {
+    case Pattern::kGrid:
+      return 0;
+    case Pattern::kStar:
+      return 1;
+    case Pattern::kCorner:
+      return 2;
+    default:
+      int sum = 0;
+      for (const Pattern& part : pattern.parts) sum += irregular_vertices(part);
+      return sum;
+  }
+}
+
+std::optional<int> least_irregular(const Outline& outline, int most) {
+  if (const auto sides = sides_of(outline.turn); sides && sides->edges.size() < 6) {
+    const int least = least_irregular_of(sides->edges);
+    return least >= 0 && least <= most ? std::optional(least) : std::nullopt;
+  }
+  const auto pattern = best_pattern(outline, most);
+  return pattern ? std::optional(irregular_vertices(*pattern)) : std::nullopt;
+}
+
+std::optional<Pattern> best_pattern(const Outline& outline, int most) {
+  return search(outline, most, kMostCuts);
+}
+
+}  // namespace delquad
