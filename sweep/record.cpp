@@ -198,6 +198,15 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   };
   json["valences"] = counts_json(metrics.valences);
   json["quad_valences"] = counts_json(metrics.quad_valences);
+  if (metrics.pairs) {
+    Json burgers = Json::object();
+    for (const auto& [rows, count] : metrics.pairs->burgers)
+      burgers[std::to_string(rows[0]) + "," + std::to_string(rows[1])] = count;
+    json["irregular_pairs"] = {{"pairs", metrics.pairs->pairs},
+                               {"unpaired", metrics.pairs->unpaired},
+                               {"burgers", burgers},
+                               {"edges", counts_json(metrics.pairs->edges)}};
+  }
 }
 
 const char* name_of(Better better) {
