@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "cases/size_file.h"
 #include "delquad/error.h"
+#include "mesher/size_aware.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "sweep/versions.h"
@@ -172,6 +173,7 @@ Json cross_json(const PreparedProblem& p) {
     json["index_sum_quarters"] = p.index_sum_and_expected->first;
     json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
   }
+  json["row_ends"] = expected_row_ends(p);
   if (p.dislocations)
     json["expected_dislocations"] = {{"boundary", p.dislocations->first},
                                      {"size_aware", p.dislocations->second}};
