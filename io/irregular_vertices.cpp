@@ -1,11 +1,11 @@
 #include "io/irregular_vertices.h"
 
 #include "mesh/half_edges.h"
+#include "metrics/regularity.h"
 
 namespace delquad {
 
-std::vector<IrregularVertex> irregular_vertices(const Mesh& mesh, int regular,
-                                                const std::vector<double>& element_size) {
+IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size) {
   std::vector<int> valence(mesh.points.size(), 0);
   std::vector<double> size(mesh.points.size(), 0);
   for_each_element(mesh, [&](int element, const auto& v) {
@@ -14,13 +14,21 @@ std::vector<IrregularVertex> irregular_vertices(const Mesh& mesh, int regular,
       size[i] += element_size[element];
     }
   });
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() != 2) valence[edge[0].lo] = valence[edge[0].hi] = regular;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<int> shown = valence;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) shown[edge[0].lo] = shown[edge[0].hi] = regular;
   });
-  std::vector<IrregularVertex> irregular;
-  for (int i = 0; i < static_cast<int>(valence.size()); ++i) {
-    if (valence[i] != regular && valence[i] != 0) irregular.push_back({i, valence[i], size[i] / valence[i]});
-  }
+  IrregularVertices irregular;
+  if (mesh.triangles.empty())
+    for (const IrregularPair& pair : pair_irregular(mesh, sides).pairs) {
+      irregular.pairs.push_back({pair.few, pair.many});
+      if (shown[pair.few] == regular) shown[pair.few] = regular - 1;
+      if (shown[pair.many] == regular) shown[pair.many] = regular + 1;
+    }
+  for (int i = 0; i < static_cast<int>(valence.size()); ++i)
+    if (shown[i] != regular && valence[i] != 0)
+      irregular.vertices.push_back({i, shown[i], size[i] / valence[i]});
   return irregular;
 }
 

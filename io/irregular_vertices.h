@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -8,13 +9,18 @@ namespace delquad {
 
 struct IrregularVertex {
   int vertex;
-  int valence;
+  int valence;  ///< on the boundary, where it is that of a pair, as inside: 3 or 5
   double size;  ///< mean of the sizes of the elements around it
 };
 
-/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, ascending. element_size:
-/// by element, triangles first.
-std::vector<IrregularVertex> irregular_vertices(const Mesh& mesh, int regular,
-                                                const std::vector<double>& element_size);
+/// What pictures show.
+struct IrregularVertices {
+  std::vector<IrregularVertex> vertices;  ///< ascending
+  std::vector<std::array<int, 2>> pairs;  ///< of a mesh of quads, see pair_irregular()
+};
+
+/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, and those of pairs.
+/// element_size: by element, triangles first.
+IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size);
 
 }  // namespace delquad

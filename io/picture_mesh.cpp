@@ -68,16 +68,22 @@ class ElementPaths {
   std::map<std::pair<int, int>, Path> paths_;  // large elements first
 };
 
-/// Dots on interior vertices whose valence is not `regular`.
-std::vector<svg::Mark> irregular_marks(const Mesh& mesh, int regular, double scale) {
+/// Dots on irregular vertices, and lines that join pairs of them.
+std::vector<svg::Mark> add_irregular(const Mesh& mesh, int regular, Picture& picture) {
+  const double scale = picture.scale();
   std::vector<double> size;
   for_each_element(mesh, [&](int, const auto& v) { size.push_back(pixel_size(mesh, v, scale)); });
   constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the mean size of the elements around; pixels
   std::vector<svg::Mark> marks;
-  for (const auto& [vertex, valence, mean_size] : irregular_vertices(mesh, regular, size)) {
+  const IrregularVertices irregular = irregular_vertices(mesh, regular, size);
+  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
     const int index = std::abs(regular - valence) == 1 ? regular - valence : 0;
     marks.push_back({flat(mesh.points[vertex]), index, std::clamp(kRadius * mean_size, kLeast, kMost)});
   }
+  std::vector<std::array<Vec2, 2>> pairs;
+  for (const auto& [few, many] : irregular.pairs)
+    pairs.push_back({flat(mesh.points[few]), flat(mesh.points[many])});
+  picture.add_marks(marks, pairs);
   return marks;
 }
 
@@ -98,8 +104,7 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
   picture.add_outline(mesh, kOutlineWidth);
 
   const int regular = mesh.quads.empty() ? 6 : 4;
-  const std::vector<svg::Mark> marks = irregular_marks(mesh, regular, picture.scale());
-  picture.add_marks(marks);
+  const std::vector<svg::Mark> marks = add_irregular(mesh, regular, picture);
   if (!mesh.quads.empty()) {
     picture.add_colour_bar("eta",
                            {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});

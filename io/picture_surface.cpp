@@ -289,7 +289,9 @@ Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) 
   return path;
 }
 
-std::vector<svg::Mark> seen_irregular_vertices(const Mesh& mesh, const Raster& raster, double scale) {
+/// Dots on irregular vertices that are seen, and lines that join pairs of them.
+std::vector<svg::Mark> add_seen_irregular(const Mesh& mesh, const Raster& raster, Picture& picture) {
+  const double scale = picture.scale();
   std::vector<double> size;
   for_each_element(mesh, [&](int, const auto& v) {
     size.push_back(std::sqrt(std::abs(area_vector(mesh.points, v).z)) * scale);
@@ -297,13 +299,20 @@ std::vector<svg::Mark> seen_irregular_vertices(const Mesh& mesh, const Raster& r
   constexpr int kRegular = 4;
   constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the size of the elements around; pixels
   std::vector<svg::Mark> marks;
-  for (const IrregularVertex& irregular : irregular_vertices(mesh, kRegular, size)) {
-    const Vec3& p = mesh.points[irregular.vertex];
+  const IrregularVertices irregular = irregular_vertices(mesh, kRegular, size);
+  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
+    const Vec3& p = mesh.points[vertex];
     if (!raster.sees_point(p)) continue;
-    const int index = kRegular - irregular.valence;
+    const int index = kRegular - valence;
     marks.push_back(
-        {{p.x, p.y}, std::abs(index) == 1 ? index : 0, std::clamp(kRadius * irregular.size, kLeast, kMost)});
+        {{p.x, p.y}, std::abs(index) == 1 ? index : 0, std::clamp(kRadius * mean_size, kLeast, kMost)});
   }
+  std::vector<std::array<Vec2, 2>> pairs;
+  for (const auto& [few, many] : irregular.pairs) {
+    const Vec3 &p = mesh.points[few], &q = mesh.points[many];
+    if (raster.sees_point(p) && raster.sees_point(q)) pairs.push_back({Vec2{p.x, p.y}, Vec2{q.x, q.y}});
+  }
+  picture.add_marks(marks, pairs);
   return marks;
 }
 
@@ -319,8 +328,7 @@ void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std
   constexpr double kLineWidth = 1.1;
   picture.add(seen_lines(projected, raster, picture), "none", "#000", kLineWidth);
   if (!mesh.quads.empty()) {
-    const std::vector<svg::Mark> marks = seen_irregular_vertices(projected, raster, picture.scale());
-    picture.add_marks(marks);
+    const std::vector<svg::Mark> marks = add_seen_irregular(projected, raster, picture);
     picture.add_colour_bar("eta",
                            {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
     if (!marks.empty()) picture.add_mark_legend({{1, "valence 3"}, {-1, "valence 5"}, {0, "other valence"}});

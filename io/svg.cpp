@@ -138,6 +138,17 @@ void Picture::add_marks(const std::vector<Mark>& marks) {
   }
 }
 
+void Picture::add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs) {
+  has_pairs_ = !pairs.empty();
+  double width = 0;  // the marks' mean radius
+  for (const Mark& mark : marks) width += mark.radius / static_cast<double>(marks.size());
+  Path path;
+  for (const auto& [few, many] : pairs) path.segment(spot(few), spot(many));
+  add(path, "none", "#fff", 1.6 * width);
+  add(path, "none", kPairColour, 0.8 * width);
+  add_marks(marks);
+}
+
 void Picture::add_colour_bar(std::string_view title,
                              const std::vector<std::pair<double, std::string>>& labels) {
   auto out = std::back_inserter(legend_);
@@ -167,6 +178,12 @@ void Picture::add_mark_legend(const std::vector<std::pair<int, std::string>>& la
                    legend_y_ + 8, mark_colour(index), kBarWidth + 8, legend_y_ + 12, label);
     legend_y_ += kLineHeight;
   }
+  if (!has_pairs_) return;
+  fmt::format_to(
+      std::back_inserter(legend_),
+      "<path d=\"M0 {}h16\" stroke=\"{}\" stroke-width=\"2\"/><text x=\"{}\" y=\"{}\">pair</text>\n",
+      legend_y_ + 8, kPairColour, kBarWidth + 8, legend_y_ + 12);
+  legend_y_ += kLineHeight;
 }
 
 void Picture::write(const std::filesystem::path& path) const {

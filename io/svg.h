@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -43,6 +44,9 @@ std::string colour(double t);
 /// others.
 std::string_view mark_colour(int index);
 
+/// Of lines that join pairs of irregular vertices.
+inline constexpr const char* kPairColour = "#e26a00";
+
 /// A dot in the drawing.
 struct Mark {
   Vec2 at;
@@ -67,10 +71,12 @@ class Picture {
   /// Free edges of the mesh and its lines.
   void add_outline(const Mesh& mesh, double stroke_width);
   void add_marks(const std::vector<Mark>& marks);
+  /// Marks, and lines that join pairs of them.
+  void add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs);
 
   /// Colour bar: labels at positions in [0, 1].
   void add_colour_bar(std::string_view title, const std::vector<std::pair<double, std::string>>& labels);
-  /// Labels of marks by index, below the bar.
+  /// Labels of marks by index, below the bar, and of lines between pairs where there are any.
   void add_mark_legend(const std::vector<std::pair<int, std::string>>& labels);
 
   void write(const std::filesystem::path& path) const;
@@ -80,6 +86,7 @@ class Picture {
   double x0_, y1_, scale_;  ///< the model's left and upper bounds; pixels a unit
   double page_height_;      ///< below the title
   double legend_y_;         ///< first free line of the legend
+  bool has_pairs_ = false;
   std::string title_, body_, legend_;
 };
 

@@ -50,6 +50,11 @@ inline double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi /
 /// eta below 0.1, half of the angle over 90 degrees.
 inline constexpr double kLeastSharedAngle = 18 * std::numbers::pi / 180;
 
+/// How many quads best share an angle of the boundary that is so many right angles wide.
+inline int ideal_quads(double right_angles) {
+  return std::max(1, static_cast<int>(std::lround(right_angles)));
+}
+
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
 /// The least of them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "algorithms/insertion/frontal_mesher.h"
@@ -108,6 +109,20 @@ void make_crosses_size_aware(PreparedProblem& prepared) {
     if (!prepared.background) continue;  // singularities of surfaces would be points of parameter planes
     for (const Singularity& s : field->singularities()) prepared.singularities.push_back(s);
   }
+}
+
+double expected_row_ends(const PreparedProblem& prepared) {
+  if (prepared.dislocations) return prepared.dislocations->second;
+  std::vector<double> ends(prepared.patches.size());
+  parallel_for(
+      ends.size(),
+      [&](std::size_t i) {
+        const PreparedPatch& patch = prepared.patches[i];
+        const DoingFace face = doing_patch(prepared, i);
+        ends[i] = expected_dislocations(*resolve_size(patch), *patch.cross, *patch.size);
+      },
+      [&](std::size_t i) { return static_cast<double>(prepared.patches[i].boundary.points.size()); });
+  return std::reduce(ends.begin(), ends.end());
 }
 
 }  // namespace delquad

@@ -8,4 +8,8 @@ namespace delquad {
 /// that follows delta', so that it resolves it. Notes singularities, sum of indices and dislocations.
 void make_crosses_size_aware(PreparedProblem& prepared);
 
+/// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean:
+/// see expected_dislocations(). Takes about as long as D unless the fields are size-aware.
+double expected_row_ends(const PreparedProblem& prepared);
+
 }  // namespace delquad

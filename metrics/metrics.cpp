@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "mesh/half_edges.h"
+#include "metrics/regularity.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 
@@ -158,6 +159,18 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
   values["n_irregular"] = n_interior - n_regular;
 }
 
+void measure_regularity(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMetrics& metrics) {
+  if (mesh.quads.empty() || !mesh.triangles.empty()) return;
+  const PairedVertices paired = pair_irregular(mesh, sides);
+  metrics.values["n_necessary"] = paired.necessary;
+  metrics.values["n_beyond"] = paired.beyond;
+  metrics.pairs = {static_cast<long long>(paired.pairs.size()), paired.unpaired, {}, {}};
+  for (const IrregularPair& pair : paired.pairs) {
+    ++metrics.pairs->burgers[pair.burgers];
+    ++metrics.pairs->edges[pair.edges];
+  }
+}
+
 void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
   for (const OwnMetric& metric : own_metrics()) {
     const auto fail = [&](const std::string& why) { metrics.failures[metric.key] = why; };
@@ -204,6 +217,7 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   measure_shapes(mesh, metrics);
   measure_proportions(mesh, metrics.values);
   measure_topology(mesh, sides, metrics);
+  measure_regularity(mesh, sides, metrics);
   if (size != nullptr) {
     const bool has_layers = std::ranges::find(in_layers, 1) != in_layers.end();
     const auto outside = has_layers ? sides_outside(mesh, sides, in_layers) : std::vector<HalfEdge>();

@@ -104,12 +104,15 @@ double shortest_edge(const Mesh& mesh) {
 void put_irregular(const Mesh& mesh, const Numbering& numbering, PackedMesh& packed, Numbers& out) {
   const int regular = mesh.quads.empty() ? 6 : 4;
   std::vector<double> sizes(mesh.triangles.size() + mesh.quads.size(), 1);
-  const auto vertices = irregular_vertices(mesh, regular, sizes);
+  const auto [vertices, pairs] = irregular_vertices(mesh, regular, sizes);
   packed.irregular = vertices.size();
+  packed.pairs = pairs.size();
   for (const IrregularVertex& v : vertices) {
     out.put(static_cast<std::uint64_t>(numbering.number(v.vertex)));
     out.put(static_cast<std::uint64_t>(v.valence));
   }
+  for (const auto& pair : pairs)
+    for (const int v : pair) out.put(static_cast<std::uint64_t>(numbering.number(v)));
 }
 
 void put_places(const Mesh& mesh, const std::vector<int>& order, PackedMesh& packed, Numbers& out) {

@@ -117,8 +117,10 @@ Json glossary_json() {
     if (*time.step != 0) json["steps"].push_back(time.step);
   json["steps"].push_back("peer");
   for (int k = 0; k < kColours; ++k) json["colours"].push_back(svg::colour((k + 0.5) / kColours));
-  json["marks"] = {
-      {"one less", svg::mark_colour(1)}, {"one more", svg::mark_colour(-1)}, {"other", svg::mark_colour(0)}};
+  json["marks"] = {{"one less", svg::mark_colour(1)},
+                   {"one more", svg::mark_colour(-1)},
+                   {"other", svg::mark_colour(0)},
+                   {"pair", svg::kPairColour}};
   return json;
 }
 

@@ -69,18 +69,20 @@ Json means_json(std::span<const CellRecord* const> cells, const std::vector<Tabl
 }
 
 Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns) {
-  Json keys = Json::array(), cells = Json::array();
+  Json keys = Json::array(), cells = Json::array(), cases = Json::array();
   for (const TableColumn& column : columns)
     if (is_known(records, column.key)) keys.push_back({{"key", column.key}, {"title", column.title}});
   Names sheets, words;
   for (const CellRecord& record : records) {
     if (!record.reason.empty()) continue;
     Json cell = {sheets.of(row_group(record)), words.of(record.pipeline)};
+    if (cases.size() < sheets.list().size()) cases.push_back(record.name);
     for (const Json& key : keys)
       cell.push_back(brief_number(value_of(record, key["key"].get<std::string>())));
     cells.push_back(std::move(cell));
   }
-  return {{"sheets", sheets.list()}, {"words", words.list()}, {"keys", keys}, {"cells", cells}};
+  return {
+      {"sheets", sheets.list()}, {"cases", cases}, {"words", words.list()}, {"keys", keys}, {"cells", cells}};
 }
 
 Json brief_number(double value) {

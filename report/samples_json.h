@@ -19,8 +19,9 @@ std::string seed_of(const CellRecord& record);
 /// width of their 95 % confidence intervals, by column key. Empty where no pipeline has two.
 Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
 
-/// What the cells that are done have in each column, for charts of their spread: `sheets`, `words` and
-/// `keys`, and `cells`, each with the places of its sheet and word, then a value or null for each key.
+/// What the cells that are done have in each column, for charts of their spread: `sheets` with
+/// their `cases`, `words` and `keys`, and `cells`, each with the places of its sheet and word, then a value
+/// or null for each key.
 Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
 
 /// With five digits, more than a chart shows; null of NaN.

@@ -273,6 +273,7 @@ class Page {
                     {"quads", packed.quads},
                     {"lines", packed.lines},
                     {"irregular", packed.irregular},
+                    {"pairs", packed.pairs},
                     {"origin", packed.origin},
                     {"unit", packed.unit}};
   }

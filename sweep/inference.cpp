@@ -98,6 +98,7 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
   for (const std::string& key : study.columns) {
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
     if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
+    if (key == kRowEnds) columns.push_back({key, "row ends", 0});
     if (const auto metric = metric_of(key, own)) columns.push_back({key, metric->title, metric->digits});
     for (const StepTime& step : step_times_of_tables())
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "cases/size_file.h"
 #include "delquad/error.h"
+#include "mesher/size_aware.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "sweep/versions.h"
@@ -172,6 +173,7 @@ Json cross_json(const PreparedProblem& p) {
     json["index_sum_quarters"] = p.index_sum_and_expected->first;
     json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
   }
+  json["row_ends"] = expected_row_ends(p);
   if (p.dislocations)
     json["expected_dislocations"] = {{"boundary", p.dislocations->first},
                                      {"size_aware", p.dislocations->second}};
@@ -198,6 +200,15 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   };
   json["valences"] = counts_json(metrics.valences);
   json["quad_valences"] = counts_json(metrics.quad_valences);
+  if (metrics.pairs) {
+    Json burgers = Json::object();
+    for (const auto& [rows, count] : metrics.pairs->burgers)
+      burgers[std::to_string(rows[0]) + "," + std::to_string(rows[1])] = count;
+    json["irregular_pairs"] = {{"pairs", metrics.pairs->pairs},
+                               {"unpaired", metrics.pairs->unpaired},
+                               {"burgers", burgers},
+                               {"edges", counts_json(metrics.pairs->edges)}};
+  }
 }
 
 const char* name_of(Better better) {

@@ -16,6 +16,7 @@
 #include "sweep/experiment.h"
 #include "sweep/json_problem.h"
 #include "sweep/study_file.h"
+#include "sweep/table.h"
 
 namespace delquad {
 namespace {
@@ -84,6 +85,7 @@ CellRecord parse(const Json& json) {
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
   record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
+  record.values[kRowEnds] = number(json.value("/cross_field/row_ends"_json_pointer, Json()));
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);

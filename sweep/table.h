@@ -41,6 +41,8 @@ struct TableRow {
 
 /// The column that says of how many runs the values are.
 inline constexpr const char* kRuns = "n";
+/// Of the problem, not the mesh: rows of quads that are expected to end.
+inline constexpr const char* kRowEnds = "row_ends";
 
 /// The second column, where it says so when meshes are not sound or runs have failed.
 std::string shown_name(const TableRow& row);

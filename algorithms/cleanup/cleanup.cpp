@@ -50,7 +50,7 @@ int count_irregular(const QuadPatch& mesh) {
     int ideal = 4;
     if (v < angle.size()) {
       const double turns = angle[v] / (2 * std::numbers::pi);
-      ideal = std::max(1, static_cast<int>(std::lround(4 * (turns - std::ceil(turns) + 1))));
+      ideal = ideal_quads(4 * (turns - std::ceil(turns) + 1));
     }
     irregular += valence[v] > 0 && valence[v] != ideal;
   }

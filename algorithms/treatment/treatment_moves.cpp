@@ -59,7 +59,7 @@ ValenceEnergy::ValenceEnergy(const QuadTopology& mesh) : mesh_(mesh) {
       if (angle <= 0) angle += 2 * std::numbers::pi;
     }
     angle /= std::numbers::pi / 2;
-    ideal_.push_back({angle, std::max(1, static_cast<int>(std::lround(angle)))});
+    ideal_.push_back({angle, ideal_quads(angle)});
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,15 @@ struct Histogram {
   std::vector<long long> counts;
 };
 
+/// How irregular vertices of a mesh of quads pair, one of too few quads with one of too many: such a pair
+/// ends rows of quads. metrics/regularity.h says which are a pair.
+struct PairCounts {
+  long long pairs = 0;
+  long long unpaired = 0;                           ///< irregular vertices; one that lacks two quads twice
+  std::map<std::array<int, 2>, long long> burgers;  ///< pairs by rows that end, in either direction
+  std::map<int, long long> edges;                   ///< pairs by edges between the two
+};
+
 struct MeshMetrics {
   /// By key; NaN where a measure is not defined (eta of a mesh without quads; tau without a size field).
   std::map<std::string, double> values;
@@ -59,6 +70,7 @@ struct MeshMetrics {
   std::map<int, long long> valences;            ///< interior vertices by number of incident elements
   /// Interior vertices that no triangle is at, by number of incident quads: d4 is the share at 4.
   std::map<int, long long> quad_valences;
+  std::optional<PairCounts> pairs;  ///< none of meshes with triangles
 };
 
 /// Measures of a mesh in space [paper, section 6]. `size` may be null: then tau and what else is measured

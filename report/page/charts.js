@@ -88,19 +88,21 @@ const powersBetween = (low, high) => {
   return powers;
 };
 
-/// Axes in powers of ten around points [x, y]; returns the chart and the maps to it.
-function logAxes(points, titles, label) {
+/// Axes around points [x, y], in powers of ten where `powers` says so; returns the chart and the maps to it.
+function axesAround(points, titles, label, powers = [true, true]) {
   const width = chartWidth(), height = 330, left = 64, right = 30, top = 12, bottom = 44;
-  const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
-  const range = (values) => {
-    const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values)), room = 0.08 * Math.max(high - low, 0.5);
+  const scaled = (v, k) => (powers[k] ? Math.log10(v) : v);
+  const range = (k) => {
+    const values = points.map((p) => scaled(p[k], k)), low = Math.min(...values), high = Math.max(...values);
+    const room = 0.08 * (powers[k] ? Math.max(high - low, 0.5) : high - low || 1);
     return [low - room, high + room];
   };
-  const [x0, x1] = range(xs), [y0, y1] = range(ys);
-  const x = (v) => left + ((width - left - right) * (Math.log10(v) - x0)) / (x1 - x0);
-  const y = (v) => height - bottom - ((height - top - bottom) * (Math.log10(v) - y0)) / (y1 - y0);
+  const [x0, x1] = range(0), [y0, y1] = range(1);
+  const x = (v) => left + ((width - left - right) * (scaled(v, 0) - x0)) / (x1 - x0);
+  const y = (v) => height - bottom - ((height - top - bottom) * (scaled(v, 1) - y0)) / (y1 - y0);
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
-  const ticks = (low, high, add) => {
+  const ticks = (k, low, high, add) => {
+    if (!powers[k]) return roundTicks(low, high).forEach(add);
     const factors = high - low < 0.6 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : high - low < 2.5 ? [1, 2, 5] : [1];
     for (const e of powersBetween(10 ** low, 10 ** high))
       for (const m of factors) {
@@ -108,10 +110,10 @@ function logAxes(points, titles, label) {
         if (Math.log10(v) >= low && Math.log10(v) <= high) add(v);
       }
   };
-  const short = (v) => (v >= 1000 ? grouped(v) : String(Number(v.toPrecision(2))));
-  ticks(x0, x1, (v) => chart.append(svg("path", { d: `M${x(v)} ${top}V${height - bottom}`, class: "grid" }),
+  const short = (v) => (v >= 1000 ? grouped(v) : String(Number(v.toPrecision(3))));
+  ticks(0, x0, x1, (v) => chart.append(svg("path", { d: `M${x(v)} ${top}V${height - bottom}`, class: "grid" }),
     text(x(v), height - bottom + 15, short(v), { "text-anchor": "middle", class: "soft" })));
-  ticks(y0, y1, (v) => chart.append(svg("path", { d: `M${left} ${y(v)}H${width - right}`, class: "grid" }),
+  ticks(1, y0, y1, (v) => chart.append(svg("path", { d: `M${left} ${y(v)}H${width - right}`, class: "grid" }),
     text(left - 6, y(v) + 4, short(v), { "text-anchor": "end", class: "soft" })));
   chart.append(svg("path", { d: `M${left} ${top}V${height - bottom}H${width - right}`, fill: "none", class: "axis" }),
     text((left + width - right) / 2, height - 6, titles[0], { "text-anchor": "middle" }),
@@ -122,7 +124,7 @@ function logAxes(points, titles, label) {
 /// Seconds by number of elements, both in powers, with the laws that were fitted.
 function growthChart(growth, words) {
   const all = growth.flatMap((g) => g.points);
-  const { chart, x, y } = logAxes(all, ["elements", "seconds"], "Seconds by number of elements, both axes logarithmic");
+  const { chart, x, y } = axesAround(all, ["elements", "seconds"], "Seconds by number of elements, both axes logarithmic");
   for (const { word, points, law } of growth) {
     const colour = wordColour(words, word), sizes = points.map((p) => p[0]);
     if (law) {
@@ -134,6 +136,20 @@ function growthChart(growth, words) {
         svg("title", {}, `${word}, ${group}: ${grouped(n)} elements, ${seconds(s)}`)));
   }
   return addLegend(chart, [...new Set(growth.map((g) => g.word))].map((word) => [word, wordColour(words, word)]));
+}
+
+/// One measure against another over what varies: a line for each case, `lines` of { of, word, points: [x, y, name] }.
+function tradeChart(lines, titles) {
+  const all = lines.flatMap((line) => line.points), cases = [...new Set(lines.map((line) => line.of))];
+  const { chart, x, y } = axesAround(all, titles, `${titles[1]} against ${titles[0]}`, [false, all.every((p) => p[1] > 0)]);
+  for (const { of, word, points } of lines) {
+    const colour = wordColour(cases, of), varies = points.some((p) => p[0] !== points[0][0] || p[1] !== points[0][1]);
+    chart.append(svg("path", { d: `M${points.map((p) => `${x(p[0])} ${y(p[1])}`).join("L")}`, stroke: colour, "stroke-width": 1.5, fill: "none" }));
+    for (const [px, py, name] of varies ? points : points.slice(0, 1))
+      chart.append(svg("circle", { cx: x(px), cy: y(py), r: 3.6, fill: varies ? colour : "none", stroke: colour },
+        svg("title", {}, `${name}, ${word}: ${titles[1]} ${grouped(py)}, ${titles[0]} ${Number(px.toPrecision(4))}`)));
+  }
+  return addLegend(chart, cases.map((of) => [of, wordColour(cases, of)]));
 }
 
 /// By which power of the number of elements time grows, as far as it is known.

@@ -43,13 +43,14 @@ async function unpackMesh(info) {
   const eta = Uint8Array.from({ length: info.quads }, () => reader.next());
   const lines = reader.vertices(2 * info.lines);
   const irregular = Array.from({ length: info.irregular }, () => ({ vertex: reader.next(), valence: reader.next() }));
+  const pairs = Uint32Array.from({ length: 2 * info.pairs }, () => reader.next());
   const axes = [];
   for (let k = 0; k < info.dimension; ++k) {
     let at = 0;
     axes.push(Float64Array.from({ length: info.points }, () => info.origin[k] + (at += reader.signed()) * info.unit));
   }
   const [x, y, z = new Float64Array(info.points)] = axes;
-  return { x, y, z, triangles, quads, around, eta, lines, irregular, regular: info.quads > 0 ? 4 : 6 };
+  return { x, y, z, triangles, quads, around, eta, lines, irregular, pairs, regular: info.quads > 0 ? 4 : 6 };
 }
 
 /// Calls visit(corners, number of corners, place of the first, colour class or -1) for each element.

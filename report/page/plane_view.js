@@ -164,24 +164,26 @@ class PlaneView {
       pen.lineWidth = Math.min(1.2, 0.06 * size);
       paint(elements, false);
     }
-    this.drawLines(pen, mesh, x, y, line);
-    for (const { vertex, valence } of mesh.irregular) {
-      const radius = Math.min(5, 0.2 * prepared.around[vertex] * scale);
-      if (radius < 0.4) continue;
+    this.drawLines(pen, mesh.lines, x, y, line, 1);
+    const dots = mesh.irregular.map(({ vertex }) => Math.min(5, 0.2 * prepared.around[vertex] * scale));
+    const mean = dots.reduce((sum, r) => sum + r, 0) / (dots.length || 1);
+    if (mean >= 0.4) this.drawLines(pen, mesh.pairs, x, y, kMarks.pair, 0.8 * mean);
+    mesh.irregular.forEach(({ vertex, valence }, i) => {
+      if (dots[i] < 0.4) return;
       pen.fillStyle = markColour(valence, mesh.regular);
       pen.beginPath();
-      pen.arc(x(vertex), y(vertex), radius, 0, 7);
+      pen.arc(x(vertex), y(vertex), dots[i], 0, 7);
       pen.fill();
-    }
+    });
     marks.forEach((at, i) => drawPin(pen, width / 2 + (at[0] - centre[0]) * scale, height / 2 - (at[1] - centre[1]) * scale, i + 1, width));
   }
-  drawLines(pen, mesh, x, y, colour) {
+  drawLines(pen, ends, x, y, colour, width) {
     pen.strokeStyle = colour;
-    pen.lineWidth = 1;
+    pen.lineWidth = width;
     pen.beginPath();
-    for (let i = 0; i < mesh.lines.length; i += 2) {
-      pen.moveTo(x(mesh.lines[i]), y(mesh.lines[i]));
-      pen.lineTo(x(mesh.lines[i + 1]), y(mesh.lines[i + 1]));
+    for (let i = 0; i < ends.length; i += 2) {
+      pen.moveTo(x(ends[i]), y(ends[i]));
+      pen.lineTo(x(ends[i + 1]), y(ends[i + 1]));
     }
     pen.stroke();
   }

@@ -9,6 +9,7 @@ const kAboutLetters = {
   G: "merges pairs of triangles to quads, the best first, one by one; some triangles are left",
   T: "splits, joins and moves the triangles' edges until they are halves of squares, then merges good pairs; some triangles are left",
   C: "changes how quads hang together, so that fewer vertices are irregular",
+  Q: "fills the surroundings of irregular vertices anew, so that those that are not necessary go",
   O: "moves all vertices together for better shapes and sizes",
 };
 

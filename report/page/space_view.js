@@ -89,7 +89,8 @@ function makeScene(mesh) {
     byColour.set(colour, [...(byColour.get(colour) || []), vertex]);
   }
   for (const [colour, vertices] of byColour) dots.push(makeDots(mesh, vertices, colour));
-  if (dots.length > 0) scene.add(...dots);
+  dots.push(makeSegments(mesh, Array.from(mesh.pairs), kMarks.pair, 1));  // seen where dots are
+  scene.add(...dots);
   return { scene, faces, edges, dots, edge: (meanLength(mesh, ends) * mesh.around) / 4 };
 }
 

@@ -77,6 +77,32 @@ class SpreadView {
     this.node.append(el("h3", {}, "Spread"), el("div", { class: "choices" }, metricField, sheetField), this.place, el("p", { class: "caption" },
       "Boxes from the first to the third quartile, with the median; whiskers to the last value within 1.5 times the box; dots for what is beyond, and for words with fewer than five values."));
     this.show();
+    this.addTrade();
+  }
+  /// What fewer irregular vertices cost, where cases come in variants enough.
+  addTrade() {
+    const { cases, keys } = this.data, of = keys.findIndex(({ key }) => key === "n_irregular");
+    const variants = cases.map((name) => cases.filter((other) => other === name).length);
+    if (of < 0 || Math.max(...variants) < kFewestForSpread) return;
+    const charts = ["tau", "eta_mean"].map((key) => keys.findIndex((k) => k.key === key)).filter((k) => k >= 0).map((k) => {
+      const titles = [keys[k].title, keys[of].title];
+      return chartFigure("", fileName(this.study.name, ...titles), tradeChart(this.linesOf(k, of), titles));
+    });
+    this.node.append(el("h3", {}, "Irregular vertices, and what fewer cost"), el("div", { class: "growth trade" }, charts), el("p", { class: "caption" },
+      "A line for each case over its variants, in their order; a ring for a word on which they have no effect. Towards the lower right is better."));
+  }
+  /// A line for each case and word; points are means over seeds.
+  linesOf(a, b) {
+    const { cases, cells, sheets, words } = this.data, lines = new Map();
+    const mean = (values) => values.reduce((sum, v) => sum + v, 0) / values.length;
+    sheets.forEach((sheet, s) => words.forEach((word, w) => {
+      const known = cells.filter((cell) => cell[0] === s && cell[1] === w && cell[2 + a] !== null && cell[2 + b] !== null);
+      if (known.length === 0) return;
+      const key = `${cases[s]} ${word}`, line = lines.get(key) || { of: cases[s], word, points: [] };
+      line.points.push([mean(known.map((cell) => cell[2 + a])), mean(known.map((cell) => cell[2 + b])), sheet]);
+      lines.set(key, line);
+    }));
+    return [...lines.values()];
   }
   show() {
     const { words, keys, cells, sheets } = this.data, k = Number(this.metric.value), s = Number(this.sheet.value);

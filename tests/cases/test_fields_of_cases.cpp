@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/insertion_options.h"
 #include "cases/case_file.h"
@@ -7,6 +9,7 @@
 #include "mesher/prepare.h"
 #include "mesher/recombination_options.h"
 #include "mesher/runner.h"
+#include "mesher/size_aware.h"
 #include "smoothing/optimisation/optimisation_options.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -258,6 +261,18 @@ TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
     for (const char* metric : {"eta_mean", "d4", "tau"})
       EXPECT_GT(after.at(metric), before.at(metric)) << word;
   }
+}
+
+TEST_F(Cases, RowsEndWhereCirclesDiffer) {
+  const std::string ring =
+      "loop = [{ circle = { centre = [0, 0], radius = 1 } }, { circle = { centre = [0, 0], radius = 0.4 } "
+      "}]\n";
+  // The circles' difference, and what the absolute value makes of the background mesh's noise.
+  const double ends = expected_row_ends(prepare_case(read(ring + "size = 0.025\n")));
+  EXPECT_NEAR(ends, 2 * std::numbers::pi * 0.6 / 0.025, 30);
+  EXPECT_NEAR(expected_row_ends(prepare_case(read(square_ + "size = 0.025\n"))), 0, 1e-6);
+  const PreparedProblem aware = prepare_case(read(ring + "size = 0.025\ncross = \"size-aware\"\n"));
+  EXPECT_EQ(expected_row_ends(aware), ends);
 }
 
 // The finer the mesh, the more rows end; the size-aware field keeps its part of them.

@@ -87,6 +87,18 @@ TEST(DrawMesh, MarksIrregularVerticesByValence) {
   EXPECT_EQ(count(text, std::string(svg::mark_colour(1))), 1u);
 }
 
+TEST(DrawMesh, JoinsPairsOfIrregularVertices) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(6, 5);
+  // The edge in the middle is turned: two pairs.
+  mesh.quads[14] = {16, 17, 18, 23};
+  mesh.quads[15] = {18, 25, 24, 23};
+  draw_mesh(folder / "a.svg", mesh, "");
+  const std::string text = read_text(folder / "a.svg");
+  EXPECT_EQ(count(text, svg::kPairColour), 2u) << "the lines, and once in the legend";
+  EXPECT_EQ(count(text, ">pair<"), 1u);
+}
+
 TEST(DrawMesh, OfTrianglesHasNoColourBar) {
   const TemporaryFolder folder;
   draw_mesh(folder / "a.svg", triangle_grid(4, 4), "");

@@ -52,6 +52,10 @@ class Unpacker {
       const auto vertex = static_cast<int>(next());
       irregular.emplace_back(vertex, static_cast<int>(next()));
     }
+    for (std::size_t i = 0; i < packed_.pairs; ++i) {
+      const auto few = static_cast<int>(next());
+      pairs.emplace_back(few, static_cast<int>(next()));
+    }
     mesh.points.resize(packed_.points);
     double Vec3::*const axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (int k = 0; k < 3; ++k) {
@@ -70,7 +74,7 @@ class Unpacker {
 
   std::vector<int> eta;
   std::vector<std::vector<int>> polygons;  ///< of quads
-  std::vector<std::pair<int, int>> irregular;
+  std::vector<std::pair<int, int>> irregular, pairs;
 
  private:
   std::uint64_t next() {
@@ -161,10 +165,26 @@ TEST(PackedMesh, JoinsTheNodesOfCurvedElements) {
   }
 }
 
+TEST(PackedMesh, NamesPairsOfIrregularVertices) {
+  Mesh mesh = quad_grid(6, 5, 6, 5);
+  // The edge from (3, 2) to (3, 3) is turned.
+  mesh.quads[14] = {16, 17, 18, 23};
+  mesh.quads[15] = {18, 25, 24, 23};
+  const PackedMesh packed = pack_mesh(mesh);
+  EXPECT_EQ(packed.irregular, 4u);
+  Unpacker unpacker(packed);
+  const Mesh read = unpacker.run();
+  ASSERT_EQ(unpacker.pairs.size(), 2u);
+  for (const auto& [few, many] : unpacker.pairs) {
+    EXPECT_NEAR(read.points[few].x, 3, packed.unit);
+    EXPECT_NEAR(norm(read.points[few] - read.points[many]), 1, 2 * packed.unit);
+  }
+}
+
 TEST(PackedMesh, NamesIrregularVerticesAndEta) {
-  // Three quads around a vertex.
+  // Three quads around a vertex of a triangle.
   Mesh mesh;
-  mesh.points = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}};
+  mesh.points = {{0, 0, 0}, {2, 1, 0}, {0, 4, 0}, {-2, 1, 0}, {-4, -2, 0}, {0, -2, 0}, {4, -2, 0}};
   mesh.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 1}};
   mesh.quad_region = {0, 0, 0};
   mesh.regions = {{1, {}}};
