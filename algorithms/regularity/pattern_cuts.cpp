@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "algorithms/regularity/convex_patterns.h"
 
@@ -54,7 +55,8 @@ struct Cut {
   int irregular;                     ///< of its parts, or less
   double strain;
   friend bool operator<(const Cut& a, const Cut& b) {
-    return a.irregular != b.irregular ? a.irregular < b.irregular : a.strain < b.strain;
+    return std::tie(a.irregular, a.strain, a.from, a.to, a.along, a.back, a.edges) <
+           std::tie(b.irregular, b.strain, b.from, b.to, b.along, b.back, b.edges);
   }
 };
 

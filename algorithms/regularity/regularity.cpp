@@ -208,6 +208,7 @@ bool RegularityProcess::settles(const Quality& before, double allowed, double& l
   const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
   double last = std::numeric_limits<double>::infinity();
   for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
+    if (sweep == 1) ++summary_.tried;
     if (sweep > 0)
       for (const int v : region_) relocation_.step(v);
     const Quality after = quality();
@@ -230,7 +231,6 @@ bool RegularityProcess::attempt(const Candidate& candidate) {
   const std::optional<Pattern> pattern = best_pattern(rim, known.least);
   known.loss = std::numeric_limits<double>::infinity();
   if (!pattern) return false;
-  ++summary_.tried;
   collect_region();
   const std::size_t n_outer = region_.size();
   for (const int v : cavity_.vertices())

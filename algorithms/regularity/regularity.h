@@ -7,7 +7,7 @@
 namespace delquad {
 
 struct RegularityOptions {
-  double tolerance = 2;  ///< what an irregular vertex less may cost in the last round; none in the first
+  double tolerance = 3;  ///< what an irregular vertex less may cost in the last round; none in the first
   int quads = 300;       ///< of a cavity, at most
   int rounds = 4;        ///< over which the tolerance grows
 };
