@@ -169,6 +169,12 @@ bool is_kept(const char* key, double good, const RunResult& after, const RunResu
   return after.metrics.values.at(key) > std::min(good, before.metrics.values.at(key)) - kRounding;
 }
 
+/// With fewer irregular vertices, and as near to its size.
+bool is_more_regular(const RunResult& after, const RunResult& before) {
+  return after.metrics.values.at("n_irregular") < before.metrics.values.at("n_irregular") &&
+         is_kept("tau", kGoodTau, after, before);
+}
+
 /// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
 bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
@@ -177,8 +183,7 @@ bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
     return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
   };
   if (is_given) return score(after) > score(before);
-  return value(after, "n_irregular") < value(before, "n_irregular") &&
-         is_kept("eta_worst", kGoodEta, after, before) && is_kept("tau", kGoodTau, after, before);
+  return is_more_regular(after, before) && is_kept("eta_worst", kGoodEta, after, before);
 }
 
 /// Throws InputError where that cannot be.
@@ -189,6 +194,7 @@ RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_qua
   if (!prepared.given_entities) {
     const double tolerance = options.number("regularity.tolerance");
     options.set("regularity.tolerance", std::min(kDearer * tolerance, kMostDear));
+    options.set("repair.lift_bad_quads", false);  // what can be lifted was
   }
   UncutMesh start = without_cuts(*prepared.surface, before.mesh);
   UncutMesh made = run_with_other_cuts(prepared, of_quads, options, regions, start);
@@ -196,7 +202,8 @@ RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_qua
   after.mesh = made.mesh;
   measure(prepared, left_out, after);
   const Stages moving = with_letters(of_quads, "O");
-  if (prepared.given_entities || moving.empty() || is_kept("eta_worst", kGoodEta, after, before))
+  if (prepared.given_entities || moving.empty() || !is_more_regular(after, before) ||
+      is_kept("eta_worst", kGoodEta, after, before))
     return after;
   // Nodes on these cuts could not go anywhere.
   made = run_with_other_cuts(prepared, moving, options, regions, made);
