@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "base/stopwatch.h"
+#include "delquad/error.h"
 #include "mesh/nearest_triangle.h"
 #include "mesher/prepare_surface.h"
 
@@ -12,6 +14,22 @@ namespace delquad {
 namespace {
 
 constexpr double kNoFeatures = 180;
+/// With other cuts an irregular vertex less may cost so many times as much as before: few are left then, and
+/// far apart.
+constexpr double kDearer = 8, kMostDear = 100;
+/// What is made with other cuts is not worse than these (eta, %), or than what there was.
+constexpr double kGoodEta = 0.6, kGoodTau = 91;
+constexpr double kRounding = 1e-9;
+
+using NodePlaces = std::set<std::array<double, 3>>;
+using Stages = std::vector<const Stage*>;
+
+/// What became of the stages that ran once more, with other cuts.
+struct AcrossCutsSummary {
+  int faces = 0;  ///< with cuts, on which they ran
+  int taken = 0;  ///< 1: the mesh is what they made
+  int irregular_before = 0, irregular_after = 0;
+};
 
 /// The facets that were given, face by face.
 class FacetProjector final : public SurfaceProjector {
@@ -52,46 +70,187 @@ class FacetProjector final : public SurfaceProjector {
   std::vector<std::unique_ptr<NearestTriangle>> facets_;
 };
 
-}  // namespace
+/// The true faces of a model.
+class TrueFaces final : public SurfaceProjector {
+ public:
+  TrueFaces(std::shared_ptr<const SurfaceProjector> model, std::vector<int> face_of)
+      : model_(std::move(model)), face_of_(std::move(face_of)) {}
+  Vec3 to_face(int face, const Vec3& x) const override { return model_->to_face(face_of_[face], x); }
+  Vec3 to_curve(int, const Vec3& x) const override { return x; }
 
-Mesh run_across_cuts(const PreparedProblem& prepared, const std::vector<const Stage*>& stages,
-                     const Mesh& result, StageLog& log) {
-  const PreparedSurface& surface = *prepared.surface;
-  GivenMesh start{result, prepared.name};
-  std::set<int> cuts, on_cuts;
-  for (const SurfaceCut& cut : surface.cuts) cuts.insert(cut.curve);
+ private:
+  std::shared_ptr<const SurfaceProjector> model_;
+  std::vector<int> face_of_;
+};
+
+std::shared_ptr<const SurfaceProjector> projector_onto(const SurfaceModel& model, std::vector<int> face_of) {
+  if (model.projector) return std::make_shared<TrueFaces>(model.projector, std::move(face_of));
+  return std::make_shared<FacetProjector>(model.fine, std::move(face_of));
+}
+
+/// A mesh that has no lines on cuts, and where nodes could move along cuts only.
+struct UncutMesh {
+  Mesh mesh;
+  NodePlaces on_cuts;
+};
+
+/// `is_cut`: by curve.
+UncutMesh without_cuts(Mesh mesh, const std::vector<char>& is_cut) {
+  NodePlaces on_cuts;
   std::size_t kept = 0;
-  for (std::size_t l = 0; l < result.lines.size(); ++l) {
-    if (cuts.contains(result.line_curve[l])) {
-      on_cuts.insert(result.lines[l].begin(), result.lines[l].end());
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (is_cut[mesh.line_curve[l]]) {
+      for (const int v : mesh.lines[l])
+        on_cuts.insert({mesh.points[v].x, mesh.points[v].y, mesh.points[v].z});
       continue;
     }
-    start.mesh.lines[kept] = result.lines[l];
-    start.mesh.line_curve[kept++] = result.line_curve[l];
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
   }
-  start.mesh.lines.resize(kept);
-  start.mesh.line_curve.resize(kept);
-  GivenSurface given = make_given_surface(start, kNoFeatures);
-  std::set<std::array<double, 3>> places;
-  for (const int v : on_cuts) places.insert({result.points[v].x, result.points[v].y, result.points[v].z});
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  return {std::move(mesh), std::move(on_cuts)};
+}
+
+UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
+  std::vector<char> is_cut(mesh.curves.size(), 0);
+  for (const SurfaceCut& cut : surface.cuts) is_cut[cut.curve] = 1;
+  return without_cuts(std::move(mesh), is_cut);
+}
+
+/// Of each region, whether its mesh can be made anew across its cuts. Not those of symmetric and periodic
+/// surfaces, whose sides must stay images of each other, not those with grids, and none where elements will
+/// be curved.
+std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
+  std::vector<char> regions(prepared.boundary.regions.size(), 0);
+  if (prepared.surface->mirrored || prepared.order > 1 || !prepared.boundary.periodic.empty() ||
+      !prepared.boundary.periodic_faces.empty())
+    return regions;
+  for (const SurfaceCut& cut : prepared.surface->cuts) regions[cut.face] = 1;
+  for (const PreparedPatch& patch : prepared.patches)
+    if (patch.grid) regions[patch.region] = 0;
+  return regions;
+}
+
+/// Runs stages on what `start` has in the `regions`, with other cuts. What moves lies on the surface, or on
+/// the facets that were given first; nodes on curves stay.
+UncutMesh run_with_other_cuts(const PreparedProblem& prepared, const Stages& stages, const Options& options,
+                              const std::vector<char>& regions, const UncutMesh& start) {
+  GivenSurface given = make_given_surface({start.mesh, prepared.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
-    given.avoided.push_back(places.contains({p.x, p.y, p.z}) ? 1 : 0);
-  given.model.projector = std::make_shared<FacetProjector>(surface.model.fine, given.given_region);
+    given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
+  given.model.projector = projector_onto(prepared.surface->model, given.given_region);
   MeshProblem problem;
   problem.name = prepared.name;
   problem.where = prepared.where;
-  problem.options = prepared.options;
+  problem.options = options;
   problem.max_elements = prepared.max_elements;
   PreparedProblem again =
       prepare_given_surface(problem, std::move(given), start.mesh, prepared.size, [](double) {});
+  for (PreparedPatch& patch : again.patches)
+    patch.given_stays = regions[again.given_entities->region_of[patch.region]] == 0;
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
-  for (const auto& [step, time] : again.times) state.log.add_time("other cuts", time);
-  state.given.clear();
-  state.of_quads.clear();
-  RunResult run = finish_meshing(again, prepared.name, std::move(state));
-  log.add(run.log);
-  return std::move(run.mesh);
+  const std::vector<char> none(again.boundary.regions.size(), 0);
+  UncutMesh made = without_cuts(*again.surface, put_together(again, none, state));
+  put_back_entities(*again.given_entities, made.mesh);
+  return made;
+}
+
+Stages with_letters(const Stages& stages, const std::string& letters) {
+  Stages found;
+  for (const Stage* stage : stages)
+    if (letters.find(stage->letter) != std::string::npos) found.push_back(stage);
+  return found;
+}
+
+/// Not below both what is good and what there was.
+bool is_kept(const char* key, double good, const RunResult& after, const RunResult& before) {
+  return after.metrics.values.at(key) > std::min(good, before.metrics.values.at(key)) - kRounding;
+}
+
+/// With fewer irregular vertices, and as near to its size.
+bool is_more_regular(const RunResult& after, const RunResult& before) {
+  return after.metrics.values.at("n_irregular") < before.metrics.values.at("n_irregular") &&
+         is_kept("tau", kGoodTau, after, before);
+}
+
+/// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
+bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
+  if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
+  const auto value = [](const RunResult& run, const char* key) { return run.metrics.values.at(key); };
+  const auto score = [&](const RunResult& run) {
+    return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
+  };
+  if (is_given) return score(after) > score(before);
+  return is_more_regular(after, before) && is_kept("eta_worst", kGoodEta, after, before);
+}
+
+/// Throws InputError where that cannot be.
+RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
+                           const std::vector<char>& regions, const std::vector<char>& left_out,
+                           const RunResult& before) {
+  Options options = prepared.options;
+  if (!prepared.given_entities) {
+    const double tolerance = options.number("regularity.tolerance");
+    options.set("regularity.tolerance", std::min(kDearer * tolerance, kMostDear));
+    options.set("repair.lift_bad_quads", false);  // what can be lifted was
+  }
+  UncutMesh start = without_cuts(*prepared.surface, before.mesh);
+  UncutMesh made = run_with_other_cuts(prepared, of_quads, options, regions, start);
+  RunResult after;
+  after.mesh = made.mesh;
+  measure(prepared, left_out, after);
+  const Stages moving = with_letters(of_quads, "O");
+  if (prepared.given_entities || moving.empty() || !is_more_regular(after, before) ||
+      is_kept("eta_worst", kGoodEta, after, before))
+    return after;
+  // Nodes on these cuts could not go anywhere.
+  made = run_with_other_cuts(prepared, moving, options, regions, made);
+  after.mesh = std::move(made.mesh);
+  measure(prepared, left_out, after);
+  return after;
+}
+
+}  // namespace
+
+template <>
+struct Counters<AcrossCutsSummary> {
+  using S = AcrossCutsSummary;
+  static constexpr const char* step = "across_cuts";
+  static constexpr auto all = std::tuple{counter("faces", &S::faces), counter("taken", &S::taken),
+                                         counter("irregular_before", &S::irregular_before),
+                                         counter("irregular_after", &S::irregular_after)};
+};
+
+bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
+  if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
+  return prepared.given_entities ? !of_quads.empty() : !with_letters(of_quads, "Q").empty();
+}
+
+void run_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
+                     const std::vector<char>& left_out, RunResult& result) {
+  const std::vector<char> regions = regions_across_cuts(prepared);
+  const auto irregular = [&] { return static_cast<int>(result.metrics.values.at("n_irregular")); };
+  AcrossCutsSummary summary{.irregular_before = irregular()};
+  if (result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
+  const Stopwatch watch;
+  if (summary.faces > 0) try {
+      RunResult after = made_across_cuts(prepared, of_quads, regions, left_out, result);
+      summary.taken = is_better(after, result, prepared.given_entities.has_value());
+      if (summary.taken != 0) {
+        result.mesh = std::move(after.mesh);
+        result.metrics = std::move(after.metrics);
+        result.soundness = std::move(after.soundness);
+        result.surface = std::move(after.surface);
+      }
+    } catch (const InputError&) {
+      summary.faces = 0;  // what there was stays
+    }
+  summary.irregular_after = irregular();
+  result.seconds += watch.seconds();
+  result.log.add_time("other cuts", watch.time());
+  add_summary(result.log, summary);
 }
 
 }  // namespace delquad

@@ -31,6 +31,7 @@ struct PreparedPatch {
   bool grid_stays = false;             ///< nor its points: it was asked for
   QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
   std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
+  bool given_stays = false;             ///< no stage changes them
 };
 
 /// The curves and regions of a given mesh in space, which its words divide for their work.

@@ -263,7 +263,7 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
   const DoingStage lifting("lifting");
   std::vector<char> patch_left_out;
   for (const PreparedPatch& patch : prepared.patches)
-    patch_left_out.push_back(left_out[patch.region] || (patch.grid && patch.grid_stays));
+    patch_left_out.push_back(left_out[patch.region] || (patch.grid && patch.grid_stays) || patch.given_stays);
   LiftingSummary summary =
       lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();
@@ -343,7 +343,8 @@ void check_insertion(const PreparedProblem& prepared, const StageLog& log) {
         log.summaries.get<long long>("insertion", "inserted"), prepared.max_elements));
 }
 
-/// Metrics and, at the same time, the report of a surface and what is sound.
+}  // namespace
+
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
   const DoingStage measuring("report");
   TimeSpent metrics_time, report_time, soundness_time;
@@ -380,6 +381,8 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
+namespace {
+
 /// Of a curved mesh, after its vertices moved.
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
                            RunResult& result) {
@@ -407,37 +410,6 @@ bool is_worse(const RunResult& after, const RunResult& before) {
   return worse;
 }
 
-/// Given in space, and cut for its words.
-bool is_cut_mesh(const PreparedProblem& prepared) {
-  return prepared.given_entities && !prepared.surface->cuts.empty();
-}
-
-/// The last stages once more, with other cuts. What they make is taken where it is sound and, all in all,
-/// better.
-void try_across_cuts(const PreparedProblem& prepared, const std::vector<const Stage*>& stages,
-                     const std::vector<char>& left_out, RunResult& result) {
-  const auto score = [](const RunResult& run) {
-    const auto& values = run.metrics.values;
-    return values.at("eta_mean") + values.at("eta_worst") + values.at("d4") / 100;
-  };
-  const Stopwatch watch;
-  RunResult other;
-  try {
-    other.mesh = run_across_cuts(prepared, stages, result.mesh, result.log);
-  } catch (const InputError&) {
-    return;  // what there was stays
-  }
-  result.seconds += watch.seconds();
-  measure(prepared, left_out, other);
-  const bool is_better =
-      other.soundness.sound() && (!result.soundness.sound() || score(other) > score(result));
-  if (!is_better) return;
-  result.mesh = std::move(other.mesh);
-  result.metrics = std::move(other.metrics);
-  result.soundness = std::move(other.soundness);
-  result.surface = std::move(other.surface);
-}
-
 /// What was given takes the place of what is worse.
 void keep_better(const PreparedProblem& prepared, const std::string& label,
                  const std::vector<PatchMesh>& given, const std::vector<char>& left_out, RunResult& result) {
@@ -458,7 +430,8 @@ void keep_better(const PreparedProblem& prepared, const std::string& label,
   result.surface = std::move(before.surface);
 }
 
-/// The mesh gets the curves and regions that were given, and no other lines.
+}  // namespace
+
 void put_back_entities(const GivenEntities& given, Mesh& mesh) {
   std::size_t kept = 0;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
@@ -474,6 +447,8 @@ void put_back_entities(const GivenEntities& given, Mesh& mesh) {
   mesh.curves = given.curves;
   mesh.regions = given.regions;
 }
+
+namespace {
 
 void count_grids(const PreparedProblem& prepared, StageLog& log) {
   long long faces = 0, asked = 0, quads = 0;
@@ -515,6 +490,10 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         const DoingFace face = doing_patch(prepared, i);
         patches[i].inside.clear();
         if (prepared.patches[i].image) return;
+        if (prepared.patches[i].given_stays) {
+          if (patches[i].form != stage.to) patches[i] = given_to(stage, prepared, prepared.patches[i]);
+          return;
+        }
         if (const auto& grid = prepared.patches[i].grid) {
           if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
           return;
@@ -530,7 +509,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   std::vector<char> left_out, held;  // what stays when points of quads move: fewer grids
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PreparedPatch& patch = prepared.patches[i];
-    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image);
+    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image || patch.given_stays);
     held.push_back(left_out.back() && (!patch.grid || patch.grid_stays || patch.image));
   }
   const AllPatches all{prepared, prepared.options, patches, left_out, state.nodes};
@@ -554,21 +533,25 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
   state.seconds += watch.seconds();
 }
 
+Mesh put_together(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshingState& state) {
+  if (recombination_options(prepared.options).treatment == Treatment::kPaper &&
+      repair_options(prepared.options).lift_bad_quads)
+    lift(prepared, state, left_out, state.log);
+  return assemble(prepared, state.nodes.points, state.patches, left_out, &state.log);
+}
+
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
   const Stopwatch watch;
   RunResult result;
-  result.log = std::move(state.log);
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
-  if (recombination_options(prepared.options).treatment == Treatment::kPaper &&
-      repair_options(prepared.options).lift_bad_quads)
-    lift(prepared, state, left_out, result.log);
-  result.mesh = assemble(prepared, state.nodes.points, state.patches, left_out, &result.log);
+  result.mesh = put_together(prepared, left_out, state);
+  result.log = std::move(state.log);
   state.patches.clear();
   const int rings = part_flat_corners(prepared, state.nodes, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
-  if (is_cut_mesh(prepared) && !state.of_quads.empty() && result.failures.empty())
-    try_across_cuts(prepared, state.of_quads, left_out, result);
+  if (are_cuts_in_the_way(prepared, state.of_quads))
+    run_across_cuts(prepared, state.of_quads, left_out, result);
   if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
   if (curve_mesh(prepared, state.nodes, rings, result)) measure_straight_form(prepared, left_out, result);
   result.peak_memory = peak_memory();

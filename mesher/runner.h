@@ -40,9 +40,17 @@ struct MeshingState {
 MeshingState begin_meshing(const PreparedProblem& prepared);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
-/// Puts the patches together, measures the mesh and says whether it is sound. `label` names the case and
-/// pipeline in warnings. Given quads are kept, with a warning, where what was made of them is worse: not
-/// sound where they were, or none of eta mean, eta worst and d4 better and one of them worse.
+/// Lifts bad quads and puts the patches together. `left_out`: by region.
+Mesh put_together(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshingState& state);
+/// Metrics of the mesh and, at the same time, the report of a surface and what is sound. `left_out`: by
+/// region.
+void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result);
+/// The mesh gets the curves and regions that were given, and no other lines.
+void put_back_entities(const GivenEntities& given, Mesh& mesh);
+/// Puts the patches together, measures the mesh and says whether it is sound; what runs across cuts is done
+/// here. `label` names the case and pipeline in warnings. Given quads are kept, with a warning, where what
+/// was made of them is worse: not sound where they were, or none of eta mean, eta worst and d4 better and one
+/// of them worse.
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
 
 /// Throws UnsoundError when the mesh is not sound, naming the case and pipeline by `label`.
