@@ -89,7 +89,7 @@ Mesh filled_square(const std::array<int, 4>& edges) {
       outline.delta.push_back(1.0 / edges[i]);
       outline.turn.push_back(k == 0 ? 1 : 0);
     }
-  const auto pattern = best_pattern(outline, least_irregular(outline).value());
+  const auto pattern = best_pattern(outline, 2);
   const PatternMesh fill = mesh_pattern(outline, *pattern);
   std::vector<Vec3> points;
   for (const Vec2& p : outline.places) points.push_back({p.x, p.y, 0});
