@@ -194,7 +194,6 @@ RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_qua
   if (!prepared.given_entities) {
     const double tolerance = options.number("regularity.tolerance");
     options.set("regularity.tolerance", std::min(kDearer * tolerance, kMostDear));
-    options.set("repair.lift_bad_quads", false);  // what can be lifted was
   }
   UncutMesh start = without_cuts(*prepared.surface, before.mesh);
   UncutMesh made = run_with_other_cuts(prepared, of_quads, options, regions, start);
