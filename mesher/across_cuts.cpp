@@ -1,6 +1,7 @@
 #include "mesher/across_cuts.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <utility>
@@ -15,8 +16,11 @@ namespace {
 
 constexpr double kNoFeatures = 180;
 /// With other cuts an irregular vertex less may cost so many times as much as before: few are left then, and
-/// far apart.
-constexpr double kDearer = 8, kMostDear = 100;
+/// far apart. The second where the first costs too much.
+constexpr std::array kDearer = {8.0, 4.0};
+constexpr double kMostDear = 100;
+/// Quads of a cavity, at least: they reach from one to another.
+constexpr long long kFarQuads = 1000;
 /// What is made with other cuts is not worse than these (eta, %), or than what there was.
 constexpr double kGoodEta = 0.6, kGoodTau = 91;
 constexpr double kRounding = 1e-9;
@@ -186,15 +190,18 @@ bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
   return is_more_regular(after, before) && is_kept("eta_worst", kGoodEta, after, before);
 }
 
+/// What Q may do in the second run.
+Options with_dearer(const Options& options, double dearer) {
+  Options more = options;
+  more.set("regularity.tolerance", std::min(dearer * options.number("regularity.tolerance"), kMostDear));
+  more.set("regularity.quads", std::max(options.integer("regularity.quads"), kFarQuads));
+  return more;
+}
+
 /// Throws InputError where that cannot be.
-RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
+RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_quads, const Options& options,
                            const std::vector<char>& regions, const std::vector<char>& left_out,
                            const RunResult& before) {
-  Options options = prepared.options;
-  if (!prepared.given_entities) {
-    const double tolerance = options.number("regularity.tolerance");
-    options.set("regularity.tolerance", std::min(kDearer * tolerance, kMostDear));
-  }
   UncutMesh start = without_cuts(*prepared.surface, before.mesh);
   UncutMesh made = run_with_other_cuts(prepared, of_quads, options, regions, start);
   RunResult after;
@@ -209,6 +216,19 @@ RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_qua
   after.mesh = std::move(made.mesh);
   measure(prepared, left_out, after);
   return after;
+}
+
+/// Whether what is made is better, and taken.
+bool take_across_cuts(const PreparedProblem& prepared, const Stages& of_quads, const Options& options,
+                      const std::vector<char>& regions, const std::vector<char>& left_out,
+                      RunResult& result) {
+  RunResult after = made_across_cuts(prepared, of_quads, options, regions, left_out, result);
+  if (!is_better(after, result, prepared.given_entities.has_value())) return false;
+  result.mesh = std::move(after.mesh);
+  result.metrics = std::move(after.metrics);
+  result.soundness = std::move(after.soundness);
+  result.surface = std::move(after.surface);
+  return true;
 }
 
 }  // namespace
@@ -234,15 +254,13 @@ void run_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
   AcrossCutsSummary summary{.irregular_before = irregular()};
   if (result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
   const Stopwatch watch;
+  const auto take = [&](const Options& options) {
+    summary.taken = take_across_cuts(prepared, of_quads, options, regions, left_out, result);
+  };
   if (summary.faces > 0) try {
-      RunResult after = made_across_cuts(prepared, of_quads, regions, left_out, result);
-      summary.taken = is_better(after, result, prepared.given_entities.has_value());
-      if (summary.taken != 0) {
-        result.mesh = std::move(after.mesh);
-        result.metrics = std::move(after.metrics);
-        result.soundness = std::move(after.soundness);
-        result.surface = std::move(after.surface);
-      }
+      if (prepared.given_entities) take(prepared.options);
+      for (const double dearer : kDearer)
+        if (!prepared.given_entities && summary.taken == 0) take(with_dearer(prepared.options, dearer));
     } catch (const InputError&) {
       summary.faces = 0;  // what there was stays
     }

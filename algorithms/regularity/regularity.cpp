@@ -15,8 +15,9 @@ namespace delquad {
 namespace {
 
 /// How many irregular vertices near one make cavities with it, and among how many vertices they are looked
-/// for. With 5, a quarter more cavities on the plate of 16 holes bring nothing.
-constexpr std::size_t kNear = 4, kMostMet = 600;
+/// for, for each quad that a cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring
+/// nothing.
+constexpr std::size_t kNear = 4, kMostMet = 2;
 /// Cavities of a vertex that are tried in a round. A third brings nothing, either.
 constexpr int kMostTrials = 2;
 /// Rings of quads that a cavity grows by until it has a pattern.
@@ -86,7 +87,8 @@ void RegularityProcess::find_near(int v) {
   vertices_met_.meet(v);
   std::vector<int> queue{v};
   from_[v] = v;
-  for (std::size_t i = 0; i < queue.size() && queue.size() < kMostMet; ++i) {
+  const std::size_t most = kMostMet * static_cast<std::size_t>(options_.quads);
+  for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
     const int at = queue[i];
     const auto reach = [&](int w) {
       if (mesh_.held(w) || !vertices_met_.meet(w)) return;
