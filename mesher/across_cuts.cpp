@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "algorithms/cleanup/cleanup.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "mesh/nearest_triangle.h"
@@ -21,7 +22,8 @@ constexpr std::array kDearer = {8.0, 4.0};
 constexpr double kMostDear = 100;
 /// Quads of a cavity, at least: they reach from one to another.
 constexpr long long kFarQuads = 1000;
-/// What is made with other cuts is not worse than these (eta, %), or than what there was.
+/// What is made with other cuts is not worse than what there was, or than kGoodTau (%) and kCleanupFloorEta.
+/// A worst eta below kGoodEta is worth a third run.
 constexpr double kGoodEta = 0.6, kGoodTau = 91;
 constexpr double kRounding = 1e-9;
 
@@ -187,7 +189,7 @@ bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
     return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
   };
   if (is_given) return score(after) > score(before);
-  return is_more_regular(after, before) && is_kept("eta_worst", kGoodEta, after, before);
+  return is_more_regular(after, before) && is_kept("eta_worst", kCleanupFloorEta, after, before);
 }
 
 /// What Q may do in the second run.
