@@ -78,6 +78,7 @@ struct MeshArguments {
   bool glue = false;                                      ///< else as the model says
   std::vector<std::string> mapped;                        ///< names of regions, or "auto"
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"
+  std::vector<std::string> set;                           ///< "OPTION=VALUE", see Options
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
   std::string quality = kDefaultQuality;
   std::optional<std::string> pipeline;  ///< else the word of that quality

@@ -225,6 +225,14 @@ void add_surface(CLI::App& mesh, MeshArguments& arguments) {
                   "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
 }
 
+void add_set(CLI::App& mesh, MeshArguments& arguments) {
+  mesh.add_option(
+          "--set", arguments.set,
+          "OPTION=VALUE, such as regularity.tolerance=5 ('delquad schema --options' lists all); may be "
+          "repeated")
+      ->allow_extra_args(false);
+}
+
 void add_sizes(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option("--size-max", arguments.max, "largest size")->check(kLength);
   mesh.add_option("--gradation", arguments.gradation,
@@ -296,6 +304,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
   mesh->add_option("--pipeline", arguments.pipeline,
                    "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C, Q and O")
       ->excludes(quality);
+  add_set(*mesh, arguments);
   mesh->add_flag("--keep-going", arguments.keep_going,
                  "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   add_mesh_output(*mesh, arguments, common);
@@ -311,9 +320,11 @@ void add_improve(CLI::App& app, MeshArguments& arguments, CommonArguments& commo
       ->required();
   add_size(*improve, arguments.size, kSizeHelp)->default_str("what the mesh has");
   add_sizes(*improve, arguments);
-  improve->add_option("--pipeline", arguments.pipeline,
-                      "letters of stages: L, then B, G or T, of triangles; C and O of quads; default: CO, or "
-                      "BCO of triangles alone");
+  improve->add_option(
+      "--pipeline", arguments.pipeline,
+      "letters of stages: L, then B, G or T, of triangles; C, Q and O of quads; default: CO, or "
+      "BCO of triangles alone");
+  add_set(*improve, arguments);
   add_feature_angle(*improve, arguments);
   add_mesh_output(*improve, arguments, common);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -110,6 +111,31 @@ int tell_what_is_missing(const RunResult& result, const Word& word, bool quads_w
   return kTrianglesLeft;
 }
 
+/// A value as it is written in TOML, texts without quotes.
+OptionValue value_of(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  const char *end = text.data() + text.size(), *begin = text.data();
+  if (long long whole = 0; std::from_chars(begin, end, whole) == std::from_chars_result{end, {}})
+    return whole;
+  if (double number = 0; std::from_chars(begin, end, number) == std::from_chars_result{end, {}})
+    return number;
+  return text;
+}
+
+void set_options(const MeshArguments& arguments, Options& options) {
+  for (const std::string& text : arguments.set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(
+          fmt::format("--set '{}': expected OPTION=VALUE, such as regularity.tolerance=5", text));
+    try {
+      options.set(text.substr(0, equals), value_of(text.substr(equals + 1)));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--set: {}", error.what()));
+    }
+  }
+}
+
 /// The text of the word that is asked for; `given`: of what is to be improved.
 std::string word_of(const MeshArguments& arguments, const std::optional<Mesh>& given) {
   if (arguments.pipeline) return *arguments.pipeline;
@@ -175,6 +201,7 @@ int mesh_command(const MeshArguments& arguments) {
   check_mesh_format(arguments.output, arguments.msh, c.order);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);
+  set_options(arguments, c.options);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
   set_surface(arguments, c.surface);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};

@@ -1,6 +1,5 @@
 #include "mesh/open_quads.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace delquad {
@@ -13,9 +12,6 @@ OpenQuads::OpenQuads(const Mesh& mesh, std::span<const HalfEdge> sides)
 }
 
 void OpenQuads::join(const Mesh& mesh, std::span<const HalfEdge> sides) {
-  std::vector<std::pair<int, int>> lines;
-  for (const auto& [a, b] : mesh.lines) lines.push_back(std::minmax(a, b));
-  std::ranges::sort(lines);
   const int n_triangles = static_cast<int>(mesh.triangles.size());
   const auto region = [&](int quad) {
     return static_cast<std::size_t>(quad) < mesh.quad_region.size() ? mesh.quad_region[quad] : 0;
@@ -29,7 +25,6 @@ void OpenQuads::join(const Mesh& mesh, std::span<const HalfEdge> sides) {
   };
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     if (edge.size() != 2 || edge[0].element < n_triangles || edge[0].forward == edge[1].forward) return;
-    if (std::ranges::binary_search(lines, std::pair(edge[0].lo, edge[0].hi))) return;
     const int h = half_edge(edge[0]), t = half_edge(edge[1]);
     if (region(quad(h)) != region(quad(t))) return;
     twin_[h] = t;

@@ -9,9 +9,9 @@
 namespace delquad {
 
 /// The quads of a mesh as patches: those of one region that hang together over edges inside of it. The mesh
-/// is cut open along its lines, and where an edge is not in two quads of one region that run along it in
-/// opposite directions. What is one vertex of the mesh may so be several nodes, each with quads that follow
-/// each other.
+/// is cut open where an edge is not in two quads of one region that run along it in opposite directions;
+/// lines within a region, such as cuts, do not matter. What is one vertex of the mesh may so be several
+/// nodes, each with quads that follow each other.
 ///
 /// Half-edge h = 4 * quad + corner runs counterclockwise from its corner to the next.
 class OpenQuads {

@@ -12,7 +12,7 @@ const std::vector<Quality>& quality_registry() {
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
       {"good", "DBCO", CrossKind::kSizeAware},
-      {"best", "DLBCQO", CrossKind::kSizeAware},
+      {"best", "DBCQO", CrossKind::kSizeAware},
   };
   return registry;
 }

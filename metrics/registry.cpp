@@ -29,7 +29,7 @@ std::deque<Metric>& metrics() {
       {"n_triangles", "triangles", "", kNeither, kNone, "count"},
       {"n_irregular", "irregular", "", kLower, kInfinite, "interior vertices that d4 leaves out", 0},
       {"n_necessary", "necessary", "", kNeither, kNone,
-       "irregular vertices that corners, holes and handles force: the least number in any mesh of quads", 0},
+       "irregular vertices, those on the boundary with them, that corners, holes and handles force", 0},
       {"n_beyond", "beyond", "", kLower, kInfinite,
        "irregular vertices beyond these, those on the boundary with them; two for each pair", 0},
       {"n_inverted", "inverted", "", kLower, kInfinite, "quads with eta 0, triangles without positive area"},

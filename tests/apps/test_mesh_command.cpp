@@ -89,10 +89,28 @@ TEST(MeshCommand, QualityChoosesWordAndCross) {
   EXPECT_TRUE(has(record({}), "DBCO", "size-aware"));
   EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "boundary"));
   EXPECT_TRUE(has(record({"--quality", "good"}), "DBCO", "size-aware"));
-  EXPECT_TRUE(has(record({"--quality", "best"}), "DLBCQO", "size-aware"));
+  EXPECT_TRUE(has(record({"--quality", "best"}), "DBCQO", "size-aware"));
   // What is said elsewhere counts.
   EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBCO", "0.1"));
   EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "boundary"));
+}
+
+TEST(MeshCommand, StagesAreToldByOptions) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare + "size = 0.1\n");
+  const auto with = [&](const std::string& option) {
+    return delquad(
+        {"mesh", model, "-o", folder / "out.msh", "--json", folder / "record.json", "--set", option});
+  };
+  ASSERT_EQ(with("regularity.tolerance=7.5").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"tolerance\": 7.5"));
+  EXPECT_EQ(with("recombination.solver=lemon").exit_code, 0);
+  for (const char* bad : {"regularity.tolerance", "regularity.tolerance=-1", "regularity.tolerance=much",
+                          "regularity.tolerence=1", "=1"}) {
+    const ProgramResult result = with(bad);
+    EXPECT_EQ(result.exit_code, 2) << bad;
+    EXPECT_TRUE(contains(result.err, "--set")) << result.err;
+  }
 }
 
 TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
