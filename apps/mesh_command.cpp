@@ -170,7 +170,14 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
   if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
     fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
                layers.columns);
-  if (const Summaries& log = result.log.summaries; log.has("grids"))
+  const Summaries& log = result.log.summaries;
+  if (log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
+    fmt::print("  across cuts: {} irregular vertices before{}\n",
+               log.number("across_cuts", "irregular_before"),
+               log.number("across_cuts", "taken") > 0
+                   ? ""
+                   : ", and after: with other cuts there were no fewer, or eta or tau were worse");
+  if (log.has("grids"))
     fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
                log.number("grids", "asked"), log.number("grids", "quads"));
   if (!prepared.size_adapted_to.empty())
