@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNoFeatures = 180;
 /// With other cuts an irregular vertex less may cost so many times as much as before: few are left then, and
-/// far apart. The second where the first costs too much.
+/// far apart. The next one where one spoils too much.
 constexpr std::array kDearer = {8.0, 4.0};
 constexpr double kMostDear = 100;
 /// Quads of a cavity, at least: they reach from one to another.
@@ -138,10 +138,10 @@ std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
   return regions;
 }
 
-/// Runs stages on what `start` has in the `regions`, with other cuts. What moves lies on the surface, or on
-/// the facets that were given first; nodes on curves stay.
-UncutMesh run_with_other_cuts(const PreparedProblem& prepared, const Stages& stages, const Options& options,
-                              const std::vector<char>& regions, const UncutMesh& start) {
+/// `start` with other cuts. What moves of it, in the `regions`, lies on the surface, or on the facets that
+/// were given first; nodes on curves stay. Throws InputError where that cannot be.
+PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vector<char>& regions,
+                                const UncutMesh& start) {
   GivenSurface given = make_given_surface({start.mesh, prepared.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
     given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
@@ -149,12 +149,16 @@ UncutMesh run_with_other_cuts(const PreparedProblem& prepared, const Stages& sta
   MeshProblem problem;
   problem.name = prepared.name;
   problem.where = prepared.where;
-  problem.options = options;
   problem.max_elements = prepared.max_elements;
   PreparedProblem again =
       prepare_given_surface(problem, std::move(given), start.mesh, prepared.size, [](double) {});
   for (PreparedPatch& patch : again.patches)
     patch.given_stays = regions[again.given_entities->region_of[patch.region]] == 0;
+  return again;
+}
+
+UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options& options) {
+  again.options = options;
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
@@ -200,12 +204,11 @@ Options with_dearer(const Options& options, double dearer) {
   return more;
 }
 
-/// Throws InputError where that cannot be.
-RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_quads, const Options& options,
-                           const std::vector<char>& regions, const std::vector<char>& left_out,
-                           const RunResult& before) {
-  UncutMesh start = without_cuts(*prepared.surface, before.mesh);
-  UncutMesh made = run_with_other_cuts(prepared, of_quads, options, regions, start);
+/// `again`: what was made before, with other cuts.
+RunResult made_across_cuts(const PreparedProblem& prepared, PreparedProblem& again, const Stages& of_quads,
+                           const Options& options, const std::vector<char>& regions,
+                           const std::vector<char>& left_out, const RunResult& before) {
+  UncutMesh made = run_stages(again, of_quads, options);
   RunResult after;
   after.mesh = made.mesh;
   measure(prepared, left_out, after);
@@ -214,17 +217,18 @@ RunResult made_across_cuts(const PreparedProblem& prepared, const Stages& of_qua
       is_kept("eta_worst", kGoodEta, after, before))
     return after;
   // Nodes on these cuts could not go anywhere.
-  made = run_with_other_cuts(prepared, moving, options, regions, made);
+  PreparedProblem third = with_other_cuts(prepared, regions, made);
+  made = run_stages(third, moving, options);
   after.mesh = std::move(made.mesh);
   measure(prepared, left_out, after);
   return after;
 }
 
 /// Whether what is made is better, and taken.
-bool take_across_cuts(const PreparedProblem& prepared, const Stages& of_quads, const Options& options,
-                      const std::vector<char>& regions, const std::vector<char>& left_out,
-                      RunResult& result) {
-  RunResult after = made_across_cuts(prepared, of_quads, options, regions, left_out, result);
+bool take_across_cuts(const PreparedProblem& prepared, PreparedProblem& again, const Stages& of_quads,
+                      const Options& options, const std::vector<char>& regions,
+                      const std::vector<char>& left_out, RunResult& result) {
+  RunResult after = made_across_cuts(prepared, again, of_quads, options, regions, left_out, result);
   if (!is_better(after, result, prepared.given_entities.has_value())) return false;
   result.mesh = std::move(after.mesh);
   result.metrics = std::move(after.metrics);
@@ -256,10 +260,12 @@ void run_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
   AcrossCutsSummary summary{.irregular_before = irregular()};
   if (result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
   const Stopwatch watch;
-  const auto take = [&](const Options& options) {
-    summary.taken = take_across_cuts(prepared, of_quads, options, regions, left_out, result);
-  };
   if (summary.faces > 0) try {
+      PreparedProblem again =
+          with_other_cuts(prepared, regions, without_cuts(*prepared.surface, result.mesh));
+      const auto take = [&](const Options& options) {
+        summary.taken = take_across_cuts(prepared, again, of_quads, options, regions, left_out, result);
+      };
       if (prepared.given_entities) take(prepared.options);
       for (const double dearer : kDearer)
         if (!prepared.given_entities && summary.taken == 0) take(with_dearer(prepared.options, dearer));
