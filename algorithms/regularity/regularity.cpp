@@ -17,7 +17,7 @@ namespace {
 /// How many irregular vertices near one make cavities with it, and among how many vertices they are looked
 /// for, for each quad that a cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring
 /// nothing.
-constexpr std::size_t kNear = 4, kMostMet = 2;
+constexpr std::size_t kNear = 4, kMostMet = 3;
 /// Cavities of a vertex that are tried in a round. A third brings nothing, either.
 constexpr int kMostTrials = 2;
 /// Rings of quads that a cavity grows by until it has a pattern.

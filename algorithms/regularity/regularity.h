@@ -8,8 +8,8 @@ namespace delquad {
 
 struct RegularityOptions {
   double tolerance = 3;  ///< what an irregular vertex less may cost in the last round; none in the first
-  int quads = 300;       ///< of a cavity, at most
-  int rounds = 4;        ///< over which the tolerance grows
+  int quads = 200;       ///< of a cavity, at most
+  int rounds = 3;        ///< over which the tolerance grows
 };
 
 OptionGroup regularity_group();
