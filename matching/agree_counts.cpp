@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -63,7 +64,7 @@ class Agreement {
         check_cancelled();
         if (values_[s] == 0) continue;
         if (sums_[s].price_of_pair > 0) better |= close(static_cast<int>(s));
-        better |= approach(static_cast<int>(s));
+        better |= make(approach(static_cast<int>(s)).changes);
       }
       for (std::size_t c = 0; c < curves_.size(); ++c)
         if (curves_[c].is_free && !curves_[c].patches.empty()) better |= restore(static_cast<int>(c));
@@ -90,24 +91,29 @@ class Agreement {
 
   /// All the way to zero, or not at all.
   bool close(int sum) {
-    const std::vector<int> counts = counts_, values = values_;
-    const double cost = total();
+    std::map<int, int> by;  // of each curve that changes
     forced_ = sum;
-    while (values_[sum] != 0 && approach(sum)) {
+    while (values_[sum] != 0) {
+      const Best best = approach(sum);
+      if (!make(best.changes)) break;
+      for (const Change& c : best.changes) by[c.curve] += c.by;
     }
     forced_ = -1;
-    if (values_[sum] == 0 && total() < cost - kCheaper) return true;
-    counts_ = counts, values_ = values;
-    return false;
+    const bool is_closed = values_[sum] == 0;
+    Changes all, back;
+    for (const auto& [curve, change] : by)
+      if (change != 0) all.push_back({curve, change}), back.push_back({curve, -change});
+    make(back);
+    return is_closed && gain_of(all) > kCheaper && make(all);
   }
 
   /// The best change that brings a sum nearer to zero.
-  bool approach(int sum) {
+  Best approach(int sum) {
     const double most = price(sum, values_[sum]) + kAdvance;
     Best best;
     for (const auto& [curve, times] : sums_[sum].terms)
       if (curves_[curve].is_free) try_change(curve, values_[sum] * times > 0 ? -1 : 1, most, best);
-    return make(best);
+    return best;
   }
 
   /// The best change that brings a curve nearer to what it wants.
@@ -115,7 +121,7 @@ class Agreement {
     Best best;
     try_change(curve, counts_[curve] > curves_[curve].want ? -1 : 1, misfit(curve, counts_[curve]) + kAdvance,
                best);
-    return make(best);
+    return make(best.changes);
   }
 
   /// By one and by two. `most`: what the rest of a chain may cost.
@@ -141,7 +147,7 @@ class Agreement {
   /// The cheapest changes that follow the first one at `from`, until `to` is reached; none: it is not.
   Changes chain(int from, Change first, int to, double most) {
     std::vector<Step> steps{{0, from, first, -1, 0}};
-    best_.assign(4 * curves_.size() + at_patch_.size(), kNever);
+    best_.resize(4 * curves_.size() + at_patch_.size(), kNever);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     queue.push({0, 0});
@@ -175,6 +181,7 @@ class Agreement {
           queue.push({step.cost, added});
         }
     }
+    for (const Step& step : steps) best_[label(step)] = kNever;
     Changes changes;
     for (int s = last; s >= 0; s = steps[s].before) changes.push_back(steps[s].change);
     return changes;
@@ -236,14 +243,6 @@ class Agreement {
     return cost;
   }
 
-  double total() const {
-    double cost = 0;
-    for (std::size_t c = 0; c < curves_.size(); ++c)
-      if (curves_[c].is_free) cost += misfit(static_cast<int>(c), counts_[c]);
-    for (std::size_t s = 0; s < sums_.size(); ++s) cost += price(static_cast<int>(s), values_[s]);
-    return cost;
-  }
-
   /// By how much the changes lower the costs, that of the forced sum being kForced.
   double gain_of(const Changes& changes) {
     if (changes.empty()) return 0;
@@ -264,12 +263,12 @@ class Agreement {
     return gain;
   }
 
-  bool make(const Best& best) {
-    for (const Change& c : best.changes) {
+  bool make(const Changes& changes) {
+    for (const Change& c : changes) {
       counts_[c.curve] += c.by;
       for (const auto& [s, times] : in_sums_[c.curve]) values_[s] += times * c.by;
     }
-    return !best.changes.empty();
+    return !changes.empty();
   }
 
   static constexpr int kAnywhere = -1;
