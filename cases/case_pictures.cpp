@@ -91,7 +91,7 @@ void draw_case(const PreparedProblem& prepared, const std::string& name,
                const std::filesystem::path& folder) {
   if (!prepared.background) return;  // fields of surfaces live in the parameter planes of their patches
   std::vector<SingularityMark> marks;
-  for (const Singularity& s : prepared.singularities) marks.push_back({s.at, s.index});
+  for (const PlacedSingularity& s : prepared.singularities) marks.push_back({{s.at.x, s.at.y}, s.index});
   draw_crosses(folder / "cross.svg", prepared.boundary, sample_crosses(prepared), marks,
                name + ": cross field");
   TriPatch tri = prepared.background->triangles();

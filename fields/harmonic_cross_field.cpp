@@ -35,7 +35,7 @@ HarmonicCrossField::HarmonicCrossField(std::shared_ptr<const BackgroundMesh> bac
   std::vector<Cross> crosses;
   crosses.reserve(sides.count);
   for (int i = 0; i < sides.count; ++i) crosses.push_back({z[0][i], z[1][i]});
-  topology_ = find_singularities(*background, sides, crosses);
+  topology_ = find_singularities(*background, sides, crosses, find_winding(*background, sides, crosses));
   data_->crosses.reserve(tri.triangles.size());
   for (const auto& [a, b, c] : sides.of_triangle)
     data_->crosses.push_back({crosses[a], crosses[b], crosses[c]});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 namespace delquad {
 
@@ -55,13 +56,11 @@ void cancel(int& a, int& b) {
 }
 
 /// Takes opposite indices of touching cells away: triangle and vertex, two triangles, two vertices.
-void cancel_pairs(const BackgroundMesh& background, std::vector<int>& of_triangle,
+void cancel_pairs(const TriPatch& tri, const std::vector<char>& is_inside, std::vector<int>& of_triangle,
                   std::vector<int>& of_vertex) {
-  const TriPatch& tri = background.triangles();
-  const auto inside = [&](int v) { return background.boundary_points()[v].from < 0; };
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
     for (const int v : tri.triangles[t]) {
-      if (inside(v)) cancel(of_triangle[t], of_vertex[v]);
+      if (is_inside[v]) cancel(of_triangle[t], of_vertex[v]);
     }
   }
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
@@ -70,24 +69,23 @@ void cancel_pairs(const BackgroundMesh& background, std::vector<int>& of_triangl
     }
     for (int k = 0; k < 3; ++k) {
       const int a = tri.triangles[t][k], b = tri.triangles[t][(k + 1) % 3];
-      if (inside(a) && inside(b)) cancel(of_vertex[a], of_vertex[b]);
+      if (is_inside[a] && is_inside[b]) cancel(of_vertex[a], of_vertex[b]);
     }
   }
 }
 
 }  // namespace
 
-FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
-                                 const std::vector<Cross>& crosses,
-                                 const std::vector<std::array<double, 3>>& expected) {
+FieldWinding find_winding(const BackgroundMesh& background, const Sides& sides,
+                          const std::vector<Cross>& crosses,
+                          const std::vector<std::array<double, 3>>& expected) {
   const TriPatch& tri = background.triangles();
   std::vector<double> phase;
   phase.reserve(crosses.size());
   for (const Cross& z : crosses) phase.push_back(std::atan2(z.s, z.c));
 
-  std::vector<int> of_triangle(tri.triangles.size());
-  std::vector<double> around = boundary_turns(background);
-  for (double& angle : around) angle *= 4;
+  FieldWinding winding{std::vector<int>(tri.triangles.size()), boundary_turns(background), {}};
+  for (double& angle : winding.of_vertex) angle *= 4;
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -97,20 +95,40 @@ FieldTopology find_singularities(const BackgroundMesh& background, const Sides& 
       const double step = phase_step(phase, sides.of_triangle[t][from], sides.of_triangle[t][to],
                                      expected.empty() ? 0 : expected[t][to] - expected[t][from]);
       sum -= step;
-      around[tri.triangles[t][k]] += step;
+      winding.of_vertex[tri.triangles[t][k]] += step;
     }
-    of_triangle[t] = turns(sum);
+    winding.of_triangle[t] = turns(sum);
   }
-  std::vector<int> of_vertex;
-  of_vertex.reserve(around.size());
-  for (const double angle : around) of_vertex.push_back(turns(angle));
+  for (double& angle : winding.of_vertex) angle /= 2 * kPi;
+  for (const auto& vertex : background.boundary_points()) winding.is_inside.push_back(vertex.from < 0);
+  return winding;
+}
+
+void join_windings(const std::vector<JoinedVertices>& joined, std::vector<FieldWinding>& windings) {
+  for (const auto& [vertices, n_shared] : joined) {
+    double sum = 0;
+    for (const auto& [patch, vertex] : vertices) sum += std::exchange(windings[patch].of_vertex[vertex], 0.0);
+    // Each part has turned by pi less its angle; two parts at a shared side need half a turn less of each.
+    const auto [patch, vertex] = vertices.front();
+    const int n = static_cast<int>(vertices.size());
+    windings[patch].of_vertex[vertex] = sum - 4 * (n - 1) + 2 * n_shared;
+    windings[patch].is_inside[vertex] = n_shared == n;
+  }
+}
+
+FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
+                                 const std::vector<Cross>& crosses, const FieldWinding& winding) {
+  const TriPatch& tri = background.triangles();
+  std::vector<int> of_triangle = winding.of_triangle, of_vertex;
+  of_vertex.reserve(winding.of_vertex.size());
+  for (const double n : winding.of_vertex) of_vertex.push_back(static_cast<int>(std::lround(n)));
 
   FieldTopology result;
   result.euler_characteristic =
       static_cast<int>(tri.triangles.size()) - sides.count + static_cast<int>(tri.points.size());
   for (const int index : of_triangle) result.index_sum += index;
   for (const int index : of_vertex) result.index_sum += index;
-  cancel_pairs(background, of_triangle, of_vertex);
+  cancel_pairs(tri, winding.is_inside, of_triangle, of_vertex);
   for (std::size_t t = 0; t < of_triangle.size(); ++t) {
     if (of_triangle[t] == 0) continue;
     Vec2 middle[3];
@@ -123,7 +141,7 @@ FieldTopology find_singularities(const BackgroundMesh& background, const Sides& 
     result.singularities.push_back({zero_point(middle, z), of_triangle[t]});
   }
   for (std::size_t v = 0; v < of_vertex.size(); ++v) {
-    if (of_vertex[v] != 0 && background.boundary_points()[v].from < 0) {
+    if (of_vertex[v] != 0 && winding.is_inside[v]) {
       result.singularities.push_back({tri.points[v], of_vertex[v]});
     }
   }

@@ -1,15 +1,14 @@
 #include "fields/size_aware_cross_field.h"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/cancel.h"
-#include "fields/laplace.h"
+#include "fields/cross_diffusion.h"
 #include "fields/sample_triangle.h"
 #include "fields/sides.h"
 #include "fields/singularities.h"
@@ -23,18 +22,8 @@ namespace {
 /// last: the singularities find their places first within their neighbourhood, then to an element.
 constexpr double kLongest = 1600, kShortest = 2;
 constexpr int kSteps = 10;
-/// What each triangle gives to each of its sides: a sixth of an element.
-constexpr double kMass = 0.5 / 3;
-/// Relative residual of each step: its result is brought back to unit length, and only the last step's stays.
-constexpr double kTolerance = 1e-4;
-/// Of conjugate gradients: ordinary patches take 10 to 150, and as many as this cost about as much as a
-/// direct solution.
-constexpr int kMostIterations = 500;
 
 using Complex = std::complex<double>;
-/// Of real and imaginary parts in turn: products of complex numbers would be checked for overflow one by one.
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Vector = Eigen::VectorXd;
 
 Complex to_complex(Cross z) { return {z.c, z.s}; }
 Complex unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -68,100 +57,6 @@ std::vector<Complex> sample_sides(const BackgroundMesh& background, const Sides&
   return z;
 }
 
-/// The diffusion (mass/tau + stiffness) of crosses that turn as grids of size delta do, their values on the
-/// boundary being given; time is counted in elements wherever they are. The stiffness of each triangle is
-/// taken between values carried to its centroid, so that it is positive semi-definite whatever its angles.
-class CrossDiffusion {
- public:
-  CrossDiffusion(const BackgroundMesh& background, const Sides& sides, const SizeConnection& connection,
-                 std::vector<Complex>& z)
-      : z_(z), row_(sides.count, 0) {
-    const TriPatch& tri = background.triangles();
-    for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        if (tri.neighbours[t][k] < 0) row_[sides.of_triangle[t][k]] = -1;
-      }
-    }
-    int n = 0;
-    for (int& row : row_) row = row < 0 ? -1 : n++;
-    mass_.setZero(2 * n);
-    fixed_.setZero(2 * n);
-    stiffness_.resize(2 * n, 2 * n);
-    assemble(tri, sides, connection);
-  }
-
-  /// One step of diffusion over `tau` elements, then back to unit length.
-  void step(double tau) {
-    if (mass_.size() == 0) return;
-    const Vector weight = mass_ / tau;
-    RowMatrix matrix = stiffness_;
-    matrix.diagonal() += weight;
-    Vector now(mass_.size());
-    for (std::size_t i = 0; i < row_.size(); ++i) {
-      if (row_[i] < 0) continue;
-      now[2 * row_[i]] = z_[i].real();
-      now[2 * row_[i] + 1] = z_[i].imag();
-    }
-    const Vector next = solve(matrix, weight.cwiseProduct(now) + fixed_, now);
-    for (std::size_t i = 0; i < row_.size(); ++i) {
-      if (row_[i] >= 0) z_[i] = normalised({next[2 * row_[i]], next[2 * row_[i] + 1]}, z_[i]);
-    }
-  }
-
- private:
-  /// By conjugate gradients from `start`, or directly where these do not converge: triangles with angles near
-  /// 180 degrees, as badly made triangulations have them, can take them as many steps as there are unknowns.
-  static Vector solve(const RowMatrix& matrix, const Vector& right, const Vector& start) {
-    Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
-    iterative.setTolerance(kTolerance);
-    iterative.setMaxIterations(kMostIterations);
-    const Vector x = iterative.solveWithGuess(right, start);
-    if (iterative.info() == Eigen::Success) return x;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> direct(matrix);
-    return direct.info() == Eigen::Success ? Vector(direct.solve(right)) : x;
-  }
-
-  void assemble(const TriPatch& tri, const Sides& sides, const SizeConnection& connection) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(36 * tri.triangles.size());
-    for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-      const LocalStiffness local = local_stiffness(tri, static_cast<int>(t));
-      const auto& turns = connection.phase_turns()[t];
-      const auto& side = sides.of_triangle[t];
-      for (int i = 0; i < 3; ++i) {
-        const int r = row_[side[i]];
-        if (r < 0) continue;
-        mass_[2 * r] += kMass;
-        mass_[2 * r + 1] += kMass;
-        for (int j = 0; j < 3; ++j) {
-          const Complex value = 2 * local[i][j] * unit(turns[i] - turns[j]);
-          if (const int c = row_[side[j]]; c >= 0) {
-            add_entry(entries, r, c, value);
-          } else {
-            const Complex given = value * z_[side[j]];
-            fixed_[2 * r] -= given.real();
-            fixed_[2 * r + 1] -= given.imag();
-          }
-        }
-      }
-    }
-    stiffness_.setFromTriplets(entries.begin(), entries.end());
-  }
-
-  static void add_entry(std::vector<Eigen::Triplet<double>>& entries, int row, int column, Complex value) {
-    entries.emplace_back(2 * row, 2 * column, value.real());
-    entries.emplace_back(2 * row, 2 * column + 1, -value.imag());
-    entries.emplace_back(2 * row + 1, 2 * column, value.imag());
-    entries.emplace_back(2 * row + 1, 2 * column + 1, value.real());
-  }
-
-  std::vector<Complex>& z_;
-  std::vector<int> row_;  ///< of each side; -1: on the boundary
-  Vector mass_;
-  Vector fixed_;  ///< what the boundary's values contribute
-  RowMatrix stiffness_;
-};
-
 /// 1/delta, the mean over a triangle.
 double mean_per_length(const SizeConnection& connection, const std::array<int, 3>& v) {
   double sum = 0;
@@ -180,6 +75,96 @@ double dislocations_of_size(const TriPatch& tri, const SizeConnection& connectio
   return sum;
 }
 
+/// The unknowns of several patches, and those at seams joined.
+class Unknowns {
+ public:
+  Unknowns(const std::vector<FieldPatch>& patches, const std::vector<SizeConnection>& connections) {
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      const BackgroundMesh& background = *patches[p].background;
+      const TriPatch& tri = background.triangles();
+      const Sides sides = number_sides(tri);
+      const std::vector<Complex> own = sample_sides(background, sides, *patches[p].start);
+      std::vector<int> unknown(sides.count);
+      std::iota(unknown.begin(), unknown.end(), static_cast<int>(z.size()));
+      z.insert(z.end(), own.begin(), own.end());
+      alignment.resize(z.size(), 0);
+      for (std::size_t t = 0; t < tri.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+          if (tri.neighbours[t][k] < 0) alignment[unknown[sides.of_triangle[t][k]]] = CrossDiffusion::kGiven;
+      of_patch.push_back(
+          {&tri, sides, unknown, std::vector<double>(sides.count, 0), &connections[p].phase_turns()});
+    }
+  }
+
+  void join(const FieldSeam& seam) {
+    const auto& [one, other] = seam.sides;
+    const int unknown = turn_with_side(one);
+    // Of the other's own nothing depends any more: it stays given.
+    of_patch[other.patch].unknown[turn_with_side(other)] = of_patch[one.patch].unknown[unknown];
+    z[of_patch[one.patch].unknown[unknown]] = 1;
+    alignment[of_patch[one.patch].unknown[unknown]] = seam.alignment;
+  }
+
+  /// In the parameter plane of a patch, side by side.
+  std::vector<Cross> crosses(std::size_t patch) const {
+    const PatchUnknowns& own = of_patch[patch];
+    std::vector<Cross> crosses;
+    crosses.reserve(own.unknown.size());
+    for (std::size_t i = 0; i < own.unknown.size(); ++i) {
+      Complex value = z[own.unknown[i]];
+      if (own.direction[i] != 0) value *= unit(own.direction[i]);
+      crosses.push_back({value.real(), value.imag()});
+    }
+    return crosses;
+  }
+
+  std::vector<PatchUnknowns> of_patch;
+  std::vector<double> alignment;
+  std::vector<Complex> z;
+
+ private:
+  /// The number of the side.
+  int turn_with_side(const FieldSeam::Side& side) {
+    PatchUnknowns& own = of_patch[side.patch];
+    const auto& v = own.tri->triangles[side.triangle];
+    const Vec2 along =
+        own.tri->points[v[(side.opposite + 2) % 3]] - own.tri->points[v[(side.opposite + 1) % 3]];
+    const int number = own.sides.of_triangle[side.triangle][side.opposite];
+    own.direction[number] = 4 * std::atan2(along.y, along.x);
+    return number;
+  }
+};
+
+/// Where the ends of seams are, each once.
+std::vector<JoinedVertices> joined_vertices(const std::vector<FieldPatch>& patches,
+                                            const std::vector<FieldSeam>& seams) {
+  using Vertex = std::array<int, 2>;
+  std::map<Vertex, Vertex> parent;
+  const auto root = [&](Vertex v) {
+    while (parent.try_emplace(v, v).first->second != v) v = parent[v];
+    return v;
+  };
+  const auto ends = [&](const FieldSeam::Side& side) {
+    const auto& v = patches[side.patch].background->triangles().triangles[side.triangle];
+    return std::array{Vertex{side.patch, v[(side.opposite + 1) % 3]},
+                      Vertex{side.patch, v[(side.opposite + 2) % 3]}};
+  };
+  for (const FieldSeam& seam : seams) {
+    const auto one = ends(seam.sides[0]), other = ends(seam.sides[1]);
+    for (int i = 0; i < 2; ++i) {
+      const auto [low, high] = std::minmax({root(one[i]), root(other[1 - i])});
+      parent[high] = low;
+    }
+  }
+  std::map<Vertex, JoinedVertices> joined;
+  for (const auto& [v, _] : parent) joined[root(v)].vertices.push_back(v);
+  for (const FieldSeam& seam : seams)
+    for (const Vertex& v : ends(seam.sides[0])) ++joined[root(v)].n_shared;
+  std::vector<JoinedVertices> all;
+  for (auto& [_, j] : joined) all.push_back(std::move(j));
+  return all;
+}
+
 }  // namespace
 
 struct SizeAwareCrossField::Data {
@@ -190,35 +175,64 @@ struct SizeAwareCrossField::Data {
   std::vector<std::array<Complex, 3>> crosses;
 };
 
-SizeAwareCrossField::SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background,
-                                         const ParametricSize& size, std::shared_ptr<const CrossField> start)
-    : data_(std::make_unique<Data>()) {
-  const TriPatch& tri = background->triangles();
-  const Sides sides = number_sides(tri);
-  const SizeConnection connection(tri, size);
-  std::vector<Complex> z = sample_sides(*background, sides, *start);
-  if (dislocations_of_size(tri, connection) < 1) {
-    data_->start = std::move(start);
-  } else {
-    CrossDiffusion diffusion(*background, sides, connection, z);
+std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
+    const std::vector<FieldPatch>& patches, const std::vector<FieldSeam>& seams) {
+  std::vector<SizeConnection> connections;
+  connections.reserve(patches.size());
+  double size_dislocations = 0;
+  for (const FieldPatch& patch : patches) {
+    connections.emplace_back(patch.background->triangles(), *patch.size);
+    size_dislocations += dislocations_of_size(patch.background->triangles(), connections.back());
+  }
+  Unknowns unknowns(patches, connections);
+  for (const FieldSeam& seam : seams) unknowns.join(seam);
+  const bool stays_start = seams.empty() && size_dislocations < 1;
+  if (!stays_start) {
+    CrossDiffusion diffusion(unknowns.of_patch, unknowns.alignment, unknowns.z);
     for (int i = 0; i < kSteps; ++i) {
       check_cancelled();
       diffusion.step(kLongest * std::pow(kShortest / kLongest, i / (kSteps - 1.0)));
     }
   }
-  std::vector<Cross> crosses;
-  crosses.reserve(z.size());
-  for (const Complex value : z) crosses.push_back({value.real(), value.imag()});
-  topology_ = find_singularities(*background, sides, crosses, connection.phase_turns());
-  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
-    data_->gradient.push_back(connection.gradient(static_cast<int>(t)));
-    auto& local = data_->crosses.emplace_back();
-    for (int k = 0; k < 3; ++k) local[k] = z[sides.of_triangle[t][k]] * unit(-connection.phase_turns()[t][k]);
+
+  std::vector<FieldWinding> windings;
+  int euler_characteristic = static_cast<int>(seams.size()), index_sum = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    windings.push_back(find_winding(*patches[p].background, unknowns.of_patch[p].sides, unknowns.crosses(p),
+                                    connections[p].phase_turns()));
+  const std::vector<JoinedVertices> joined = joined_vertices(patches, seams);
+  join_windings(joined, windings);
+  for (const JoinedVertices& j : joined) euler_characteristic -= static_cast<int>(j.vertices.size()) - 1;
+
+  std::vector<std::shared_ptr<SizeAwareCrossField>> fields;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const PatchUnknowns& own = unknowns.of_patch[p];
+    auto data = std::make_shared<SizeAwareCrossField::Data>();
+    data->background = patches[p].background;
+    if (stays_start) data->start = patches[p].start;
+    for (int t = 0; t < static_cast<int>(own.tri->triangles.size()); ++t) {
+      data->gradient.push_back(connections[p].gradient(t));
+      auto& local = data->crosses.emplace_back();
+      for (int k = 0; k < 3; ++k)
+        local[k] = unknowns.z[own.unknown[own.sides.of_triangle[t][k]]] * unit(-own.phase(t, k));
+    }
+    fields.push_back(std::shared_ptr<SizeAwareCrossField>(new SizeAwareCrossField(std::move(data))));
+    fields[p]->topology_ =
+        find_singularities(*patches[p].background, own.sides, unknowns.crosses(p), windings[p]);
+    index_sum += fields[p]->index_sum();
+    euler_characteristic += fields[p]->euler_characteristic();
   }
-  data_->background = std::move(background);
+  for (const auto& field : fields) {
+    field->topology_.index_sum = index_sum;
+    field->topology_.euler_characteristic = euler_characteristic;
+  }
+  return {fields.begin(), fields.end()};
 }
 
-SizeAwareCrossField::~SizeAwareCrossField() = default;
+SizeAwareCrossField::SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background,
+                                         const ParametricSize& size, std::shared_ptr<const CrossField> start)
+    : SizeAwareCrossField(
+          *make_size_aware_fields({{std::move(background), &size, std::move(start)}}, {}).front()) {}
 
 Cross SizeAwareCrossField::at(Vec2 u, int& hint) const {
   if (data_->start) return data_->start->at(u, hint);

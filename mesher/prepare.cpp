@@ -316,7 +316,8 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
   if (cross.kind == CrossKind::kField)
     return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
   auto field = std::make_shared<HarmonicCrossField>(p.background);
-  p.singularities = field->singularities();
+  for (const Singularity& s : field->singularities())
+    p.singularities.push_back({{s.at.x, s.at.y, 0}, s.index});
   p.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
   return field;
 }

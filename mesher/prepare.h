@@ -68,6 +68,12 @@ struct PreparedSurface {
 /// The maps of all patches.
 std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
 
+/// A singularity of the cross field, as in Singularity, in space.
+struct PlacedSingularity {
+  Vec3 at;
+  int index;
+};
+
 /// What every pipeline on a case starts from.
 struct PreparedProblem {
   std::string name, where;  ///< as in MeshProblem, and so
@@ -87,7 +93,7 @@ struct PreparedProblem {
   std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...
   std::vector<SymmetryPlane> symmetry;               ///< planes that were given or found
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
-  std::vector<Singularity> singularities;            ///< of a boundary-aligned or size-aware cross field
+  std::vector<PlacedSingularity> singularities;      ///< of a boundary-aligned or size-aware cross field
   /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
   /// it, in quarters.
   std::optional<std::pair<int, int>> index_sum_and_expected;

@@ -1,6 +1,7 @@
 #include "mesher/size_aware.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -12,6 +13,7 @@
 #include "delquad/extend.h"
 #include "fields/size_aware_cross_field.h"
 #include "mesh/constrained_delaunay.h"
+#include "mesher/field_groups.h"
 
 namespace delquad {
 namespace {
@@ -79,35 +81,59 @@ std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
 }  // namespace
 
 void make_crosses_size_aware(PreparedProblem& prepared) {
-  struct Made {
-    std::shared_ptr<const SizeAwareCrossField> field;
-    double dislocations_before, dislocations;
+  std::vector<PreparedPatch>& patches = prepared.patches;
+  const auto n_points = [&](std::size_t i) { return static_cast<double>(patches[i].boundary.points.size()); };
+  std::vector<std::shared_ptr<const BackgroundMesh>> backgrounds(patches.size());
+  const auto resolve = [&](std::size_t i) {
+    const DoingFace face = doing_patch(prepared, i);
+    backgrounds[i] = resolve_size(patches[i]);
   };
-  std::vector<Made> made(prepared.patches.size());
+  parallel_for(patches.size(), resolve, n_points);
+
+  const std::vector<FieldGroup> groups = field_groups(prepared, backgrounds);
+  std::vector<std::shared_ptr<const SizeAwareCrossField>> made(patches.size());
   parallel_for(
-      made.size(),
-      [&](std::size_t i) {
-        const PreparedPatch& patch = prepared.patches[i];
-        const DoingFace face = doing_patch(prepared, i);
-        const auto background = resolve_size(patch);
-        const auto field = std::make_shared<SizeAwareCrossField>(background, *patch.size, patch.cross);
-        made[i] = {field, expected_dislocations(*background, *patch.cross, *patch.size),
-                   expected_dislocations(*background, *field, *patch.size)};
+      groups.size(),
+      [&](std::size_t g) {
+        const DoingFace face = doing_patch(prepared, groups[g].patches.front());
+        std::vector<FieldPatch> of_group;
+        for (const int i : groups[g].patches)
+          of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross});
+        const auto fields = make_size_aware_fields(of_group, groups[g].seams);
+        for (std::size_t k = 0; k < fields.size(); ++k) made[groups[g].patches[k]] = fields[k];
       },
-      [&](std::size_t i) { return static_cast<double>(prepared.patches[i].boundary.points.size()); });
+      [&](std::size_t g) {
+        double sum = 0;
+        for (const int i : groups[g].patches) sum += n_points(i);
+        return sum;
+      });
+
+  std::vector<std::array<double, 2>> dislocations(patches.size());  // before and now
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        const PreparedPatch& patch = patches[i];
+        const DoingFace face = doing_patch(prepared, i);
+        dislocations[i] = {expected_dislocations(*backgrounds[i], *patch.cross, *patch.size),
+                           expected_dislocations(*backgrounds[i], *made[i], *patch.size)};
+      },
+      n_points);
 
   prepared.singularities.clear();
   prepared.index_sum_and_expected = {0, 0};
   prepared.dislocations = {0, 0};
+  for (const FieldGroup& group : groups) {
+    const SizeAwareCrossField& field = *made[group.patches.front()];
+    prepared.index_sum_and_expected->first += field.index_sum();
+    prepared.index_sum_and_expected->second += 4 * field.euler_characteristic();
+  }
   for (std::size_t i = 0; i < made.size(); ++i) {
-    const auto& [field, dislocations_before, dislocations] = made[i];
-    prepared.patches[i].cross = field;
-    prepared.index_sum_and_expected->first += field->index_sum();
-    prepared.index_sum_and_expected->second += 4 * field->euler_characteristic();
-    prepared.dislocations->first += dislocations_before;
-    prepared.dislocations->second += dislocations;
-    if (!prepared.background) continue;  // singularities of surfaces would be points of parameter planes
-    for (const Singularity& s : field->singularities()) prepared.singularities.push_back(s);
+    patches[i].cross = made[i];
+    prepared.dislocations->first += dislocations[i][0];
+    prepared.dislocations->second += dislocations[i][1];
+    int hint = -1;
+    for (const Singularity& s : made[i]->singularities())
+      prepared.singularities.push_back({patches[i].lift(s.at, hint), s.index});
   }
 }
 

@@ -167,8 +167,8 @@ Json domain_json(const PreparedProblem& p) {
 
 Json cross_json(const PreparedProblem& p) {
   Json json = {{"singularities", Json::array()}};
-  for (const Singularity& s : p.singularities)
-    json["singularities"].push_back({{"at", {s.at.x, s.at.y}}, {"index_quarters", s.index}});
+  for (const PlacedSingularity& s : p.singularities)
+    json["singularities"].push_back({{"at", point_json(s.at)}, {"index_quarters", s.index}});
   if (p.index_sum_and_expected) {
     json["index_sum_quarters"] = p.index_sum_and_expected->first;
     json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;

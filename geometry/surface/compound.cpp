@@ -224,15 +224,15 @@ SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const Compo
   return model;
 }
 
-Groups tangent_groups(const SurfaceModel& model, double angle) {
+std::vector<char> tangent_curves(const SurfaceModel& model, double angle) {
   const Mesh& mesh = model.fine;
   const auto faces = faces_of_lines(mesh);
   const auto directions = directions_at_curves(mesh);
-  std::map<int, std::array<int, 2>> smooth;  // curves, with the two faces that they join
-  std::vector<char> sharp(mesh.curves.size(), 0);
+  std::vector<char> smooth(mesh.curves.size(), 0), sharp(mesh.curves.size(), 0);
   for (size_t i = 0; i < faces.size(); ++i) {
     const auto [f, g] = faces[i];
     const int curve = mesh.line_curve[i];
+    smooth[curve] = 1;
     if (f < 0) {
       sharp[curve] = 1;
       continue;
@@ -242,11 +242,18 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
                n = directions.at({g, a}) + directions.at({g, b});
     // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
     if (angle < 180 && !(std::atan2(norm(cross(m, n)), dot(m, n)) < radians(angle))) sharp[curve] = 1;
-    smooth[curve] = faces[i];
   }
+  for (size_t c = 0; c < sharp.size(); ++c) smooth[c] = smooth[c] && !sharp[c];
+  return smooth;
+}
+
+Groups tangent_groups(const SurfaceModel& model, double angle) {
+  const Mesh& mesh = model.fine;
+  const std::vector<char> smooth = tangent_curves(model, angle);
+  const auto faces = faces_of_lines(mesh);
   FaceSets sets(mesh.regions.size());
-  for (const auto& [curve, pair] : smooth) {
-    if (!sharp[curve]) sets.join(pair[0], pair[1]);
+  for (size_t i = 0; i < faces.size(); ++i) {
+    if (smooth[mesh.line_curve[i]]) sets.join(faces[i][0], faces[i][1]);
   }
   std::map<int, std::vector<int>> of_first;
   for (int face = 0; face < static_cast<int>(mesh.regions.size()); ++face)

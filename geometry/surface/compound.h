@@ -18,9 +18,12 @@ struct CompoundOptions {
 SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int>>& groups,
                            const CompoundOptions& options = {});
 
-/// Groups of two faces or more that join smoothly: all along a common curve the normals of both, averaged
-/// over the triangles at each line, differ by less than `angle` (degrees). With 180 all faces that hang
-/// together are a group.
+/// Of each curve, whether two faces join smoothly there: all along it the normals of both, averaged over the
+/// triangles at each line, differ by less than `angle` (degrees).
+std::vector<char> tangent_curves(const SurfaceModel& model, double angle = 5);
+
+/// Groups of two faces or more that join smoothly at some curve. With 180 all faces that hang together are a
+/// group.
 std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double angle = 5);
 
 /// Whether merge_short_curves names the short curves that continue no other.

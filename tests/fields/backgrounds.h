@@ -1,16 +1,36 @@
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "delquad/mesh.h"
 #include "fields/background_mesh.h"
+#include "mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {
 
 inline std::shared_ptr<const BackgroundMesh> background_of(const PatchBoundary& patch) {
   return std::make_shared<const BackgroundMesh>(std::span(&patch, 1));
+}
+
+/// Image of the rectangle [0, width] x [0, height] under a map, triangulated over a grid of squares of side
+/// `step`.
+inline std::shared_ptr<const BackgroundMesh> image_of_grid(double width, double height, double step,
+                                                           const std::function<Vec2(Vec2)>& map) {
+  const int nx = static_cast<int>(std::lround(width / step)),
+            ny = static_cast<int>(std::lround(height / step));
+  PatchBoundary boundary;
+  shapes::add_polygon(boundary, {{0, 0}, {width, 0}, {width, height}, {0, height}}, {nx, ny, nx, ny});
+  for (Vec2& p : boundary.points) p = map(p);
+  std::vector<Vec2> interior;
+  for (int j = 1; j < ny; ++j) {
+    for (int i = 1; i < nx; ++i) interior.push_back(map({i * width / nx, j * height / ny}));
+  }
+  return std::make_shared<const BackgroundMesh>(constrained_delaunay(boundary, interior));
 }
 
 /// The boundary as the mesh of lines it stands for.

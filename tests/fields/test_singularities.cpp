@@ -26,7 +26,8 @@ std::vector<Singularity> singularities_of(const BackgroundMesh& background,
       crosses[sides.of_triangle[t][k]] = {value.real(), value.imag()};
     }
   }
-  return find_singularities(background, sides, crosses).singularities;
+  return find_singularities(background, sides, crosses, find_winding(background, sides, crosses))
+      .singularities;
 }
 
 constexpr Complex kP = {0.31, 0.42}, kQ = {0.71, 0.63};

@@ -7,7 +7,6 @@
 #include <functional>
 #include <numbers>
 
-#include "mesh/constrained_delaunay.h"
 #include "tests/fields/backgrounds.h"
 #include "tests/support/analytic_fields.h"
 
@@ -25,22 +24,6 @@ double angle_apart(double theta, double other) {
 
 Complex as_complex(Vec2 u) { return {u.x, u.y}; }
 Vec2 as_vec(Complex w) { return {w.real(), w.imag()}; }
-
-/// Image of the rectangle [0, width] x [0, height] under a map, triangulated over a grid of squares of side
-/// `step`.
-std::shared_ptr<const BackgroundMesh> image_of_grid(double width, double height, double step,
-                                                    const std::function<Vec2(Vec2)>& map) {
-  const int nx = static_cast<int>(std::lround(width / step)),
-            ny = static_cast<int>(std::lround(height / step));
-  PatchBoundary boundary;
-  shapes::add_polygon(boundary, {{0, 0}, {width, 0}, {width, height}, {0, height}}, {nx, ny, nx, ny});
-  for (Vec2& p : boundary.points) p = map(p);
-  std::vector<Vec2> interior;
-  for (int j = 1; j < ny; ++j) {
-    for (int i = 1; i < nx; ++i) interior.push_back(map({i * width / nx, j * height / ny}));
-  }
-  return std::make_shared<const BackgroundMesh>(constrained_delaunay(boundary, interior));
-}
 
 /// Root mean square of the angle between two fields, over random points.
 double rms_apart(const TriPatch& tri, const CrossField& a, const CrossField& b) {

@@ -20,7 +20,7 @@ namespace delquad {
 namespace {
 
 using testing_support::TriangulatedShape;
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 MeshProblem problem_of(Model model, double size, std::vector<PeriodicPair> periodic) {
   MeshProblem problem;
@@ -112,7 +112,7 @@ Mesh cell_with_hole(int n) {
     return at[side];
   };
   const auto hole = [&](int i) {
-    const double a = 2 * kPi * (i % around) / around - 0.75 * kPi;
+    const double a = 2 * kHalfTurn * (i % around) / around - 0.75 * kHalfTurn;
     return Vec3{0.5 + 0.3 * std::cos(a), 0.5 + 0.3 * std::sin(a), 0};
   };
   const Vec3 up{0, 0, 1};
@@ -146,7 +146,7 @@ TEST(PeriodicFaces, HolesThroughFacesMatch) {
     const MeshResult r = mesh(problem_of(TriangleModel{cell_with_hole(8)}, 0.11, kCellPairs), word);
     EXPECT_TRUE(r.mesh.triangles.empty());
     expect_images(r.mesh, 3);
-    EXPECT_NEAR(volume(r.mesh), 1 - 0.09 * kPi, 0.01);
+    EXPECT_NEAR(volume(r.mesh), 1 - 0.09 * kHalfTurn, 0.01);
   }
 }
 
@@ -185,23 +185,23 @@ Mesh swept(const std::vector<Vec2>& polygon, Vec2 middle, double angle, int step
 TEST(PeriodicFaces, PipesThatBendMatch) {
   std::vector<Vec2> circle;
   for (int i = 0; i < 24; ++i) {
-    const double a = 2 * kPi * i / 24;
+    const double a = 2 * kHalfTurn * i / 24;
     circle.push_back({3 + std::cos(a), std::sin(a)});
   }
-  Mesh pipe = swept(circle, {3, 0}, kPi / 2, 16);
+  Mesh pipe = swept(circle, {3, 0}, kHalfTurn / 2, 16);
   for (int& region : pipe.triangle_region) region = std::min(region, 2);  // one face around
   pipe.regions.resize(3);
   for (const char* word : {"DB", "DBCO", "DLBCO"}) {
-    const MeshResult r =
-        mesh(problem_of(TriangleModel{pipe}, 0.3, {{"region_1", "region_2", {{}, kPi / 2}, "p"}}), word);
+    const MeshResult r = mesh(
+        problem_of(TriangleModel{pipe}, 0.3, {{"region_1", "region_2", {{}, kHalfTurn / 2}, "p"}}), word);
     EXPECT_TRUE(r.mesh.triangles.empty());
     expect_images(r.mesh, 1);
-    EXPECT_NEAR(volume(r.mesh), kPi * 3 * kPi / 2, 0.5);
+    EXPECT_NEAR(volume(r.mesh), kHalfTurn * 3 * kHalfTurn / 2, 0.5);
   }
 }
 
 TEST(PeriodicFaces, SectorsTouchTheirAxis) {
-  const double angle = kPi / 5;
+  const double angle = kHalfTurn / 5;
   const Mesh wedge = swept({{0, 0}, {1, 0}, {1.4, 0.5}, {1, 1}, {0, 1.2}}, {0.6, 0.5}, angle, 6);
   for (const char* word : {"DB", "DBCO", "DLBCO"}) {
     const MeshResult r =
@@ -224,7 +224,7 @@ TEST(PeriodicFaces, CurvedFacesMatch) {
       problem_of(TriangleModel{testing_support::box(16)}, 0.11, {{"region_1", "region_2", {{1, 0, 0}}, "p"}});
   MeshProblem curved = flat;
   for (Vec3& p : std::get<TriangleModel>(curved.model).mesh.points)
-    p.x += 0.1 * std::sin(kPi * p.y) * std::sin(kPi * p.z);
+    p.x += 0.1 * std::sin(kHalfTurn * p.y) * std::sin(kHalfTurn * p.z);
   const MeshResult r = mesh(curved, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
   expect_images(r.mesh, 1);
@@ -283,7 +283,7 @@ TEST(PeriodicFaces, CellsWithPoresAtTheCornersMatch) {
     EXPECT_TRUE(result.mesh.triangles.empty());
     expect_images(result.mesh, 3);
     // Chords make pores smaller.
-    const double pores = 4.0 / 3 * kPi * std::pow(radius, 3);
+    const double pores = 4.0 / 3 * kHalfTurn * std::pow(radius, 3);
     EXPECT_NEAR(volume(result.mesh), 1 - pores, 0.15 * pores);
   }
 }
@@ -385,8 +385,9 @@ TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
   refused({{"region_1", "region_2", {{1, 0, 0}}, "p 1"}, {"region_2", "region_1", {{-1, 0, 0}}, "p 2"}},
           {"p 2: face 1 is in two pairs"}, cube);
   // Turned by 90 degrees about its middle the face is there again, but its edges are not where others say.
-  refused({{"region_1", "region_2", {{1, 0, 0}, kPi / 2, {0, 0.5, 0.5}, {1, 0, 0}}, "p 1"}, kCellPairs[1]},
-          {"would be the image of two curves that are not images of each other"}, cube);
+  refused(
+      {{"region_1", "region_2", {{1, 0, 0}, kHalfTurn / 2, {0, 0.5, 0.5}, {1, 0, 0}}, "p 1"}, kCellPairs[1]},
+      {"would be the image of two curves that are not images of each other"}, cube);
   Mesh dented = testing_support::box(4);
   for (Vec3& p : dented.points)
     if (p.x == 1 && p.y == 0.5 && p.z == 0.5) p.x = 1.01;
