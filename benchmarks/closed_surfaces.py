@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Meshes smooth closed surfaces with delquad and with QuadriFlow, as it is in Blender, at equal numbers of quads.
 
-A torus and a sphere are made here; scans are from the data folder. delquad's size is tuned until the first word makes the wanted number of
-quads, within 3 %; QuadriFlow is asked for as many faces as that made. `delquad metrics` measures all meshes alike. Seconds are on the clock: of delquad
-meshing, of QuadriFlow the remeshing alone. "before": irregular vertices before Q ran once more with other cuts. What is missing is skipped with a reason.
+A torus and a sphere are made here; scans are from the data folder. delquad has the size-aware field, as --quality best. Its size is tuned until
+the first word makes the wanted number of quads, within 3 %; QuadriFlow is asked for as many faces as that made. `delquad metrics` measures all meshes
+alike. Seconds are on the clock: of delquad meshing, of QuadriFlow the remeshing alone. "before": irregular vertices before Q ran once more with other
+cuts. What is missing is skipped with a reason.
 """
 
 import argparse
@@ -13,7 +14,9 @@ import shutil
 import subprocess
 import tempfile
 from pathlib import Path
+from statistics import mean
 
+MEASURES = ("n_quads", "n_irregular", "eta_mean", "eta_worst", "n_inverted", "d4", "tau")
 ROOT = Path(__file__).resolve().parent.parent
 CASES = [  # name, file in the data folder or None
     ("torus", None),
@@ -88,15 +91,16 @@ def write_obj(path, points, triangles):
 
 
 class Case:
-    def __init__(self, delquad, model, folder):
+    def __init__(self, delquad, model, folder, options):
         self.delquad, self.model, self.folder = delquad, model, folder
+        self.options = [a for option in options for a in ("--set", option)]
 
     def run(self, word, size):
         """The record of a word; None where it made no sound mesh."""
         record = self.folder / "record.json"
         record.unlink(missing_ok=True)
         subprocess.run([self.delquad, "mesh", self.model, "-o", self.folder / "mesh.obj", "--size", repr(size), "--pipeline", word,
-                        "--threads", "1", "--json", record], capture_output=True)
+                        "--cross", "size-aware", *self.options, "--threads", "1", "--json", record], capture_output=True)
         if not record.exists():
             return None
         return json.loads(record.read_text())
@@ -147,6 +151,8 @@ def main():
     parser.add_argument("--quads", type=int, nargs="+", default=[2000, 8000])
     parser.add_argument("--words", nargs="+", default=["DBCO", "DBCQO", "DLBCO"])
     parser.add_argument("--cases", nargs="+", default=[name for name, _ in CASES])
+    parser.add_argument("--sizes", type=int, default=1, help="means over so many sizes, each 3 %% larger than the one before")
+    parser.add_argument("--set", nargs="+", default=[], metavar="OPTION=VALUE", help="options of delquad")
     parser.add_argument("--alone", action="store_true", help="without QuadriFlow")
     arguments = parser.parse_args()
     arguments.delquad = arguments.delquad.resolve()
@@ -168,19 +174,20 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             model = Path(folder) / "model.obj"
             write_obj(model, *surface)
-            case = Case(arguments.delquad, model, Path(folder))
+            case = Case(arguments.delquad, model, Path(folder), arguments.set)
             for wanted in arguments.quads:
                 size = case.tuned_size(arguments.words[0], wanted, area_of(*surface))
                 made = wanted
                 for word in arguments.words:
-                    record = case.run(word, size)
-                    if record is None:
+                    records = [case.run(word, size * 1.03**k) for k in range(arguments.sizes)]
+                    if None in records:
                         print(f"| {name} | {word} | failed |")
                         continue
-                    before = record.get("across_cuts", {}).get("irregular_before", "")
-                    row(name, word, record["metrics"], record["meshing_seconds"], before)
+                    values = {key: mean(record["metrics"][key] for record in records) for key in MEASURES}
+                    before = [record["across_cuts"]["irregular_before"] for record in records if "across_cuts" in record]
+                    row(name, word, values, mean(record["meshing_seconds"] for record in records), f"{mean(before):.0f}" if before else "")
                     if word == arguments.words[0]:
-                        made = int(record["metrics"]["n_quads"])
+                        made = round(values["n_quads"])
                 if has_blender:
                     mesh, seconds = case.quadriflow(made)
                     if mesh is None:

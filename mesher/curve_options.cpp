@@ -5,14 +5,27 @@
 namespace delquad {
 namespace {
 
+constexpr double kMostAlignment = 1e6;
+
 const OptionTable<CurveOptions>& curve_table() {
   static const auto all =
-      OptionTable<CurveOptions>("curves", "of surfaces: numbers of edges on curves")
+      OptionTable<CurveOptions>("curves",
+                                "of surfaces: numbers of edges on curves, and size-aware crosses there")
           .add({.name = "agreement",
                 .help = "what an irregular vertex less is worth: quads times eta; 0: by the size alone",
                 .least = 0,
                 .most = 100},
-               &CurveOptions::agreement);
+               &CurveOptions::agreement)
+          .add({.name = "alignment",
+                .help = "how much crosses are drawn to curves at which faces join smoothly; 0: not at all",
+                .least = 0,
+                .most = kMostAlignment},
+               &CurveOptions::alignment)
+          .add({.name = "cut_alignment",
+                .help = "the same of cuts; with 1e6 crosses follow them, as if each patch had its own field",
+                .least = 0,
+                .most = kMostAlignment},
+               &CurveOptions::cut_alignment);
   return all;
 }
 

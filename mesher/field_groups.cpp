@@ -8,22 +8,20 @@
 #include <utility>
 
 #include "geometry/surface/compound.h"
+#include "mesher/curve_options.h"
 
 namespace delquad {
 namespace {
-
-/// How much fields are drawn to the edges that nodes on curves make inside smooth surfaces: measured, see
-/// docs/algorithms.md. Cuts come and go; curves of the model stay.
-constexpr double kCutAlignment = 0.03, kCurveAlignment = 1;
 
 /// Of each curve, how much fields are drawn to it; none where fields are given there.
 std::vector<std::optional<double>> alignments(const PreparedProblem& prepared) {
   std::vector<std::optional<double>> of_curve(prepared.boundary.curves.size());
   if (!prepared.surface) return of_curve;
+  const CurveOptions options = curve_options(prepared.options);
   const std::vector<char> smooth = tangent_curves(prepared.surface->model);
   for (std::size_t c = 0; c < of_curve.size() && c < smooth.size(); ++c)
-    if (smooth[c]) of_curve[c] = kCurveAlignment;
-  for (const SurfaceCut& cut : prepared.surface->cuts) of_curve[cut.curve] = kCutAlignment;
+    if (smooth[c]) of_curve[c] = options.alignment;
+  for (const SurfaceCut& cut : prepared.surface->cuts) of_curve[cut.curve] = options.cut_alignment;
   return of_curve;
 }
 
