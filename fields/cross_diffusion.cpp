@@ -12,8 +12,6 @@ namespace {
 
 /// What each triangle gives to each of its sides: a sixth of an element.
 constexpr double kMass = 0.5 / 3;
-/// Relative residual of each step: its result is brought back to unit length, and only the last step's stays.
-constexpr double kTolerance = 1e-4;
 /// Of conjugate gradients: ordinary patches take 10 to 150, and as many as this cost about as much as a
 /// direct solution.
 constexpr int kMostIterations = 500;
@@ -25,9 +23,9 @@ using Vector = Eigen::VectorXd;
 
 /// By conjugate gradients from `start`, or directly where these do not converge: triangles with angles near
 /// 180 degrees, as badly made triangulations have them, can take them as many steps as there are unknowns.
-Vector solve_symmetric(const RowMatrix& matrix, const Vector& right, const Vector& start) {
+Vector solve_symmetric(const RowMatrix& matrix, const Vector& right, const Vector& start, double tolerance) {
   Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
-  iterative.setTolerance(kTolerance);
+  iterative.setTolerance(tolerance);
   iterative.setMaxIterations(kMostIterations);
   const Vector x = iterative.solveWithGuess(right, start);
   if (iterative.info() == Eigen::Success) return x;
@@ -88,7 +86,7 @@ void CrossDiffusion::add_triangle(const PatchUnknowns& patch, int t,
   }
 }
 
-void CrossDiffusion::step(double tau) {
+void CrossDiffusion::step(double tau, double tolerance) {
   if (mass_.size() == 0) return;
   const Vector weight = mass_ / tau;
   RowMatrix matrix = stiffness_;
@@ -99,7 +97,7 @@ void CrossDiffusion::step(double tau) {
     now[2 * row_[i]] = z_[i].real();
     now[2 * row_[i] + 1] = z_[i].imag();
   }
-  const Vector next = solve_symmetric(matrix, weight.cwiseProduct(now) + fixed_, now);
+  const Vector next = solve_symmetric(matrix, weight.cwiseProduct(now) + fixed_, now, tolerance);
   for (std::size_t i = 0; i < row_.size(); ++i) {
     if (row_[i] < 0) continue;
     const Complex value{next[2 * row_[i]], next[2 * row_[i] + 1]};

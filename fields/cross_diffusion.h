@@ -37,8 +37,8 @@ class CrossDiffusion {
   /// `z`: the unknowns, of unit length, which must stay; `alignment`: of each.
   CrossDiffusion(const std::vector<PatchUnknowns>& patches, const std::vector<double>& alignment,
                  std::vector<Complex>& z);
-  /// One step of diffusion over `tau` elements, then back to unit length.
-  void step(double tau);
+  /// One step of diffusion over `tau` elements, up to a relative residual, then back to unit length.
+  void step(double tau, double tolerance);
 
  private:
   void add_triangle(const PatchUnknowns& patch, int t, std::vector<Eigen::Triplet<double>>& entries);

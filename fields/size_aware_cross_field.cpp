@@ -22,6 +22,10 @@ namespace {
 /// last: the singularities find their places first within their neighbourhood, then to an element.
 constexpr double kLongest = 1600, kShortest = 2;
 constexpr int kSteps = 10;
+/// Relative residual of each step, since its result is brought back to unit length and only the last step's
+/// stays; of all but the last on patches that hang together, which hardly differ by it but take twice the
+/// time.
+constexpr double kTolerance = 1e-4, kRoughTolerance = 1e-2;
 
 using Complex = std::complex<double>;
 
@@ -96,13 +100,21 @@ class Unknowns {
     }
   }
 
+  /// Both sides get the unknown of the first, on the second's own nothing depends any more.
   void join(const FieldSeam& seam) {
-    const auto& [one, other] = seam.sides;
-    const int unknown = turn_with_side(one);
-    // Of the other's own nothing depends any more: it stays given.
-    of_patch[other.patch].unknown[turn_with_side(other)] = of_patch[one.patch].unknown[unknown];
-    z[of_patch[one.patch].unknown[unknown]] = 1;
-    alignment[of_patch[one.patch].unknown[unknown]] = seam.alignment;
+    int shared = -1;
+    for (const FieldSeam::Side& side : seam.sides) {
+      PatchUnknowns& own = of_patch[side.patch];
+      const auto& v = own.tri->triangles[side.triangle];
+      const Vec2 along =
+          own.tri->points[v[(side.opposite + 2) % 3]] - own.tri->points[v[(side.opposite + 1) % 3]];
+      const int number = own.sides.of_triangle[side.triangle][side.opposite];
+      if (shared < 0) shared = own.unknown[number];
+      own.unknown[number] = shared;
+      own.direction[number] = 4 * std::atan2(along.y, along.x);
+    }
+    z[shared] = 1;
+    alignment[shared] = seam.alignment;
   }
 
   /// In the parameter plane of a patch, side by side.
@@ -121,18 +133,6 @@ class Unknowns {
   std::vector<PatchUnknowns> of_patch;
   std::vector<double> alignment;
   std::vector<Complex> z;
-
- private:
-  /// The number of the side.
-  int turn_with_side(const FieldSeam::Side& side) {
-    PatchUnknowns& own = of_patch[side.patch];
-    const auto& v = own.tri->triangles[side.triangle];
-    const Vec2 along =
-        own.tri->points[v[(side.opposite + 2) % 3]] - own.tri->points[v[(side.opposite + 1) % 3]];
-    const int number = own.sides.of_triangle[side.triangle][side.opposite];
-    own.direction[number] = 4 * std::atan2(along.y, along.x);
-    return number;
-  }
 };
 
 /// Where the ends of seams are, each once.
@@ -165,6 +165,33 @@ std::vector<JoinedVertices> joined_vertices(const std::vector<FieldPatch>& patch
   return all;
 }
 
+/// Of each patch, with the sums of them all.
+std::vector<FieldTopology> find_topologies(const std::vector<FieldPatch>& patches,
+                                           const std::vector<FieldSeam>& seams,
+                                           const std::vector<SizeConnection>& connections,
+                                           const Unknowns& unknowns) {
+  std::vector<FieldWinding> windings;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    windings.push_back(find_winding(*patches[p].background, unknowns.of_patch[p].sides, unknowns.crosses(p),
+                                    connections[p].phase_turns()));
+  const std::vector<JoinedVertices> joined = joined_vertices(patches, seams);
+  join_windings(joined, windings);
+  std::vector<FieldTopology> topologies;
+  int index_sum = 0, euler_characteristic = static_cast<int>(seams.size());
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    topologies.push_back(find_singularities(*patches[p].background, unknowns.of_patch[p].sides,
+                                            unknowns.crosses(p), windings[p]));
+    index_sum += topologies[p].index_sum;
+    euler_characteristic += topologies[p].euler_characteristic;
+  }
+  for (const JoinedVertices& j : joined) euler_characteristic -= static_cast<int>(j.vertices.size()) - 1;
+  for (FieldTopology& topology : topologies) {
+    topology.index_sum = index_sum;
+    topology.euler_characteristic = euler_characteristic;
+  }
+  return topologies;
+}
+
 }  // namespace
 
 struct SizeAwareCrossField::Data {
@@ -191,19 +218,13 @@ std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
     CrossDiffusion diffusion(unknowns.of_patch, unknowns.alignment, unknowns.z);
     for (int i = 0; i < kSteps; ++i) {
       check_cancelled();
-      diffusion.step(kLongest * std::pow(kShortest / kLongest, i / (kSteps - 1.0)));
+      const bool is_rough = !seams.empty() && i + 1 < kSteps;
+      diffusion.step(kLongest * std::pow(kShortest / kLongest, i / (kSteps - 1.0)),
+                     is_rough ? kRoughTolerance : kTolerance);
     }
   }
 
-  std::vector<FieldWinding> windings;
-  int euler_characteristic = static_cast<int>(seams.size()), index_sum = 0;
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    windings.push_back(find_winding(*patches[p].background, unknowns.of_patch[p].sides, unknowns.crosses(p),
-                                    connections[p].phase_turns()));
-  const std::vector<JoinedVertices> joined = joined_vertices(patches, seams);
-  join_windings(joined, windings);
-  for (const JoinedVertices& j : joined) euler_characteristic -= static_cast<int>(j.vertices.size()) - 1;
-
+  const std::vector<FieldTopology> topologies = find_topologies(patches, seams, connections, unknowns);
   std::vector<std::shared_ptr<SizeAwareCrossField>> fields;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const PatchUnknowns& own = unknowns.of_patch[p];
@@ -217,14 +238,7 @@ std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
         local[k] = unknowns.z[own.unknown[own.sides.of_triangle[t][k]]] * unit(-own.phase(t, k));
     }
     fields.push_back(std::shared_ptr<SizeAwareCrossField>(new SizeAwareCrossField(std::move(data))));
-    fields[p]->topology_ =
-        find_singularities(*patches[p].background, own.sides, unknowns.crosses(p), windings[p]);
-    index_sum += fields[p]->index_sum();
-    euler_characteristic += fields[p]->euler_characteristic();
-  }
-  for (const auto& field : fields) {
-    field->topology_.index_sum = index_sum;
-    field->topology_.euler_characteristic = euler_characteristic;
+    fields[p]->topology_ = topologies[p];
   }
   return {fields.begin(), fields.end()};
 }

@@ -262,9 +262,9 @@ def shell(delquad, folder):
         rows, = solve(folder, os.path.join(folder, "sets.inp"), section, held + ["*DLOAD", "ALL_OF_IT, P, 1."] + forces, 0.1)
         found, wanted = total([row[1:] for row in rows]), math.pi * 15 ** 2
         print(f"order {order}: forces {off:.1e} and moments {turning:.1e} out of balance, pressure holds {found}, a disc {wanted:.6g}")
-        # Circles are polygons at order 1; at the sharp curve the bricks that CalculiX makes of shells overlap.
-        good &= off < PRINTED and turning < 10 * PRINTED and max(abs(found[0]), abs(found[1])) < 2e-3 * wanted
-        good &= abs(found[2] / wanted - 1) < {"1": 0.03, "2": 0.003}[order]
+        # Circles are polygons at order 1; at the sharp curve the bricks that CalculiX makes of shells overlap, however thin they are.
+        good &= off < PRINTED and turning < 10 * PRINTED
+        good &= math.dist(found, (0, 0, wanted)) < {"1": 0.04, "2": 0.006}[order] * wanted
     return good
 
 
