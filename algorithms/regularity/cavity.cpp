@@ -22,6 +22,7 @@ void Cavity::begin(int most) {
   element_pass_.resize(mesh_.element_slots(), 0);
   vertex_pass_.resize(mesh_.vertex_slots(), 0);
   quads_at_.resize(mesh_.vertex_slots(), 0);
+  checked_at_.resize(mesh_.vertex_slots(), 0);
   elements_.clear(), vertices_.clear(), to_check_.clear();
 }
 
@@ -35,7 +36,7 @@ bool Cavity::add(int element) {
     if (mesh_.held(v)) return false;
     if (vertex_pass_[v] != pass_) {
       vertex_pass_[v] = pass_;
-      quads_at_[v] = 0;
+      quads_at_[v] = checked_at_[v] = 0;
       vertices_.push_back(v);
     }
     ++quads_at_[v];
@@ -52,6 +53,7 @@ bool Cavity::add_around(int vertex) {
 
 /// Runs of its quads around a vertex.
 int Cavity::fans_at(int v) const {
+  if (quads_at(v) == 1 || (!mesh_.on_boundary(v) && quads_at(v) == mesh_.valence(v) - 1)) return 1;
   int fans = 0, first = -1, last = -1;
   mesh_.for_each_out(v, [&](int h) {
     const int in = has(QuadTopology::element(h)) ? 1 : 0;
@@ -66,8 +68,9 @@ bool Cavity::close() {
   while (!to_check_.empty()) {
     const int v = to_check_.back();
     to_check_.pop_back();
-    if (is_inside(v)) continue;
-    const int want = wanted(v), most = quads_at(v) == mesh_.valence(v) ? 3 : 2;
+    if (checked_at_[v] == quads_at_[v] || is_inside(v)) continue;
+    checked_at_[v] = quads_at_[v];
+    const int want = wanted(v), most = quads_at_[v] == mesh_.valence(v) ? 3 : 2;
     if (want >= 1 && want <= most && fans_at(v) == 1) continue;
     if (most == 3 || !add_around(v)) return false;
   }

@@ -60,6 +60,7 @@ class Cavity {
   unsigned pass_ = 0;
   std::vector<unsigned> element_pass_, vertex_pass_;  ///< the last pass in which each was met
   std::vector<int> quads_at_;                         ///< by vertex of this pass
+  std::vector<int> checked_at_;                       ///< and how many there were when it was checked last
   std::vector<int> elements_, vertices_, to_check_, rim_, turns_;
   int corners_ = 0;  ///< sum of the turns
 };

@@ -20,17 +20,18 @@ struct Hub {
     int edges;
   };
   void add(Vec2 to, double delta, int edges) {
-    lines.push_back({to, delta, edges});
+    lines[n++] = {to, delta, edges};
     pull += (1.0 / edges) * to;
     weight += 1.0 / edges;
   }
   Vec2 rest() const { return (1 / weight) * pull; }
   double strain(Vec2 at) const {
     double sum = 0;
-    for (const Line& l : lines) sum += strain_of(at, l.to, l.edges, l.delta);
+    for (const Line& l : std::span(lines).first(n)) sum += strain_of(at, l.to, l.edges, l.delta);
     return sum;
   }
-  std::vector<Line> lines;
+  std::array<Line, 5> lines;
+  std::size_t n = 0;
   Vec2 pull;          ///< sum of the ends, each over its edges
   double weight = 0;  ///< sum of 1 / edges
 };

@@ -33,14 +33,14 @@ class PartSides {
     convex_ = convex_ && turn >= 0;
     if (turn == 1 && last_ + 1 < edges_.size()) ++last_;
   }
-  /// The least number of irregular vertices of its patterns, or less; none where it has none.
-  std::optional<int> close(int cut) {
-    if (corners_ < kFewestCorners || corners_ > kMostCorners) return std::nullopt;
+  int corners() const { return corners_; }
+  /// The least number of irregular vertices of its patterns, or less; negative where it has none.
+  int least(int cut) const {
+    if (corners_ < kFewestCorners || corners_ > kMostCorners) return -1;
     if (!convex_ || corners_ > 5) return bound_of(corners_);
-    edges_[last_] += cut;
-    if (!at_corner_) edges_[last_] += edges_[0];
-    const int least = least_irregular_of(std::span(edges_).subspan(at_corner_ ? 0 : 1, corners_));
-    return least >= 0 ? std::optional(least) : std::nullopt;
+    std::array<int, 7> edges = edges_;
+    edges[last_] += cut + (at_corner_ ? 0 : edges[0]);
+    return least_irregular_of(std::span(edges).subspan(at_corner_ ? 0 : 1, corners_));
   }
 
  private:
@@ -72,7 +72,7 @@ class CutSearch {
  private:
   void between_sides(const PolygonSides& sides);
   void try_ends(int from, int to);
-  std::optional<int> estimate(int from, int to, int turn_from, int turn_to, int cut) const;
+  PartSides part(int from, int to, int turn_from, int turn_to) const;
 
   const Outline& outline_;
   int n_, most_;
@@ -118,30 +118,34 @@ void CutSearch::try_ends(int from, int to) {
   const Vec2 a = outline_.places[from], b = outline_.places[to];
   const double length = norm(a - b) / delta;
   const int most = static_cast<int>(std::min(1.0 * n_, length / kShortestEdge));
-  int cut = std::max(1, static_cast<int>(std::ceil(length / kLongestEdge)));
-  if ((cut + to - from + n_) % 2 != 0) ++cut;
+  int least = std::max(1, static_cast<int>(std::ceil(length / kLongestEdge)));
+  if ((least + to - from + n_) % 2 != 0) ++least;
   const int all_from = 2 - outline_.turn[from], all_to = 2 - outline_.turn[to];
-  for (; cut <= most; cut += 2)
-    for (int at_from = 1; at_from < all_from; ++at_from)
-      for (int at_to = 1; at_to < all_to; ++at_to) {
-        const auto one = estimate(from, to, 2 - at_from, 2 - at_to, cut);
-        if (!one || *one > most_) continue;
-        const auto other = estimate(to, from, 2 - all_to + at_to, 2 - all_from + at_from, cut);
-        if (!other || *one + *other > most_) continue;
-        cuts_.push_back({from, at_from, at_to, to, cut, *one + *other, strain_of(a, b, cut, delta)});
+  for (int at_from = 1; at_from < all_from; ++at_from)
+    for (int at_to = 1; at_to < all_to; ++at_to) {
+      const PartSides one = part(from, to, 2 - at_from, 2 - at_to),
+                      other = part(to, from, 2 - all_to + at_to, 2 - all_from + at_from);
+      if (bound_of(one.corners()) + bound_of(other.corners()) > most_) continue;
+      for (int cut = least; cut <= most; cut += 2) {
+        const int irregular_one = one.least(cut);
+        if (irregular_one < 0 || irregular_one > most_) continue;
+        const int irregular_other = other.least(cut), irregular = irregular_one + irregular_other;
+        if (irregular_other >= 0 && irregular <= most_)
+          cuts_.push_back({from, at_from, at_to, to, cut, irregular, strain_of(a, b, cut, delta)});
       }
+    }
 }
 
-std::optional<int> CutSearch::estimate(int from, int to, int turn_from, int turn_to, int cut) const {
-  PartSides part(turn_from);
+PartSides CutSearch::part(int from, int to, int turn_from, int turn_to) const {
+  PartSides sides(turn_from);
   int left = (to - from + n_) % n_;
   for (int at = from; to_turn_[at] < left;) {
     const int step = to_turn_[at];
     at = (at + step) % n_, left -= step;
-    part.go(step, outline_.turn[at]);
+    sides.go(step, outline_.turn[at]);
   }
-  part.go(left, turn_to);
-  return part.close(cut);
+  sides.go(left, turn_to);
+  return sides;
 }
 
 /// Makes outlines of pieces of another one.
@@ -220,15 +224,6 @@ int irregular_vertices(const Pattern& pattern) {
       for (const Pattern& part : pattern.parts) sum += irregular_vertices(part);
       return sum;
   }
-}
-
-std::optional<int> least_irregular(const Outline& outline, int most) {
-  if (const auto sides = sides_of(outline.turn); sides && sides->edges.size() < 6) {
-    const int least = least_irregular_of(sides->edges);
-    return least >= 0 && least <= most ? std::optional(least) : std::nullopt;
-  }
-  const auto pattern = best_pattern(outline, most);
-  return pattern ? std::optional(irregular_vertices(*pattern)) : std::nullopt;
 }
 
 std::optional<Pattern> best_pattern(const Outline& outline, int most) {

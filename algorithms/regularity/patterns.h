@@ -43,12 +43,9 @@ struct Pattern {
 /// How many irregular vertices a pattern has.
 int irregular_vertices(const Pattern& pattern);
 
-/// The least number of irregular vertices of a pattern of this outline; none where that is more than `most`
-/// or there is no pattern.
-std::optional<int> least_irregular(const Outline& outline, int most);
-
 /// Of the patterns with at most so many irregular vertices that with the fewest, of these the one with the
-/// least strain. Of cuts only those with the least strain of their own are tried.
+/// least strain; `most` makes no other difference. Of cuts only those with the least strain of their own are
+/// tried.
 std::optional<Pattern> best_pattern(const Outline& outline, int most);
 
 struct PatternMesh {

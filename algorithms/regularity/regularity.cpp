@@ -127,9 +127,14 @@ void RegularityProcess::consider() {
     const int irregular = cavity_.irregular();
     if (irregular <= std::abs(4 - cavity_.corners())) return;
     const std::uint64_t key = cavity_.key();
+    if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
     const auto [at, is_new] = known_.try_emplace(key);
     Known& known = at->second;
-    if (is_new) known.least = least_irregular(outline(), irregular - 1).value_or(-1);
+    std::optional<Pattern> pattern;
+    if (is_new) {
+      pattern = best_pattern(outline(), irregular - 1);
+      known.least = pattern ? irregular_vertices(*pattern) : -1;
+    }
     if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
       ++summary_.cavities;
       if (known.loss > tolerance_) return;
@@ -137,7 +142,8 @@ void RegularityProcess::consider() {
       candidates_.push_back({(n + kQuadsPerIrregular * known.least) / gain,
                              gain,
                              key,
-                             {cavity_.elements().begin(), cavity_.elements().end()}});
+                             {cavity_.elements().begin(), cavity_.elements().end()},
+                             std::move(pattern)});
       return;
     }
     for (const int h : cavity_.rim())
@@ -171,10 +177,8 @@ void RegularityProcess::visit(int v) {
     if (good) consider();
   }
   std::ranges::sort(candidates_, std::less<>());
-  const auto same = std::ranges::unique(candidates_, {}, &Candidate::key);
-  candidates_.erase(same.begin(), same.end());
   const long long tried = summary_.tried;
-  for (const Candidate& candidate : candidates_) {
+  for (Candidate& candidate : candidates_) {
     if (attempt(candidate)) return accept();
     if (summary_.tried == tried + kMostTrials) return;
   }
@@ -193,14 +197,16 @@ void RegularityProcess::collect_region() {
     });
 }
 
-RegularityProcess::Quality RegularityProcess::quality() {
-  ElementQuality total;
-  int n = 0;
+void RegularityProcess::collect_elements() {
+  elements_.clear();
   elements_met_.begin(mesh_.element_slots());
-  for_each_element_around(mesh_, region_, elements_met_, [&](int e) {
-    total.add(element_quality(mesh_, relocation_, e));
-    ++n;
-  });
+  for_each_element_around(mesh_, region_, elements_met_, [&](int e) { elements_.push_back(e); });
+}
+
+RegularityProcess::Quality RegularityProcess::quality() const {
+  ElementQuality total;
+  for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
+  const int n = static_cast<int>(elements_.size());
   return {total.value / std::max(n, 1), total.least_sine, n};
 }
 
@@ -224,33 +230,35 @@ bool RegularityProcess::settles(const Quality& before, double allowed, double& l
 }
 
 /// Fills a cavity with its best pattern; takes all back where that costs too much.
-bool RegularityProcess::attempt(const Candidate& candidate) {
+bool RegularityProcess::attempt(Candidate& candidate) {
   cavity_.begin(options_.quads);
   for (const int e : candidate.elements) cavity_.add(e);
   if (!cavity_.close()) return false;
   const Outline rim = outline();
   Known& known = known_[candidate.key];
-  const std::optional<Pattern> pattern = best_pattern(rim, known.least);
+  if (!candidate.pattern) candidate.pattern = best_pattern(rim, known.least);
   known.loss = std::numeric_limits<double>::infinity();
-  if (!pattern) return false;
+  if (!candidate.pattern) return false;
   collect_region();
   const std::size_t n_outer = region_.size();
   for (const int v : cavity_.vertices())
     if (cavity_.is_inside(v)) region_.push_back(v);
+  collect_elements();
   const Quality before = quality();
   region_.resize(n_outer);
 
-  const PatternMesh fill = mesh_pattern(rim, *pattern);
+  const PatternMesh fill = mesh_pattern(rim, *candidate.pattern);
   const auto start = mesh_.mark();
   const int first = mesh_.vertex_slots();
   if (!mesh_.refill(cavity_.elements(), cavity_.rim(), fill.inside, fill.quads)) return false;
   relocation_.adopt_new_vertices(first);
   region_.insert(region_.begin(), fill.inside.size(), 0);
   std::iota(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(fill.inside.size()), first);
+  collect_elements();
   double loss = 0;
   if (settles(before, tolerance_ * candidate.gain / before.n, loss)) {
     ++summary_.accepted;
-    summary_.grids += pattern->kind == Pattern::kGrid ? 1 : 0;
+    summary_.grids += candidate.pattern->kind == Pattern::kGrid ? 1 : 0;
     return true;
   }
   known.loss = loss * before.n / candidate.gain;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -33,11 +34,12 @@ class RegularityProcess {
     int gain;
     std::uint64_t key;
     std::vector<int> elements;
+    std::optional<Pattern> pattern;  ///< none where it was not sought in this visit
     friend bool operator<(const Candidate& a, const Candidate& b) {
       return a.promise != b.promise ? a.promise < b.promise : a.key < b.key;
     }
   };
-  /// Of the elements around the vertices that move.
+  /// Of elements_.
   struct Quality {
     double mean = 0;  ///< of their values
     double least_sine = 1;
@@ -56,10 +58,11 @@ class RegularityProcess {
   bool add_path(int from);
   void consider();
   Outline outline() const;
-  bool attempt(const Candidate& candidate);
+  bool attempt(Candidate& candidate);
   void collect_region();
   bool settles(const Quality& before, double allowed, double& loss);
-  Quality quality();
+  void collect_elements();
+  Quality quality() const;
   void accept();
 
   const QuadBlock& block_;
@@ -76,6 +79,7 @@ class RegularityProcess {
   std::vector<Candidate> candidates_;
   std::unordered_map<std::uint64_t, Known> known_;  ///< by Cavity::key()
   std::vector<int> region_;                         ///< vertices that move
+  std::vector<int> elements_;                       ///< around these
   Marks elements_met_, vertices_met_;
   RegularitySummary summary_;
 };
