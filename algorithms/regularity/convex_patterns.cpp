@@ -52,19 +52,28 @@ class ConvexSearch {
   void add_line(Hub& hub, int i, int edges) const {
     hub.add(outline_.places[place(i)], outline_.delta[place(i)], edges);
   }
+  /// A star: its polygon's sides, and the feet of its arms.
+  struct Star {
+    std::span<const int> sides;
+    const std::array<int, 5>& feet;
+  };
   /// The arms of a star to its sides from `first` on, which follow each other on the outline from `at`. The
   /// side that has its centre; negative: none.
-  int add_arms(Hub& hub, std::span<const int> sides, std::size_t first, int at) const;
+  int add_arms(Hub& hub, const Star& star, std::size_t first, int at) const;
   Pattern grid() const;
-  Pattern star() const;
-  std::optional<Pattern> corner(int at, int along, int back) const;
+  Pattern star(const std::array<int, 5>& feet) const;
+  struct Pair {
+    double strain;
+    Vec2 three, five;
+  };
+  std::optional<Pair> pair(int at, int along, int back, const Star& rest) const;
 
   const Outline& outline_;
   const PolygonSides& sides_;
 };
 
-int ConvexSearch::add_arms(Hub& hub, std::span<const int> sides, std::size_t first, int at) const {
-  const std::array<int, 5> x = star_feet(sides).value();
+int ConvexSearch::add_arms(Hub& hub, const Star& star, std::size_t first, int at) const {
+  const auto& [sides, x] = star;
   const std::size_t n = sides.size();
   std::size_t on = 0;
   while (on < n && x[(on + 1) % n] > 0) ++on;
@@ -86,35 +95,31 @@ Pattern ConvexSearch::grid() const {
   return pattern;
 }
 
-Pattern ConvexSearch::star() const {
+Pattern ConvexSearch::star(const std::array<int, 5>& feet) const {
   Pattern pattern{Pattern::kStar};
   Hub hub;
-  const int on = add_arms(hub, sides_.edges, 0, 0);
-  pattern.places = {on < 0 ? hub.rest()
-                           : outline_.places[place(start(on) + star_feet(sides_.edges).value()[on])]};
+  const int on = add_arms(hub, {sides_.edges, feet}, 0, 0);
+  pattern.places = {on < 0 ? hub.rest() : outline_.places[place(start(on) + feet[on])]};
   pattern.strain = hub.strain(pattern.places[0]);
   return pattern;
 }
 
-std::optional<Pattern> ConvexSearch::corner(int at, int along, int back) const {
-  Pattern pattern{Pattern::kCorner, at, along, back};
-  const std::size_t n = sides_.edges.size() + 1;
-  const auto all = sides_without_corner(sides_.edges, at, along, back);
-  const auto rest = std::span(all).first(n);
-  const auto x = star_feet(rest).value();
+std::optional<ConvexSearch::Pair> ConvexSearch::pair(int at, int along, int back, const Star& left) const {
+  const auto& [rest, x] = left;
+  double strain = 0;
   const int corner = start(at), between = x[1] + std::abs(x[0] - along);
   const std::size_t ahead = place(corner + along), behind = place(corner - back);
   Hub three, star;
   add_line(three, corner + along, back);
   add_line(three, corner - back, along);
-  const int on = add_arms(star, rest, 1, corner + along);
+  const int on = add_arms(star, left, 1, corner + along);
   Vec2 t = three.rest(), c = t;
   if (on < 0) {
     // Both pull at each other.
     const double w = 1.0 / between, a = three.weight + w, b = star.weight + w, det = a * b - w * w;
     t = (1 / det) * (b * three.pull + w * star.pull);
     c = (1 / det) * (w * three.pull + a * star.pull);
-    pattern.strain = strain_of(t, c, between, outline_.delta[ahead]);
+    strain = strain_of(t, c, between, outline_.delta[ahead]);
   } else if (on > 0) {
     const int foot = std::accumulate(rest.begin() + 1, rest.begin() + on, corner + along + x[on]);
     c = outline_.places[place(foot)];
@@ -124,22 +129,28 @@ std::optional<Pattern> ConvexSearch::corner(int at, int along, int back) const {
   } else {
     return std::nullopt;  // both irregular vertices would be one
   }
-  pattern.places = {t, c};
-  pattern.strain += three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain);
-  return pattern;
+  return Pair{strain + three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain), t, c};
 }
 
 std::optional<Pattern> ConvexSearch::best() const {
   const auto& s = sides_.edges;
-  if (s.size() == 3 || s.size() == 5) return star_feet(s) ? std::optional(star()) : std::nullopt;
+  if (s.size() == 3 || s.size() == 5) {
+    const auto feet = star_feet(s);
+    return feet ? std::optional(star(*feet)) : std::nullopt;
+  }
   if (s.size() == 4 && s[0] == s[2] && s[1] == s[3]) return grid();
   std::optional<Pattern> least;
-  if (s.size() == 2 || s.size() == 4)
-    any_corner(s, [&](int at, int along, int back) {
-      auto pattern = corner(at, along, back);
-      if (pattern && (!least || pattern->strain < least->strain)) least = std::move(pattern);
-      return false;
-    });
+  any_corner(s, [&](int at, int along, int back, std::span<const int> rest, const auto& feet) {
+    const auto found = pair(at, along, back, {rest, feet});
+    if (found && (!least || found->strain < least->strain))
+      least = Pattern{.kind = Pattern::kCorner,
+                      .at = at,
+                      .along = along,
+                      .back = back,
+                      .places = {found->three, found->five},
+                      .strain = found->strain};
+    return false;
+  });
   return least;
 }
 

@@ -153,6 +153,7 @@ struct OutlineMaker {
   const Outline& whole;
   Outline made = {};
 
+  void reserve(std::size_t n) { made.places.reserve(n), made.delta.reserve(n), made.turn.reserve(n); }
   void add(int i, int turn) {
     made.places.push_back(whole.places[i]), made.delta.push_back(whole.delta[i]), made.turn.push_back(turn);
   }
@@ -173,6 +174,7 @@ struct OutlineMaker {
 
 Outline part_of(const Outline& whole, int from, int to, int turn_from, int turn_to, int cut) {
   OutlineMaker maker{whole};
+  maker.reserve(whole.turn.size() + cut);
   maker.add(from, turn_from);
   maker.add_between(from, to, 0, static_cast<int>(whole.turn.size()));
   maker.add(to, turn_to);
@@ -182,9 +184,10 @@ Outline part_of(const Outline& whole, int from, int to, int turn_from, int turn_
 
 /// The best pattern of at most `most` irregular vertices; so many cuts are followed.
 std::optional<Pattern> search(const Outline& outline, int most, int n_cuts) {
-  if (const auto sides = sides_of(outline.turn))
-    if (auto pattern = best_convex(outline, *sides))
-      return irregular_vertices(*pattern) <= most ? pattern : std::nullopt;
+  if (const auto sides = sides_of(outline.turn); sides && sides->edges.size() < 6) {
+    const int least = least_irregular_of(sides->edges);
+    return least >= 0 && least <= most ? best_convex(outline, *sides) : std::nullopt;
+  }
   if (n_cuts == 0) return std::nullopt;
   std::optional<Pattern> best;
   for (const Cut& c : CutSearch(outline, most).first(n_cuts)) {

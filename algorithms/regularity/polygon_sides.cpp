@@ -21,9 +21,11 @@ std::optional<PolygonSides> sides_of(std::span<const int> turn) {
   return sides;
 }
 
-std::optional<std::array<int, 5>> star_feet(std::span<const int> sides) {
-  const int n = static_cast<int>(sides.size());
-  const auto after_next = [n](int i) { return i + 2 < n ? i + 2 : i + 2 - n; };
+namespace {
+
+template <int n>
+std::optional<std::array<int, 5>> feet_of(std::span<const int> sides) {
+  const auto after_next = [](int i) { return i + 2 < n ? i + 2 : i + 2 - n; };
   // x[i + 2] = sides[i] - x[i], n times around.
   int sum = 0;
   for (int k = 0, i = 0; k < n; ++k, i = after_next(i)) sum = sides[i] - sum;
@@ -37,6 +39,12 @@ std::optional<std::array<int, 5>> star_feet(std::span<const int> sides) {
     value = sides[i] - value;
   }
   return x;
+}
+
+}  // namespace
+
+std::optional<std::array<int, 5>> star_feet(std::span<const int> sides) {
+  return sides.size() == 3 ? feet_of<3>(sides) : feet_of<5>(sides);
 }
 
 std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int along, int back) {
@@ -65,7 +73,7 @@ CornerGrids corner_grids(std::span<const int> s, int at) {
 int least_irregular_of(std::span<const int> s) {
   if (s.size() == 3 || s.size() == 5) return star_feet(s) ? 1 : -1;
   if (s.size() == 4 && s[0] == s[2] && s[1] == s[3]) return 0;
-  const bool found = (s.size() == 2 || s.size() == 4) && any_corner(s, [](int, int, int) { return true; });
+  const bool found = (s.size() == 2 || s.size() == 4) && any_corner(s, [](auto&&...) { return true; });
   return found ? 2 : -1;
 }
 

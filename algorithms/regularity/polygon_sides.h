@@ -31,7 +31,8 @@ struct CornerGrids {
 };
 CornerGrids corner_grids(std::span<const int> sides, int at);
 
-/// Calls f(at, along, back) for all of them, until f returns true. Whether it did.
+/// Calls f(at, along, back, sides of what is left, feet of its star) for all of them of a polygon of two or
+/// four sides, until f returns true. Whether it did.
 template <class F>
 bool any_corner(std::span<const int> sides, F&& f) {
   const int n = static_cast<int>(sides.size());
@@ -39,8 +40,9 @@ bool any_corner(std::span<const int> sides, F&& f) {
     const CornerGrids grids = corner_grids(sides, at);
     for (int along = grids.least_along; along <= grids.most_along; ++along)
       for (int back = grids.least_back; back <= grids.most_back; ++back) {
-        const std::array<int, 5> rest = sides_without_corner(sides, at, along, back);
-        if (star_feet(std::span(rest).first(n + 1)) && f(at, along, back)) return true;
+        const std::array<int, 5> all = sides_without_corner(sides, at, along, back);
+        const auto rest = std::span(all).first(n + 1);
+        if (const auto feet = star_feet(rest); feet && f(at, along, back, rest, *feet)) return true;
       }
   }
   return false;
