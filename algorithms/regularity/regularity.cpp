@@ -24,9 +24,13 @@ constexpr int kMostTrials = 2;
 constexpr int kMostRings = 2;
 /// Cavities with few quads are tried first, an irregular vertex that stays counts as so many.
 constexpr double kQuadsPerIrregular = 10;
+/// Quads that a cavity may have for each irregular vertex less in the first round, and how many times more in
+/// each further one; the last one has no limit. Of the fills of larger ones one in thirty would be kept.
+constexpr double kQuadsPerGain = 15, kMoreQuads = 3;
 /// Sweeps within which a fill must settle.
 constexpr int kFillSweeps = 12;
-/// A fill is given up where a sweep mends less than this part of what it loses too much.
+/// A fill is given up where a sweep mends less than this part of what it loses too much, or of what its worst
+/// corner lacks.
 constexpr double kHopelessPart = 0.12;
 /// And where at any time the sum loses so much more than it may, times the square root of the quads around.
 /// Without that, relocation costs half as much again and mends as many on the plate of 16 holes; with 1.2 it
@@ -52,6 +56,8 @@ void RegularityProcess::run() {
   for (int round = 0; round < options_.rounds; ++round) {
     tolerance_ =
         options_.rounds > 1 ? options_.tolerance * round / (options_.rounds - 1) : options_.tolerance;
+    quads_per_gain_ =
+        round + 1 < options_.rounds ? kQuadsPerGain * std::pow(kMoreQuads, round) : options_.quads;
     work_.clear();
     listed_.assign(mesh_.vertex_slots(), 0);
     for (int v = 0; v < mesh_.vertex_slots(); ++v)
@@ -125,7 +131,9 @@ void RegularityProcess::consider() {
   for (int ring = 0; ring <= kMostRings; ++ring) {
     if (!cavity_.close()) return;
     const int irregular = cavity_.irregular();
-    if (irregular <= std::abs(4 - cavity_.corners())) return;
+    const double n = static_cast<double>(cavity_.elements().size());
+    const auto pays = [&](int gain) { return gain > 0 && n <= gain * quads_per_gain_; };
+    if (!pays(irregular - std::abs(4 - cavity_.corners()))) return;
     const std::uint64_t key = cavity_.key();
     if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
     const auto [at, is_new] = known_.try_emplace(key);
@@ -137,8 +145,7 @@ void RegularityProcess::consider() {
     }
     if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
       ++summary_.cavities;
-      if (known.loss > tolerance_) return;
-      const double n = static_cast<double>(cavity_.elements().size());
+      if (known.loss > tolerance_ || !pays(gain)) return;
       candidates_.push_back({(n + kQuadsPerIrregular * known.least) / gain,
                              gain,
                              key,
@@ -214,7 +221,8 @@ RegularityProcess::Quality RegularityProcess::quality() const {
 bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
   const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
-  double last = std::numeric_limits<double>::infinity();
+  double last_loss = 0, last_sine = 0;
+  const auto is_slow = [](double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; };
   for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
     if (sweep == 1) ++summary_.tried;
     if (sweep > 0)
@@ -223,9 +231,12 @@ bool RegularityProcess::settles(const Quality& before, double allowed, double& l
     loss = before.mean - after.mean;
     if (after.least_sine >= least && loss <= allowed) return true;
     if (loss > hopeless) return false;
-    if (sweep > 2 && loss > allowed && last - loss < kHopelessPart * (loss - allowed)) return false;
-    last = loss;
+    if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
+    if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;
+    last_loss = loss, last_sine = after.least_sine;
   }
+  // A corner gets no better where more may be lost.
+  if (loss <= allowed) loss = std::numeric_limits<double>::infinity();
   return false;
 }
 

@@ -72,6 +72,7 @@ class RegularityProcess {
   RegularityOptions options_;
   Cavity cavity_;
   double tolerance_ = 0;              ///< of this round
+  double quads_per_gain_ = 0;         ///< of this round's cavities, at most
   std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next
   std::vector<char> listed_;          ///< by vertex: in work_
   std::vector<int> near_;             ///< irregular vertices near the visited one, the nearest first

@@ -105,6 +105,26 @@ TEST(Regularity, OppositePairsBecomeTheGrid) {
   }
 }
 
+TEST(Regularity, PairsFarApartNeedNoTolerance) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const QuadPatch mesh = with_two_pairs(16, 13, seed);
+    const PatchBoundary boundary = shapes::rectangle(16, 13, 16, 13);
+    EXPECT_EQ(count_irregular(regular(mesh, boundary, FunctionSize(1), {.tolerance = 0})), 0) << seed;
+  }
+}
+
+TEST(Regularity, WhatACornerForbidsIsNotTriedAgain) {
+  const FunctionSize size(0.06);
+  for (int seed = 0; seed < 8; ++seed) {
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
+    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    RegularitySummary some, more;
+    make_regular(mesh, size, {.tolerance = 0, .rounds = 20}, &some);
+    make_regular(mesh, size, {.tolerance = 0, .rounds = 40}, &more);
+    EXPECT_EQ(some.tried, more.tried) << seed;
+  }
+}
+
 TEST(Regularity, NothingIsPaidWithoutTolerance) {
   const auto mean = [](const QuadPatch& mesh) {
     const QuadTopology topology(mesh);
