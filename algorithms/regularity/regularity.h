@@ -48,8 +48,8 @@ struct Counters<RegularitySummary> {
 /// the least quads for each irregular vertex less. A fill is relocated together with a ring of quads around,
 /// and kept when the sum of eta - 1.5 * (size deviation) over the quads there (as many as before) loses no
 /// more than the tolerance for each irregular vertex less. The tolerance grows from round to round, so that
-/// what costs nothing comes first. What has failed is not tried again before the tolerance is above what it
-/// lost, or other quads are there.
+/// what costs nothing comes first; so do the quads that a cavity may have for each irregular vertex less.
+/// What has failed is not tried again before the tolerance is above what it lost, or other quads are there.
 ///
 /// The number of irregular vertices never grows, and the least eta of the mesh never falls below both
 /// kCleanupFloorEta and what it was. A mesh in which no fill is kept stays as it is. Boundary points stay
