@@ -4,7 +4,7 @@
 
 namespace delquad {
 
-/// How the curves of surfaces get their numbers of edges, and what they do to size-aware cross fields.
+/// How the curves of surfaces get their edges, and what they do to size-aware cross fields.
 struct CurveOptions {
   /// What an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the size alone
   /// counts.
@@ -12,6 +12,8 @@ struct CurveOptions {
   /// How much fields are drawn to the edges of curves at which two faces join smoothly, and of cuts, see
   /// CrossDiffusion: 0: not at all. Measured, see docs/algorithms.md.
   double alignment = 1, cut_alignment = 0.03;
+  /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
+  double join_below = 0.25;
 };
 
 OptionGroup curve_group();

@@ -21,6 +21,7 @@
 #include "mesher/given_domain.h"
 #include "mesher/given_surface.h"
 #include "mesher/imprint_named.h"
+#include "mesher/join_short_curves.h"
 #include "mesher/named_domain.h"
 #include "mesher/named_parts.h"
 #include "mesher/perturb.h"
@@ -355,6 +356,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
                                             "number or an expression)"
                                           : "a surface needs a size (a number or an expression)");
   });
+  model = join_short_curves(problem, *size, std::move(model));
   size = imprint_named(problem.size.named, std::move(size), model, warnings);
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);

@@ -266,49 +266,41 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
 }
 
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options,
-                                ShortRest rest) {
+                                ShortRest rest, const std::vector<char>& kept) {
   const Mesh& mesh = model.fine;
-  struct End {
-    int line, from, at;  ///< the line runs from the inner point to the end
+  struct LineFrom {
+    int line, from;  ///< its other point
   };
   std::vector<double> lengths(mesh.curves.size(), 0);
-  std::vector<std::array<End, 2>> ends(mesh.curves.size());
-  std::vector<std::vector<End>> ends_at(mesh.points.size());
+  std::vector<std::vector<LineFrom>> lines_at(mesh.points.size());
   for (int i = 0; i < static_cast<int>(mesh.lines.size()); ++i) {
     const auto [a, b] = mesh.lines[i];
-    const int curve = mesh.line_curve[i];
-    if (lengths[curve] == 0) ends[curve][0] = {i, b, a};
-    ends[curve][1] = {i, a, b};
-    lengths[curve] += norm(mesh.points[b] - mesh.points[a]);
-  }
-  for (const auto& [first, last] : ends) {
-    ends_at[first.at].push_back(first);
-    ends_at[last.at].push_back(last);
+    lengths[mesh.line_curve[i]] += norm(mesh.points[b] - mesh.points[a]);
+    lines_at[a].push_back({i, b});
+    lines_at[b].push_back({i, a});
   }
   const std::vector<int> kinds = kinds_of_lines(mesh);
+  const auto stays = [&](int curve) { return !kept.empty() && kept[curve]; };
   std::vector<char> corner = marked_corners(model);
-  for (size_t curve = 0; curve < ends.size(); ++curve) {
-    if (!(lengths[curve] < length)) continue;
-    int straightest = -1;
-    double least = radians(options.feature_angle);
-    for (const End& end : ends[curve]) {
-      const auto& here = ends_at[end.at];
-      if (!corner[end.at] || here.size() != 2) continue;
-      const End& other = here[0].line == end.line ? here[1] : here[0];
-      const bool is_own = mesh.line_curve[other.line] == static_cast<int>(curve);
-      if (is_own || kinds[other.line] != kinds[end.line]) continue;
-      const double turn = turn_angle(mesh.points[end.from], mesh.points[end.at], mesh.points[other.from]);
-      if (!(turn < least)) continue;
-      least = turn;
-      straightest = end.at;
-    }
-    if (straightest >= 0) corner[straightest] = 0;
+  bool joins = false;
+  for (const int p : model.corners) {
+    if (lines_at[p].size() != 2) continue;
+    const auto [one, from] = lines_at[p][0];
+    const auto [other, to] = lines_at[p][1];
+    const int c = mesh.line_curve[one], d = mesh.line_curve[other];
+    if (c == d || kinds[one] != kinds[other] || stays(c) || stays(d)) continue;
+    if (!(std::min(lengths[c], lengths[d]) < length)) continue;
+    if (!(turn_angle(mesh.points[from], mesh.points[p], mesh.points[to]) < radians(options.feature_angle)))
+      continue;
+    corner[p] = 0;
+    joins = true;
   }
   const std::vector<Entity> old = mesh.curves;
-  Groups curves = rechain(model, corner);
+  Groups curves = joins ? rechain(model, corner) : each_alone(old.size());
   report_short_curves(old, lengths, length, curves, rest, model.warnings);
-  model.projector = make_compound_projector(model.projector, model.fine,
-                                            each_alone(model.fine.regions.size()), std::move(curves));
+  if (joins)
+    model.projector = make_compound_projector(model.projector, model.fine,
+                                              each_alone(model.fine.regions.size()), std::move(curves));
   return model;
 }
 

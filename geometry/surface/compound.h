@@ -29,10 +29,11 @@ std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double a
 /// Whether merge_short_curves names the short curves that continue no other.
 enum class ShortRest { kNamed, kSilent };
 
-/// Makes each curve shorter than `length` one with a neighbour that it continues: where only these two curves
-/// meet, with the same names, and turn by less than the feature angle; the straighter of both ends is taken.
-/// The model's warnings name what became one, and, as `rest` says, the short curves that continue no other.
+/// Makes each curve shorter than `length` one with those that it continues: where only two curves meet, with
+/// the same names, and turn by less than the feature angle. Those that are `kept` (by curve; empty: none)
+/// stay as they are. The model's warnings name what became one, and, as `rest` says, the short curves that
+/// continue no other.
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {},
-                                ShortRest rest = ShortRest::kNamed);
+                                ShortRest rest = ShortRest::kNamed, const std::vector<char>& kept = {});
 
 }  // namespace delquad

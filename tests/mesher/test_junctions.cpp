@@ -140,10 +140,9 @@ TEST(Junctions, LoopsMayHaveCurvesInCommon) {
 
 /// Slices of a disc, halves of which lie in a ring: arcs of one circle that begin elsewhere.
 TEST(Junctions, ArcsThatLieOnEachOtherAreOne) {
-  constexpr double kPi = std::numbers::pi;
   ModelMaker maker;
   for (int k = 0; k < 3; ++k) {
-    const double a = 2 * kPi * k / 3, b = 2 * kPi * (k + 1) / 3;
+    const double a = 2 * std::numbers::pi * k / 3, b = 2 * std::numbers::pi * (k + 1) / 3;
     maker.loop({make_segment({0, 0}, {std::cos(a), std::sin(a)}), make_arc({0, 0}, 1, a, b),
                 make_segment({std::cos(b), std::sin(b)}, {0, 0})},
                "slice " + std::to_string(k));
@@ -154,8 +153,8 @@ TEST(Junctions, ArcsThatLieOnEachOtherAreOne) {
   expect_sound(result);
   const auto area = areas(result.mesh);
   ASSERT_EQ(area.size(), 4u);
-  EXPECT_NEAR(area.at("ring"), 3 * kPi, 0.1);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(area.at("slice " + std::to_string(k)), kPi / 3, 0.03);
+  EXPECT_NEAR(area.at("ring"), 3 * std::numbers::pi, 0.1);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(area.at("slice " + std::to_string(k)), std::numbers::pi / 3, 0.03);
 }
 
 /// A rectangle cut into random ones: areas are exact, and every region has an even boundary.

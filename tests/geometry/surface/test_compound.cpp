@@ -199,6 +199,23 @@ TEST(MergeShortCurves, JoinsASliverToTheCurveThatItContinues) {
   })) << "the lesser tag stays";
 }
 
+TEST(MergeShortCurves, JoinsBothCurvesThatAShortOneContinues) {
+  // The corner at x = 0.01 goes to 0.49.
+  SurfaceModel model = notched(0);
+  for (Vec3& p : model.fine.points)
+    if (p.y == 0 && p.x == 0.01) p.x = 0.49;
+  expect_counts(merge_short_curves(model, 0.05), 1, 4, 4);
+}
+
+TEST(MergeShortCurves, LeavesWhatIsKept) {
+  const SurfaceModel model = notched(0);
+  for (const int tag : {1, 5}) {
+    std::vector<char> kept;
+    for (const Entity& curve : model.fine.curves) kept.push_back(curve.tag == tag ? 1 : 0);
+    expect_counts(merge_short_curves(model, 0.05, {}, ShortRest::kNamed, kept), 1, 6, 6);
+  }
+}
+
 TEST(MergeShortCurves, LeavesSharpTurnsNamesAndMeetingPointsOfThreeCurves) {
   SurfaceModel named = notched(0);
   for (Entity& curve : named.fine.curves) curve.names = {"curve " + std::to_string(curve.tag)};

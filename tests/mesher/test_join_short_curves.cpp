@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "delquad/mesher.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kSize = 0.1;
+
+/// Two squares, [-1, 1] x [0, 1], with curves on the sides that are given numbers from 1 on: between the two,
+/// and from there around. The one between is of three: up to y = 0.5, 0.01 long, and the rest.
+Mesh two_squares() {
+  Mesh mesh = testing_support::triangle_grid(16, 8, 2, 1);
+  for (Vec3& p : mesh.points) {
+    p.x -= 1;
+    if (p.x == 0 && p.y == 0.625) p.y = 0.51;
+  }
+  mesh.regions = {{1, {}}, {2, {}}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double x = 0;
+    for (const int v : mesh.triangles[t]) x += mesh.points[v].x;
+    mesh.triangle_region[t] = x > 0 ? 1 : 0;
+  }
+  mesh.lines.clear();
+  mesh.line_curve.clear();
+  mesh.curves = {{1, {}}, {2, {}}, {3, {}}};
+  for (int j = 0; j < 8; ++j) {
+    mesh.lines.push_back({17 * j + 8, 17 * (j + 1) + 8});
+    mesh.line_curve.push_back(j < 4 ? 0 : j == 4 ? 1 : 2);
+  }
+  return mesh;
+}
+
+MeshProblem problem_of(Mesh model) {
+  MeshProblem problem;
+  problem.model = TriangleModel{std::move(model)};
+  problem.size.field = make_constant_size(kSize);
+  return problem;
+}
+
+/// How many nodes there are at both ends of the short curve.
+int nodes_at_ends(const MeshProblem& problem) {
+  const MeshResult result = mesh(problem, "DBCO");
+  return static_cast<int>(std::ranges::count_if(result.mesh.points, [](const Vec3& p) {
+    return norm(p - Vec3{0, 0.5, 0}) < 1e-9 || norm(p - Vec3{0, 0.51, 0}) < 1e-9;
+  }));
+}
+
+TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
+  MeshProblem problem = problem_of(two_squares());
+  const MeshResult joined = mesh(problem, "DBCO");
+  EXPECT_EQ(joined.metrics.values.at("n_irregular"), 0);
+  EXPECT_EQ(joined.mesh.quads.size(), 200u);
+  for (const Vec3& p : joined.mesh.points)
+    if (p.x == 0) {
+      EXPECT_NEAR(std::remainder(p.y, kSize), 0, 1e-3);
+    }
+  problem.options.set("curves.join_below", 0.0);
+  EXPECT_EQ(nodes_at_ends(problem), 2);
+}
+
+TEST(JoinShortCurves, WhatIsNamedStays) {
+  Mesh named = two_squares();
+  named.curves[1].names = {"weld"};
+  EXPECT_EQ(nodes_at_ends(problem_of(named)), 2);
+
+  MeshProblem divided = problem_of(two_squares());
+  divided.divisions = {{"curve_2", 1, 1, 1}};
+  EXPECT_EQ(nodes_at_ends(divided), 2);
+
+  MeshProblem sized = problem_of(two_squares());
+  sized.size.named = {{.name = "curve_2", .size = kSize / 2}};
+  EXPECT_EQ(nodes_at_ends(sized), 2);
+}
+
+TEST(JoinShortCurves, TurnsStay) {
+  Mesh bent = two_squares();
+  const double slope = std::tan(0.4);
+  for (Vec3& p : bent.points)
+    if (p.y > 0.5) p.x += slope * (p.y - 0.5) * (1 - std::abs(p.x));
+  MeshProblem problem = problem_of(bent);
+  const MeshResult result = mesh(problem, "DBCO");
+  EXPECT_EQ(std::ranges::count_if(result.mesh.points,
+                                  [](const Vec3& p) {
+                                    return norm(p - Vec3{0, 0.5, 0}) < 1e-9;
+                                  }),
+            1);
+}
+
+TEST(JoinShortCurves, ImagesShareTheirFateWhereLengthsAreRound) {
+  // One is a quarter of the size long, its image a little less.
+  Mesh model = testing_support::triangle_grid(16, 8, 2, 1);
+  for (Vec3& p : model.points) p.x -= 1;
+  model.points[5].x = -0.475;
+  model.points[11].x = 0.475 + 1e-10;
+  for (std::size_t l = 0; l < model.lines.size(); ++l)
+    for (const int first : {4, 11})
+      if (model.lines[l] == std::array{first, first + 1}) {
+        model.line_curve[l] = static_cast<int>(model.curves.size());
+        model.curves.push_back({static_cast<int>(model.curves.size()) + 1, {}});
+      }
+  MeshProblem problem = problem_of(model);
+  problem.symmetry.planes = {{{0, 0, 0}, {1, 0, 0}}};
+  const MeshResult result = mesh(problem, "DBCO");
+  for (const double x : {-0.5, 0.5})
+    EXPECT_EQ(std::ranges::count_if(result.mesh.points,
+                                    [&](const Vec3& p) {
+                                      return norm(p - Vec3{x, 0, 0}) < 1e-9;
+                                    }),
+              1);
+}
+
+}  // namespace
+}  // namespace delquad
