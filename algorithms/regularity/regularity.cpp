@@ -27,6 +27,8 @@ constexpr double kQuadsPerIrregular = 10;
 /// Quads that a cavity may have for each irregular vertex less in the first round, and how many times more in
 /// each further one; the last one has no limit. Of the fills of larger ones one in thirty would be kept.
 constexpr double kQuadsPerGain = 15, kMoreQuads = 3;
+/// Sides around a fill are no longer, in sizes, or than they were: the sum hardly feels a single one.
+constexpr double kLongestSide = 2.5;
 /// Sweeps within which a fill must settle.
 constexpr int kFillSweeps = 12;
 /// A fill is given up where a sweep mends less than this part of what it loses too much, or of what its worst
@@ -214,12 +216,13 @@ RegularityProcess::Quality RegularityProcess::quality() const {
   ElementQuality total;
   for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
   const int n = static_cast<int>(elements_.size());
-  return {total.value / std::max(n, 1), total.least_sine, n};
+  return {total.value / std::max(n, 1), total.least_sine, total.longest, n};
 }
 
 /// Relocates the region; whether the loss of the mean gets as small as allowed.
 bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
   const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const double longest = std::max(before.longest, kLongestSide);
   const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
   double last_loss = 0, last_sine = 0;
   const auto is_slow = [](double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; };
@@ -229,7 +232,7 @@ bool RegularityProcess::settles(const Quality& before, double allowed, double& l
       for (const int v : region_) relocation_.step(v);
     const Quality after = quality();
     loss = before.mean - after.mean;
-    if (after.least_sine >= least && loss <= allowed) return true;
+    if (after.least_sine >= least && after.longest <= longest && loss <= allowed) return true;
     if (loss > hopeless) return false;
     if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
     if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;

@@ -43,6 +43,7 @@ class RegularityProcess {
   struct Quality {
     double mean = 0;  ///< of their values
     double least_sine = 1;
+    double longest = 0;  ///< side, over delta'
     int n = 0;
   };
   /// What is known of a cavity.

@@ -125,6 +125,28 @@ TEST(Regularity, WhatACornerForbidsIsNotTriedAgain) {
   }
 }
 
+/// Of all sides, over delta.
+double longest_side(const QuadPatch& mesh, double delta) {
+  double longest = 0;
+  for (const auto& quad : mesh.quads)
+    for (int k = 0; k < 4; ++k)
+      longest = std::max(longest, norm(mesh.points[quad[(k + 1) % 4]] - mesh.points[quad[k]]) / delta);
+  return longest;
+}
+
+TEST(Regularity, SidesStayShortWhateverTheTolerance) {
+  const double delta = 0.02;
+  const FunctionSize size(delta);
+  for (int seed = 0; seed < 4; ++seed) {
+    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, delta);
+    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 30, .quads = 1000});
+    EXPECT_LT(count_irregular(result), count_irregular(mesh) / 2) << seed;
+    // Fills are relaxed once more when they are kept.
+    EXPECT_LT(longest_side(result, delta), std::max(2.8, 1.01 * longest_side(mesh, delta))) << seed;
+  }
+}
+
 TEST(Regularity, NothingIsPaidWithoutTolerance) {
   const auto mean = [](const QuadPatch& mesh) {
     const QuadTopology topology(mesh);
