@@ -45,8 +45,12 @@ SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size
     return model;
   const double length = kBelowRound * part * least_at_corners(size, model);
   const std::vector<char> named = named_curves(problem, model.fine.curves);
-  return merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, ShortRest::kSilent,
-                            named);
+  const std::size_t n_warnings = model.warnings.size();
+  model =
+      merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, ShortRest::kSilent, named);
+  for (std::size_t i = n_warnings; i < model.warnings.size(); ++i)
+    model.warnings[i].text += " (curves.join_below = 0 keeps them)";
+  return model;
 }
 
 }  // namespace delquad

@@ -58,6 +58,11 @@ TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
   const MeshResult joined = mesh(problem, "DBCO");
   EXPECT_EQ(joined.metrics.values.at("n_irregular"), 0);
   EXPECT_EQ(joined.mesh.quads.size(), 200u);
+  EXPECT_EQ(std::ranges::count_if(joined.warnings,
+                                  [](const Warning& warning) {
+                                    return warning.text.find("curves.join_below = 0") != std::string::npos;
+                                  }),
+            1);
   for (const Vec3& p : joined.mesh.points)
     if (p.x == 0) {
       EXPECT_NEAR(std::remainder(p.y, kSize), 0, 1e-3);
