@@ -71,6 +71,24 @@ TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
   EXPECT_EQ(nodes_at_ends(problem), 2);
 }
 
+TEST(JoinShortCurves, LinesInsideAreStillThere) {
+  Mesh model = two_squares();
+  model.curves.push_back({4, {}});
+  for (int i = 2; i < 6; ++i) {
+    model.lines.push_back({17 * 4 + i, 17 * 4 + i + 1});
+    model.line_curve.push_back(3);
+  }
+  const MeshProblem problem = problem_of(model);
+  EXPECT_EQ(nodes_at_ends(problem), 0);
+  const MeshResult result = mesh(problem, "DBCO");
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  double length = 0;
+  for (const auto& [a, b] : result.mesh.lines)
+    if (result.mesh.points[a].y == 0.5 && result.mesh.points[b].y == 0.5)
+      length += norm(result.mesh.points[b] - result.mesh.points[a]);
+  EXPECT_NEAR(length, 0.5, 1e-9);
+}
+
 TEST(JoinShortCurves, WhatIsNamedStays) {
   Mesh named = two_squares();
   named.curves[1].names = {"weld"};
@@ -83,6 +101,14 @@ TEST(JoinShortCurves, WhatIsNamedStays) {
   MeshProblem sized = problem_of(two_squares());
   sized.size.named = {{.name = "curve_2", .size = kSize / 2}};
   EXPECT_EQ(nodes_at_ends(sized), 2);
+}
+
+TEST(JoinShortCurves, PointsWithNamesStay) {
+  Mesh model = two_squares();
+  const auto at = std::ranges::find(model.points, Vec3{0, 0.5, 0});
+  ASSERT_NE(at, model.points.end());
+  model.named_points.push_back({static_cast<int>(at - model.points.begin()), {1, {"gauge"}}});
+  EXPECT_EQ(nodes_at_ends(problem_of(model)), 1);
 }
 
 TEST(JoinShortCurves, TurnsStay) {
