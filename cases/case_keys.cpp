@@ -55,12 +55,13 @@ std::string two_points() {
 
 /// Shapes that are closed by themselves, and what may stand beside each.
 TomlKeys closed_shapes() {
-  return {{"rectangle", "two opposite corners", two_points()},
-          {"polygon", "corners, in either direction", points(3)},
-          {"circle", "a circle", "", circle_keys},
-          {"boundary", "name of its curves, or one for each", kTextOrTexts},
-          {"region", "name of what is inside", kText},
-          {"hole", "whether it must be a hole", kFlag}};
+  return {
+      {"rectangle", "two opposite corners", two_points()},
+      {"polygon", "corners, in either direction", points(3)},
+      {"circle", "a circle", "", circle_keys},
+      {"boundary", "name of its curves, or one for each; not with 'curves', which have names", kTextOrTexts},
+      {"region", "name of what is inside", kText},
+      {"hole", "whether it must be a hole", kFlag}};
 }
 
 constexpr const char* kCompare = "compare";
@@ -125,7 +126,7 @@ TomlKeys with_shapes(TomlKeys keys) {
 
 const TomlKeys& curve_keys() {
   static const TomlKeys keys = with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
-                                            {"boundary", "its physical group; else the name", kText}});
+                                            {"boundary", "its name in all but loops; else 'name'", kText}});
   return keys;
 }
 

@@ -137,6 +137,10 @@ class ModelReader {
     const std::string key = only_key(table, {"curves", "rectangle", "polygon", "circle"});
     const Inside inside = read_inside(table);
     if (key == "curves") {
+      if (table.has("boundary"))
+        throw InputError(table.where("boundary") +
+                         ": 'boundary' names the curves of a rectangle, polygon or circle: expected it, or "
+                         "'name', at the curves themselves");
       add_loop_of_curves(table, inside);
     } else {
       const auto shape = read_closed_shape(table, key);

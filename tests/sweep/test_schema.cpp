@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "cases/case_keys.h"
 #include "delquad/error.h"
@@ -146,6 +148,33 @@ TEST_F(Schema, DocumentationHasEveryKey) {
                   text.find("[" + key.name + "]") != std::string::npos)
           << key.name << " of " << table;
   });
+}
+
+/// In its tables of keys, such as "| `loop` |", "| `polygon = [...]` |", "| `insertion.h_max` |".
+TEST_F(Schema, DocumentationHasNoOtherKey) {
+  std::set<std::string> known;
+  for_each_table(experiment_keys(), "the top", [&](const std::string&, const TomlKeys& keys) {
+    for (const TomlKey& key : keys) known.insert(key.name);
+  });
+  std::istringstream text(read_text(fs::path(DELQUAD_EXPERIMENTS) / "../docs/experiments.md"));
+  bool of_keys = false;
+  int found = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("|")) of_keys = false;
+    if (line.starts_with("| key | value |") || line.starts_with("| key | shape |") ||
+        line.starts_with("| option |"))
+      of_keys = true;
+    if (!of_keys || !line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find(" |", 2));
+    for (std::size_t from = 0; (from = cell.find('`', from)) != std::string::npos; ++found) {
+      const std::size_t to = cell.find('`', from + 1);
+      std::string key = cell.substr(from + 1, to - from - 1);
+      key = key.substr(0, key.find(" = "));
+      EXPECT_TRUE(known.contains(key.substr(key.rfind('.') + 1))) << key;
+      from = to + 1;
+    }
+  }
+  EXPECT_GT(found, 80);
 }
 
 TEST_F(Schema, EveryKeySaysWhatItIs) {
