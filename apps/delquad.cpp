@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <optional>
@@ -542,6 +543,7 @@ void keep_freed_memory() {
 
 int run_program(int argc, char** argv) {
   exit_on_interrupt();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error like a full disk
   keep_freed_memory();
   try {
     return after_printing(run_command_line(argc, argv));

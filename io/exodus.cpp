@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
 #include "io/library_file.h"
 #include "io/mesh_groups.h"
@@ -61,7 +62,10 @@ class ExodusWriter {
   }
 
  private:
-  void check(bool done, const char* what) const { require_written(done, path_, "the Exodus library", what); }
+  void check(bool done, const char* what) const {
+    if (exerrval > 0) errno = exerrval;  // NetCDF's codes are negative, the system's positive
+    require_written(done, path_, "the Exodus library", what);
+  }
 
   void make_blocks() {
     const int n_triangles = static_cast<int>(mesh_.triangles.size());

@@ -7,15 +7,20 @@
 
 namespace delquad {
 
-/// For formats whose library writes files by their name: `write` fills a temporary one, which is then copied
-/// to the stream.
+/// All of a file. Throws InputError where it cannot be read; what the stream does not take is left to its
+/// state.
+void copy_into(std::ostream& out, const std::filesystem::path& file);
+
+/// For formats whose library writes files by their name: `write` fills a temporary one in a
+/// process of its own, which is then copied to the stream.
 std::function<void(std::ostream&)> by_library(
     const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write);
 /// The file itself is written whole or not at all, see write_file_atomically().
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
-/// Throws InputError that names the file, the library and what it could not do, where `done` is false.
+/// Throws InputError that names the file, the library, what it could not do, and the system's reason where it
+/// is one of disks, where `done` is false.
 void require_written(bool done, const std::filesystem::path& path, const std::string& library,
                      const char* what);
 

@@ -40,13 +40,14 @@ class Hdf5File {
     const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(how, false);
     const hid_t set = H5Dcreate2(file_, name, in_file, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    const bool done = set >= 0 && H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    H5Dclose(set), H5Pclose(how), H5Sclose(space);
-    check(done);
+    const bool written = set >= 0 && H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    const bool closed = H5Dclose(set) >= 0;
+    H5Pclose(how), H5Sclose(space);
+    check(written && closed);
   }
   void close() {
-    const hid_t file = std::exchange(file_, -1);
-    check(H5Fclose(file) >= 0);
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);  // what closing cannot write it does not tell
+    check(H5Fclose(std::exchange(file_, -1)) >= 0);
   }
 
  private:

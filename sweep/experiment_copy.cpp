@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "delquad/error.h"
+#include "io/library_file.h"
 #include "io/mesh_io.h"
 #include "sweep/digest.h"
 
@@ -47,10 +48,7 @@ std::string list_of_files(const std::vector<fs::path>& files, const fs::path& ro
 void keep_file(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_directories(to.parent_path(), error);
-  write_file_atomically(to, [&](std::ostream& out) {
-    std::ifstream in(from, std::ios::binary);
-    if (in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
-  });
+  write_file_atomically(to, [&](std::ostream& out) { copy_into(out, from); });
   // Programs stay programs.
   fs::permissions(to, fs::status(from, error).permissions(), error);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "io/mesh_formats.h"
 #include "tests/apps/program.h"
 
 namespace delquad::testing_support {
@@ -54,6 +55,10 @@ const BadModel kModels[] = {
      {"model.toml", "exclude each other"}},
     {"flat_rectangle", "[[loop]]\nrectangle = [[0, 0], [1, 0]]", {"model.toml:2", "no area"}},
     {"two_corners", "[[loop]]\npolygon = [[0, 0], [1, 0]]", {"model.toml:2", "three corners"}},
+    {"boundary_of_curves",
+     "[[curve]]\nname = \"wall\"\ncircle = { centre = [0, 0], radius = 1 }\n[[loop]]\ncurves = [\"wall\"]\n"
+     "boundary = \"rim\"",
+     {"model.toml:6", "'boundary'", "at the curves themselves"}},
     {"unknown_curve",
      "[[curve]]\nname = \"wall\"\ncircle = { centre = [0, 0], radius = 1 }\n[[loop]]\ncurves = [\"wal\"]",
      {"model.toml:5", "'wal'", "'wall'"}},
@@ -292,13 +297,25 @@ TEST(Output, LostStandardOutputIsNoSuccess) {
   }
 }
 
+/// What one may not write, or not all of, and a device that is full.
 TEST(Output, FullDiskLeavesNothing) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
-  const ProgramResult result =
-      run_program(DELQUAD_PROGRAM, {{"mesh", model, "-o", folder / "out.msh", "--size", "0.01"}, 4096, {}});
-  expect_refusal(result, {"out.msh"});
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+  for (const MeshFormat& format : mesh_formats()) {
+    if (!can_write(format) || !format.package.empty()) continue;
+    const std::string name = "out" + format.extensions[0], link = "link" + format.extensions[0];
+    expect_refusal(
+        run_program(DELQUAD_PROGRAM, {{"mesh", model, "-o", folder / name, "--size", "0.04"}, 4096, {}}),
+        {format.extensions[0] == ".xdmf" ? "out.h5" : name.c_str(), "File too large"});
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+    std::filesystem::create_symlink("/dev/full", folder / link);
+    if (format.extensions[0] == ".xdmf") std::filesystem::create_symlink("/dev/full", folder / "link.h5");
+    expect_refusal(delquad({"mesh", model, "-o", folder / link, "--size", "0.04"}),
+                   {"link.", "No space left"});
+    std::filesystem::remove(folder / link);
+    std::filesystem::remove(folder / "link.h5");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+  }
 }
 
 TEST(Output, FolderThatIsAFileIsRefusedBeforeWork) {

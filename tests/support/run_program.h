@@ -46,7 +46,6 @@ inline ProgramResult run_program(const std::string& program, const ProgramOption
     dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
     if (options.file_size_limit > 0) {
-      signal(SIGXFSZ, SIG_IGN);  // so that writing fails, as on a full disk
       const rlimit limit = {static_cast<rlim_t>(options.file_size_limit),
                             static_cast<rlim_t>(options.file_size_limit)};
       setrlimit(RLIMIT_FSIZE, &limit);

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+
+#include "delquad/error.h"
+#include "delquad/hexahedra.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "tests/support/curved_grid.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/failing_disk.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::curved_grid;
+using testing_support::FailingDisk;
+using testing_support::quad_grid;
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
+using testing_support::write_text;
+
+/// What a folder holds.
+std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
+  std::map<std::string, std::string> all;
+  for (const std::string& name : folder.names()) all[name] = read_text(folder / name);
+  return all;
+}
+
+/// A file that is written, and by what.
+struct Writer {
+  std::string name;
+  std::function<void(const std::filesystem::path&)> write;
+};
+
+void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
+
+class FullDisk : public ::testing::TestWithParam<Writer> {
+ protected:
+  FullDisk() { setenv("TMPDIR", temporary_.path().c_str(), 1); }
+  ~FullDisk() override { before_ ? setenv("TMPDIR", before_, 1) : unsetenv("TMPDIR"); }
+
+  /// Writes on such a disk: there is the whole file then, or what was there before and a message.
+  template <class MakeDisk>
+  void try_on(MakeDisk make_disk, const std::string& what, const char* reason) {
+    SCOPED_TRACE(GetParam().name + ", " + what);
+    const TemporaryFolder folder;
+    write_text(folder / GetParam().name, "before");
+    const auto before = contents(folder);
+    std::string message;
+    testing::internal::CaptureStderr();
+    try {
+      [[maybe_unused]] const FailingDisk disk = make_disk();
+      GetParam().write(folder / GetParam().name);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(temporary_.names(), std::vector{folder.path().filename().string()});
+    if (message.empty()) {
+      EXPECT_TRUE(contents(folder) == good_) << "a file that is not whole";
+      return;
+    }
+    ++messages_;
+    EXPECT_TRUE(contents(folder) == before) << "something is left";
+    EXPECT_NE(message.find(folder.path().string()), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+  }
+
+  const char* before_ = getenv("TMPDIR");
+  const TemporaryFolder temporary_;
+  std::map<std::string, std::string> good_;
+  int messages_ = 0;
+};
+
+TEST_P(FullDisk, LeavesWholeFilesOrNone) {
+  long long bytes = 0, calls = 0;
+  {
+    const TemporaryFolder folder;
+    const FailingDisk disk = FailingDisk::sound();
+    GetParam().write(folder / GetParam().name);
+    bytes = disk.bytes(), calls = disk.calls();
+    good_ = contents(folder);
+  }
+  ASSERT_GT(calls, 1);
+  constexpr int kSteps = 25;
+  for (int k = 0; k < kSteps; ++k) {
+    const long long room = bytes * k / kSteps;
+    try_on([&] { return FailingDisk::full_after(room); }, "room for " + std::to_string(room) + " bytes",
+           "No space left");
+  }
+  try_on([&] { return FailingDisk::full_after(bytes - 1); }, "one byte is missing", "No space left");
+  EXPECT_EQ(messages_, kSteps + 1);
+  // CGNS asks nobody whether data that HDF5 held back were written in the end; on a full disk it notices
+  // later.
+  if (GetParam().name.ends_with(".cgns")) return;
+  for (long long call = 1; call <= calls; ++call)
+    try_on([&] { return FailingDisk::failing_at(call); },
+           "call " + std::to_string(call) + " of " + std::to_string(calls), "cannot be written: ");
+}
+
+TEST_P(FullDisk, NeedsAFolderForTemporaryFilesWhereItHasThem) {
+  const TemporaryFolder folder;
+  setenv("TMPDIR", (folder / "nowhere").c_str(), 1);
+  const std::string message = message_of([&] { GetParam().write(folder / GetParam().name); });
+  if (message.empty()) return;  // it has none
+  EXPECT_NE(message.find((folder / "").string()), std::string::npos) << message;
+  EXPECT_NE(message.find("(TMPDIR): "), std::string::npos) << message;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+std::vector<Writer> writers() {
+  std::vector<Writer> all;
+  const auto add = [&](const std::string& name, auto write) {
+    const MeshFormat* format = nullptr;
+    for (const MeshFormat& one : mesh_formats())
+      if (name.ends_with(one.extensions[0])) format = &one;
+    if (format->package.empty()) all.push_back({name, write});
+  };
+  constexpr int kAcross = 20;
+  for (const MeshFormat& format : mesh_formats()) {
+    const std::string extension = format.extensions[0];
+    if (can_write(format))
+      add("flat" + extension, [](const auto& path) { write_mesh(path, quad_grid(kAcross, kAcross)); });
+    if (can_write(format) && format.most_order > 1)
+      add("curved" + extension, [](const auto& path) { write_mesh(path, curved_grid(8, 8, 2, true)); });
+    if (format.write_hexahedra != nullptr)
+      add("hexahedra" + extension, [](const auto& path) {
+        HexMesh mesh;
+        for (int i = 0; i <= kAcross; ++i)
+          for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            mesh.points.push_back({double(x), double(y), double(i)});
+        for (int i = 0; i < kAcross; ++i)
+          mesh.hexahedra.push_back(
+              {4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4, 4 * i + 5, 4 * i + 6, 4 * i + 7});
+        mesh.hex_volume.assign(mesh.hexahedra.size(), 0);
+        mesh.volumes = {{1, {"bar"}}};
+        write_hexahedra(path, mesh);
+      });
+  }
+  add("bytes.msh", [](const auto& path) { write_mesh(path, quad_grid(kAcross, kAcross), {.binary = true}); });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, FullDisk, ::testing::ValuesIn(writers()), [](const auto& test) {
+  std::string name = test.param.name;
+  name[name.find('.')] = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace delquad
