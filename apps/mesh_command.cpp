@@ -163,9 +163,11 @@ void print_before(const std::string& file, const Mesh& mesh, const PreparedProbl
   print_metrics(evaluate_metrics(mesh, prepared.size.get(), prepared.given_size.get(), prepared.options));
 }
 
-void print_after(const std::string& file, const PreparedProblem& prepared, const RunResult& result) {
+/// `seconds`: on the clock, of the whole command.
+void print_after(const std::string& file, const PreparedProblem& prepared, const RunResult& result,
+                 double seconds) {
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
-             result.mesh.triangles.size(), result.mesh.points.size(), result.seconds);
+             result.mesh.triangles.size(), result.mesh.points.size(), seconds);
   print_metrics(result.metrics);
   if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
     fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
@@ -193,6 +195,7 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
+  const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
   check_mesh_format(arguments.output, arguments.msh);
   std::optional<Mesh> given;
@@ -249,7 +252,7 @@ int mesh_command(const MeshArguments& arguments) {
   }
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, prepared);
-  print_after(arguments.output.string(), prepared, result);
+  print_after(arguments.output.string(), prepared, result, command.seconds());
   return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
 }
 

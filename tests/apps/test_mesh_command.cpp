@@ -37,6 +37,23 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
     EXPECT_TRUE(contains(record, key)) << key;
 }
 
+TEST(MeshCommand, ItsFirstLineCountsAllSteps) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare + R"([size]
+base = 0.02
+gradation = 0.1
+source = [{ at = [0.5, 0.5], near = 0.004, far = 0.02, radius_far = 0.2 }]
+)");
+  const ProgramResult result =
+      delquad({"mesh", model, "-o", folder / "out.msh", "--quality", "fast", "--threads", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto number_behind = [&](const std::string& text) {
+    return std::stod(result.out.substr(result.out.find(text) + text.size()));
+  };
+  constexpr double kDigits = 0.01;
+  EXPECT_GE(number_behind(" vertices in "), number_behind("; all ") - kDigits) << result.out;
+}
+
 TEST(MeshCommand, WritesEveryFormatAndMetricsReadsIt) {
   const TemporaryFolder folder;
   // An interface without a name lies inside the mesh.
