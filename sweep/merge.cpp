@@ -118,7 +118,7 @@ void copy_cell(const CellRecord& cell, const fs::path& output) {
 void check_output(const std::vector<fs::path>& folders, const fs::path& output) {
   if (fs::exists(output)) throw InputError(output.string() + ": is there already: expected a new folder");
   for (const fs::path& folder : folders)
-    if (*fs::weakly_canonical(output).lexically_relative(fs::canonical(folder)).begin() != "..")
+    if (*fs::weakly_canonical(fs::absolute(output)).lexically_relative(fs::canonical(folder)).begin() != "..")
       throw InputError(
           fmt::format("{}: lies inside of {}, which is to stay as it is", output.string(), folder.string()));
 }

@@ -367,6 +367,18 @@ TEST_F(Records, ShardsOfSeveralFoldersAreMerged) {
   expect_input_error([&] { merge_results(parts, out("part0") / "inside"); }, {"inside", "lies inside of"});
 }
 
+TEST_F(Records, FoldersAreMergedByRelativePaths) {
+  run(kSizes);
+  const fs::path before = fs::current_path();
+  fs::current_path(out().parent_path());
+  merge_results({out().filename(), out().filename()}, "all");
+  const bool is_there = fs::exists("all/study.json");
+  expect_input_error([&] { merge_results({out().filename()}, out().filename() / "inside"); },
+                     {"lies inside of"});
+  fs::current_path(before);
+  EXPECT_TRUE(is_there);
+}
+
 TEST_F(Records, OtherValuesAndCasesAreMerged) {
   run("pipelines = [\"DB\"]\n[matrix]\nsize = [0.3]\n" + kRecordSquare);
   const std::string other =
