@@ -137,6 +137,9 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     if (edge.size() != 2) on_boundary[edge[0].lo] = on_boundary[edge[0].hi] = 1;
   });
   double n_vertices = 0, n_interior = 0;
+  // Among quads only these count; a mesh of triangles alone has its own degrees.
+  const std::vector<int>& degrees = mesh.quads.empty() ? triangles_at : quads_at;
+  int least = std::numeric_limits<int>::max(), most = 0;
   for (size_t i = 0; i < mesh.points.size(); ++i) {
     const int valence = quads_at[i] + triangles_at[i];
     if (valence == 0) continue;
@@ -144,14 +147,16 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     if (on_boundary[i]) continue;
     ++n_interior;
     ++metrics.valences[valence];
+    least = std::min(least, degrees[i]);
+    most = std::max(most, degrees[i]);
     if (triangles_at[i] == 0) ++metrics.quad_valences[valence];
   }
   Values& values = metrics.values;
   values["n_vertices"] = n_vertices;
   values["n_edges"] = n_edges;
   if (metrics.valences.empty()) return;
-  values["d_min"] = metrics.valences.begin()->first;
-  values["d_max"] = metrics.valences.rbegin()->first;
+  values["d_min"] = least;
+  values["d_max"] = most;
   if (mesh.quads.empty()) return;
   const auto regular = metrics.quad_valences.find(4);
   const double n_regular = regular == metrics.quad_valences.end() ? 0 : static_cast<double>(regular->second);

@@ -88,11 +88,12 @@ TEST(Metrics, OfATriangleMeshLeaveQuadMeasuresUndefined) {
   EXPECT_EQ(metrics.values.at("n_elements"), 32);
   EXPECT_EQ(metrics.values.at("n_inverted"), 0);
   EXPECT_EQ(metrics.valences, (std::map<int, long long>{{6, 9}}));
+  EXPECT_EQ(metrics.values.at("d_min"), 6) << "triangles, where there are no quads";
   EXPECT_NEAR(metrics.values.at("angle_min"), 45, 100 * kMeshRounding);
 }
 
 TEST(Metrics, VertexWithATriangleIsNotRegular) {
-  // Four quads and a triangle round the middle of a 2 x 2 grid whose first quad is cut there.
+  // Three quads and two triangles round the middle of a 2 x 2 grid whose first quad is cut there.
   Mesh mesh = quad_grid(2, 2);
   mesh.quads.erase(mesh.quads.begin());
   mesh.quad_region.pop_back();
@@ -103,7 +104,8 @@ TEST(Metrics, VertexWithATriangleIsNotRegular) {
   EXPECT_TRUE(metrics.quad_valences.empty());
   const auto& values = metrics.values;
   EXPECT_EQ(values.at("percent_quads"), 60);
-  EXPECT_EQ(values.at("d_max"), 5);
+  EXPECT_EQ(values.at("d_min"), 3) << "the quads alone";
+  EXPECT_EQ(values.at("d_max"), 3);
   EXPECT_EQ(values.at("d4"), 0);
   EXPECT_NEAR(values.at("eta_mean"), 1, kMeshRounding) << "of the quads alone";
 }
