@@ -151,6 +151,7 @@ class Tabulation {
                              "no pair with it is compared in measures of quads (eta, d4 and the like), from "
                              "which the triangles are missing"),
               outcome_.pairs);
+    add_notes(quadless_notes(records_), outcome_.pairs);
     add_notes(quad_count_notes(records_), outcome_.pairs);
   }
 

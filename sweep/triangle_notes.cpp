@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kMostNamed = 5;
 
-/// The cases on which a word has quads, and those of them on which it leaves triangles.
+/// The cases on which a word has quads, those of them on which it leaves triangles, and those without quads.
 struct Cases {
   std::string word;
-  std::vector<std::string> all, with_triangles;
+  std::vector<std::string> all, with_triangles, without_quads;
 };
 
 void add_once(const std::string& name, std::vector<std::string>& names) {
@@ -26,12 +26,13 @@ void add_once(const std::string& name, std::vector<std::string>& names) {
 std::vector<Cases> cases_by_word(const std::vector<CellRecord>& records) {
   std::vector<Cases> words;
   for (const CellRecord& record : records) {
-    if (!record.reason.empty() || !makes_quads(record)) continue;
+    if (!record.reason.empty()) continue;
     auto at = std::ranges::find(words, record.pipeline, &Cases::word);
-    if (at == words.end()) at = words.insert(at, {record.pipeline, {}, {}});
-    add_once(record.name, at->all);
+    if (at == words.end()) at = words.insert(at, {record.pipeline, {}, {}, {}});
+    add_once(record.name, makes_quads(record) ? at->all : at->without_quads);
     if (leaves_triangles(record)) add_once(record.name, at->with_triangles);
   }
+  std::erase_if(words, [](const Cases& cases) { return cases.all.empty(); });  // words of triangles
   return words;
 }
 
@@ -48,10 +49,21 @@ std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
   std::vector<std::string> notes;
   const std::vector<Cases> words = cases_by_word(records);
   if (words.size() < 2) return notes;
-  for (const auto& [word, all, with_triangles] : words)
+  for (const auto& [word, all, with_triangles, without_quads] : words)
     if (!with_triangles.empty())
       notes.push_back(fmt::format("{} leaves triangles in {} of {} cases ({}): {}", word,
                                   with_triangles.size(), all.size(), named(with_triangles), consequence));
+  return notes;
+}
+
+std::vector<std::string> quadless_notes(const std::vector<CellRecord>& records) {
+  std::vector<std::string> notes;
+  for (const auto& [word, all, with_triangles, without_quads] : cases_by_word(records))
+    if (!without_quads.empty())
+      notes.push_back(
+          fmt::format("{} made no quads on {} ({}): no pair with it has these", word,
+                      without_quads.size() == 1 ? "one case" : fmt::format("{} cases", without_quads.size()),
+                      named(without_quads)));
   return notes;
 }
 

@@ -12,4 +12,7 @@ namespace delquad {
 std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
                                         const std::string& consequence);
 
+/// For each word that makes quads, but not everywhere: where it made none.
+std::vector<std::string> quadless_notes(const std::vector<CellRecord>& records);
+
 }  // namespace delquad

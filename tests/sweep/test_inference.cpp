@@ -294,17 +294,20 @@ TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
   for (CellRecord& record : results.records) {
     if (record.pipeline == "G" && record.name.size() == 7) record.values["n_triangles"] = 7;
     if (record.pipeline == "H" && record.group == "domain11@seed=2") record.values["n_triangles"] = 1;
+    if (record.pipeline == "H" && record.name == "domain3") record.values["n_quads"] = 0;
   }
   const Outcome outcome = make_tables(results);
   const std::string g =
       "G leaves triangles in 10 of 12 cases (domain0, domain1, domain2, domain3, domain4 and 5 more): ";
-  const std::string h = "H leaves triangles in 1 of 12 cases (domain11): ";
+  const std::string h = "H leaves triangles in 1 of 11 cases (domain11): ";
   for (const auto print : {to_markdown, to_json}) {
     const std::string table = print(outcome.table), pairs = print(outcome.pairs);
     EXPECT_TRUE(says(table, g + "there it does not compete in measures of quads")) << table;
     EXPECT_TRUE(says(table, h + "there it does not compete")) << table;
     EXPECT_TRUE(says(pairs, g + "no pair with it is compared in measures of quads (eta, d4")) << pairs;
     EXPECT_TRUE(says(pairs, h + "no pair with it")) << pairs;
+    EXPECT_TRUE(says(pairs, "H made no quads on one case (domain3): no pair with it has these")) << pairs;
+    EXPECT_FALSE(says(pairs, "A made no quads")) << pairs;
     EXPECT_FALSE(says(table, "A leaves")) << table;
   }
 }
