@@ -78,6 +78,7 @@ class Sums {
  public:
   void add_case(const CellRecord* record) {
     ++cases_;
+    if (record == nullptr) ++not_run_;
     if (record == nullptr || !is_sound(*record)) return;
     ++sound_;
     const double quads = value_of(*record, "percent_quads");
@@ -95,7 +96,8 @@ class Sums {
                                             {"cases", cases_},
                                             {"solved", solved_},
                                             {"with_triangles", sound_ - solved_},
-                                            {"failed", cases_ - sound_}};
+                                            {"failed", cases_ - sound_ - not_run_},
+                                            {"not_run", not_run_}};
     if (sound_ == 0) return values;
     values["eta_worst"] = worst_;
     for (const auto& [key, list] : values_) values[key] = mean(list);
@@ -104,7 +106,7 @@ class Sums {
   }
 
  private:
-  int cases_ = 0, sound_ = 0, solved_ = 0;
+  int cases_ = 0, sound_ = 0, solved_ = 0, not_run_ = 0;
   double score_ = 0, worst_ = 1, seconds_ = 0;
   std::map<std::string, std::vector<double>> values_;
 };
@@ -155,11 +157,17 @@ Table rank_programs(const fs::path& results) {
   table.title = suite_title() + ", ranked";
   table.group_title = "family";
   table.name_title = "program";
-  table.columns = {{"score", "score", 2},       {"cases", "cases", 0},
-                   {"solved", "solved", 0},     {"with_triangles", "with triangles", 0},
-                   {"failed", "failed", 0},     {"eta_worst", "eta worst", 3},
-                   {"eta_mean", "eta mean", 3}, {"d4", "d4", 1},
-                   {"tau", "tau", 1},           {"seconds_total", "CPU s", 1}};
+  table.columns = {{"score", "score", 2},
+                   {"cases", "cases", 0},
+                   {"solved", "solved", 0},
+                   {"with_triangles", "with triangles", 0},
+                   {"failed", "failed", 0},
+                   {"not_run", "not run", 0},
+                   {"eta_worst", "eta worst", 3},
+                   {"eta_mean", "eta mean", 3},
+                   {"d4", "d4", 1},
+                   {"tau", "tau", 1},
+                   {"seconds_total", "CPU s", 1}};
   add_rows(programs, nullptr, table);
   for (const Program& program : not_ranked) add_absent(program, table);
   for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
@@ -167,7 +175,8 @@ Table rank_programs(const fs::path& results) {
   const std::vector<std::string> legend = {
       "score: mean over all cases of mean eta x tau x share of quads, 0 for a case without a sound mesh, in "
       "percent",
-      "solved: sound and quads only; failed: no mesh, or one that is not sound or not of its model",
+      "solved: sound and quads only; failed: no mesh, or one that is not sound or not of its model; not run: "
+      "without a result, which counts as 0, too",
       "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known"};
   table.notes.insert(table.notes.begin(), legend.begin(), legend.end());
   return table;
