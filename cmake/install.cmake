@@ -18,5 +18,5 @@ install(TARGETS delquad_library EXPORT delquad_targets)
 install(DIRECTORY include/delquad DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT delquad_targets NAMESPACE delquad:: FILE delquad-config.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/delquad-config-version.cmake COMPATIBILITY ExactVersion)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/delquad-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/delquad-config-version.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/delquad)
