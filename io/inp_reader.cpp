@@ -10,6 +10,7 @@
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
+#include "mesh/element_nodes.h"
 
 namespace delquad {
 
@@ -61,10 +62,12 @@ Keyword keyword_of(std::string_view line) {
 /// Nodes of an element type; 0: not one of lines, triangles and quads.
 int nodes_of_type(const std::string& type) {
   static const std::pair<const char*, int> kinds[] = {
-      {"S4", 4},     {"CPS4", 4}, {"CPE4", 4},  {"CPEG4", 4}, {"CAX4", 4},   {"M3D4", 4}, {"R3D4", 4},
-      {"SFM3D4", 4}, {"DS4", 4},  {"DC2D4", 4}, {"S3", 3},    {"STRI3", 3},  {"CPS3", 3}, {"CPE3", 3},
-      {"CPEG3", 3},  {"CAX3", 3}, {"M3D3", 3},  {"R3D3", 3},  {"SFM3D3", 3}, {"DS3", 3},  {"DC2D3", 3},
-      {"T2D2", 2},   {"T3D2", 2}, {"B21", 2},   {"B31", 2},   {"R2D2", 2},   {"RAX2", 2}};
+      {"S4", 4},   {"CPS4", 4},   {"CPE4", 4},   {"CPEG4", 4},  {"CAX4", 4},  {"M3D4", 4},
+      {"R3D4", 4}, {"SFM3D4", 4}, {"DS4", 4},    {"DC2D4", 4},  {"S3", 3},    {"STRI3", 3},
+      {"CPS3", 3}, {"CPE3", 3},   {"S8", 8},     {"CPS8", 8},   {"CPE8", 8},  {"CPEG8", 8},
+      {"CAX8", 8}, {"M3D8", 8},   {"SFM3D8", 8}, {"DS8", 8},    {"DC2D8", 8}, {"CPEG3", 3},
+      {"CAX3", 3}, {"M3D3", 3},   {"R3D3", 3},   {"SFM3D3", 3}, {"DS3", 3},   {"DC2D3", 3},
+      {"T2D2", 2}, {"T3D2", 2},   {"B21", 2},    {"B31", 2},    {"R2D2", 2},  {"RAX2", 2}};
   for (const auto& [name, n] : kinds) {
     const std::string_view rest =
         std::string_view(type).substr(std::min(type.size(), std::string_view(name).size()));
@@ -94,7 +97,7 @@ class InpReader {
         data(fields_of(line));
     }
     if (!pending_.empty()) in_.fail("the file ends within an element: is it whole?");
-    if (elements_.empty()) in_.fail("the file holds no *ELEMENT of two, three or four nodes");
+    if (elements_.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
     make_mesh();
     drop_unused_points(mesh_);
     return std::move(mesh_);
@@ -110,8 +113,8 @@ class InpReader {
     n_nodes_ = nodes_of_type(type);
     if (n_nodes_ == 0)
       in_.fail(
-          fmt::format("element type {}: expected lines, triangles or quads of first order, such as S4, "
-                      "CPS4, S3",
+          fmt::format("element type {}: expected lines or triangles of first order or quads, such as S4, "
+                      "CPS4, S3, S8R",
                       TextScanner::printable(type)));
   }
 
@@ -229,15 +232,16 @@ class InpReader {
 
   void add_element(const InpElement& e, int entity) {
     const auto& v = e.nodes;
+    const int order = v.size() == 8 ? 2 : 1;
+    if (!takes_order(mesh_, order)) in_.fail(other_order(order, mesh_.order), e.line);
     if (v.size() == 2) {
-      mesh_.lines.push_back({v[0], v[1]});
-      mesh_.line_curve.push_back(entity);
-    } else if (v.size() == 3 || v[2] == v[3]) {  // some programs write triangles so
+      add_line(mesh_, v, entity);
+    } else if (v.size() == 3 || (v.size() == 4 && v[2] == v[3])) {  // some programs write triangles so
       mesh_.triangles.push_back({v[0], v[1], v[2]});
       mesh_.triangle_region.push_back(entity);
     } else {
-      mesh_.quads.push_back({v[0], v[1], v[2], v[3]});
-      mesh_.quad_region.push_back(entity);
+      if (places_.empty()) places_ = gmsh_places(order);
+      add_quad(mesh_, v, places_, entity);
     }
   }
 
@@ -249,16 +253,18 @@ class InpReader {
   /// Sides "S2" or "E2" of elements become lines; those on several surfaces are lines of a curve of all their
   /// names. Surfaces of whole elements are no curves.
   void add_surfaces() {
-    std::map<std::array<int, 2>, std::vector<std::string>> names_of;
+    std::map<std::vector<int>, std::vector<std::string>> names_of;  // by the nodes of a line, its ends first
     for (const Surface& s : surfaces_) {
       const bool is_side = s.side.size() == 2 && (s.side[0] == 'S' || s.side[0] == 'E') && s.side[1] >= '1' &&
                            s.side[1] <= '4';
       if (!is_side) continue;
       for (const int e : elements_named(s)) {
         const std::vector<int>& v = elements_[e].nodes;
-        const size_t k = static_cast<size_t>(s.side[1] - '1');
-        if (k >= v.size() || v.size() < 3) in_.fail(fmt::format("an element has no side {}", s.side), s.line);
-        std::vector<std::string>& names = names_of[{v[k], v[(k + 1) % v.size()]}];
+        const size_t k = static_cast<size_t>(s.side[1] - '1'), n = std::min<size_t>(v.size(), 4);
+        if (k >= n || n < 3) in_.fail(fmt::format("an element has no side {}", s.side), s.line);
+        std::vector<int> nodes = {v[k], v[(k + 1) % n]};
+        if (v.size() == 8) nodes.push_back(v[4 + k]);
+        std::vector<std::string>& names = names_of[nodes];
         if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
       }
     }
@@ -266,8 +272,7 @@ class InpReader {
     for (const auto& [line, names] : names_of) {
       const auto [it, is_new] = index.emplace(names, static_cast<int>(mesh_.curves.size()));
       if (is_new) mesh_.curves.push_back({it->second + 1, names});
-      mesh_.lines.push_back(line);
-      mesh_.line_curve.push_back(it->second);
+      add_line(mesh_, line, it->second);
     }
   }
 
@@ -290,6 +295,7 @@ class InpReader {
   std::vector<long long> pending_;  ///< of an element that goes on in the next line
   std::map<long long, int> node_of_, element_of_;
   std::vector<InpElement> elements_;
+  std::vector<int> places_;  ///< of the nodes of quads
   std::map<std::string, std::vector<int>> sets_;
   std::vector<Surface> surfaces_;
 };

@@ -79,7 +79,7 @@ Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 /// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
-/// Reads Abaqus input: *NODE, *ELEMENT of two to four nodes (shells, membranes, plane elements, bars),
+/// Reads Abaqus input: *NODE, *ELEMENT of two to four or eight nodes (shells, membranes, plane ones, bars),
 /// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
 /// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 Mesh read_inp(const std::filesystem::path& path);

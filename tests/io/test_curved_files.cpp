@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "mesh/check_mesh.h"
 #include "tests/support/curved_grid.h"
@@ -51,6 +52,39 @@ TEST(CurvedFiles, ComeBackAsTheyWere) {
       write_vtu(folder / "a.vtu", mesh);
       expect_same_curved(mesh, read_vtu(folder / "a.vtu"));
     }
+}
+
+/// What `delquad formats` says is read and written up to an order is.
+TEST(CurvedFiles, OfEveryFormatComeBackUpToItsOrder) {
+  const TemporaryFolder folder;
+  for (const MeshFormat& format : mesh_formats())
+    for (const std::string& extension : format.extensions)
+      for (int order = 1; order <= kMostOrder && can_write(format) && format.package.empty(); ++order) {
+        SCOPED_TRACE(extension + " " + std::to_string(order));
+        const auto file = folder / ("a" + extension);
+        const Mesh mesh = curved_grid(4, 3, order, false);
+        if (order > format.most_order) {
+          expect_input_error([&] { write_mesh(file, mesh); }, {extension.c_str(), "no elements of order"});
+          continue;
+        }
+        write_mesh(file, mesh);
+        if (format.read == nullptr) {
+          expect_input_error([&] { read_mesh(file); }, {"unknown kind"});
+          continue;
+        }
+        const Mesh back = read_mesh(file);
+        EXPECT_EQ(back.order, order);
+        EXPECT_EQ(back.line_nodes.size(), back.lines.size() * (order - 1));  // some have no lines
+        ASSERT_EQ(back.quads.size(), mesh.quads.size());
+        constexpr double kDigits = 1e-12;  // of files with the fewest
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+          const std::vector<int> wanted = nodes_of_quad(mesh, q), read = nodes_of_quad(back, q);
+          for (std::size_t k = 0; k < wanted.size(); ++k) {
+            if (order == 2 && k == 4) continue;  // formats of eight nodes have no other
+            EXPECT_LT(norm(mesh.points[wanted[k]] - back.points[read[k]]), kDigits) << q << " " << k;
+          }
+        }
+      }
 }
 
 /// A quad of eight nodes, whose map has its middle at (0.5 (2 + 0.3), ...).
