@@ -81,7 +81,7 @@ void define_hexahedra(py::module_& m) {
           },
           "the least of each hexahedron, 1 for boxes")
       .def(
-          "write_file",
+          "_write_file",
           [](const Hexahedra& self, const std::string& path, bool binary) {
             const py::gil_scoped_release released;
             write_hexahedra(path, self.mesh, binary);

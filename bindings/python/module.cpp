@@ -108,7 +108,7 @@ void define_mesh(py::module_& m) {
                              "(index into regions, that of the master, (n, 2) nodes)")
       .def_readonly("order", &Mesh::order, "of the elements, 1 to 4; lines and quads are their corners")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
-      .def("write_file", &write, arg("path"), arg("binary") = false);
+      .def("_write_file", &write, arg("path"), arg("binary") = false);
   m.def("read_mesh", &read, arg("path"));
 }
 

@@ -15,7 +15,7 @@ def read_mesh(path):
 
 def _write(self, path, binary=False):
     """Writes .msh, .vtu, .obj, .inp, .mesh or .svg, whole or not at all."""
-    _core.Mesh.write_file(self, os.fspath(path), binary)
+    _core.Mesh._write_file(self, os.fspath(path), binary)
 
 
 def _names(entities, kind):

@@ -41,7 +41,7 @@ def extrude(
 
 def _write(self, path, binary=False):
     """Writes .msh, .vtu or .inp, whole or not at all."""
-    self.write_file(os.fspath(path), binary)
+    self._write_file(os.fspath(path), binary)
 
 
 _core.HexMesh.write = _write

@@ -202,6 +202,9 @@ def mesh(
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
         each alone or with a name, (points, "name"). (In the plane: see planar().)
+    name: of the model, for messages. seed: above 0, planar domains are turned a little and nodes on curves shifted, at random.
+    max_elements: sizes that ask for more are refused. keep_going: faces that cannot be meshed are left out.
+    allow_unsound: meshes that are not sound are returned, too.
     order: of the elements, 1 to 4: above 1 they are curved along the model, and arrays hold their corners only.
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.

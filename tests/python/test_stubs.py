@@ -1,0 +1,85 @@
+"""The stubs say what the module has: the same names, parameters and defaults."""
+
+import ast
+import inspect
+import pathlib
+import re
+
+import pytest
+
+import delquad
+
+STUBS = pathlib.Path(delquad.__file__).with_suffix(".pyi")
+TREE = ast.parse(STUBS.read_text(encoding="utf-8"))
+CLASSES = {node.name: node for node in TREE.body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
+FUNCTIONS = {node.name: node for node in TREE.body if isinstance(node, ast.FunctionDef)}
+
+
+def parameters(function):
+    """Of a stub: (name, kind, default as text or None)."""
+    named = function.args.posonlyargs + function.args.args
+    defaults = [None] * (len(named) - len(function.args.defaults)) + function.args.defaults
+    all = [(a.arg, "plain", d) for a, d in zip(named, defaults)]
+    all += [(a.arg, "keyword", d) for a, d in zip(function.args.kwonlyargs, function.args.kw_defaults)]
+    if function.args.kwarg:
+        all.append((function.args.kwarg.arg, "rest", None))
+    return [(name, kind, None if default is None else ast.literal_eval(default)) for name, kind, default in all]
+
+
+def actual_parameters(function):
+    """The same of a function: of one by pybind11 from the first line of its help."""
+    kinds = {
+        inspect.Parameter.POSITIONAL_OR_KEYWORD: "plain",
+        inspect.Parameter.KEYWORD_ONLY: "keyword",
+        inspect.Parameter.VAR_KEYWORD: "rest",
+    }
+    if inspect.isfunction(function):
+        return [
+            (p.name, kinds[p.kind], None if p.default is inspect.Parameter.empty else p.default)
+            for p in inspect.signature(function).parameters.values()
+        ]
+    return parameters(ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body[0])
+
+
+def members(name):
+    """Of a class in the stubs, with those of its bases there."""
+    own = {node.name: node for node in CLASSES[name].body if isinstance(node, ast.FunctionDef)}
+    for base in CLASSES[name].bases:
+        if base.id in CLASSES:
+            own = members(base.id) | own
+    return own
+
+
+def is_property(node):
+    return any(isinstance(d, ast.Name) and d.id == "property" for d in node.decorator_list)
+
+
+def test_names():
+    assert sorted([*CLASSES, *FUNCTIONS]) == sorted(delquad.__all__)
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+def test_functions(name):
+    assert parameters(FUNCTIONS[name]) == actual_parameters(getattr(delquad, name))
+
+
+@pytest.mark.parametrize("name", sorted(CLASSES))
+def test_classes(name):
+    actual, told = getattr(delquad, name), members(name)
+    if issubclass(actual, Exception):
+        known = set(dir(RuntimeError)) | set(dir(ValueError))
+        assert {n for n in dir(actual) if not n.startswith("_")} <= known
+        return
+    assert {n for n in dir(actual) if not n.startswith("_")} == {n for n in told if not n.startswith("_")}
+    for key, node in told.items():
+        attribute = getattr(actual, key)
+        assert is_property(node) == isinstance(attribute, property), key
+        if not is_property(node) and (key != "__init__" or node in CLASSES[name].body):
+            assert parameters(node) == actual_parameters(attribute), key
+
+
+@pytest.mark.parametrize("name", ["mesh", "extrude"])
+def test_help_has_every_argument(name):
+    function = getattr(delquad, name)
+    for parameter in inspect.signature(function).parameters:
+        assert re.search(rf"\b{parameter}\b", function.__doc__), parameter
