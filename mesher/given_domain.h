@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "delquad/error.h"
 #include "delquad/extend.h"
 #include "geometry/planar/planar_model.h"
 
