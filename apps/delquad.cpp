@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -549,6 +550,10 @@ int run_program(int argc, char** argv) {
     return after_printing(run_command_line(argc, argv));
   } catch (const InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // disks and folders that take no more
+    fmt::print(stderr, "error: {}: {}\n", (error.path2().empty() ? error.path1() : error.path2()).string(),
+               error.code().message());
     return kBadInput;
   } catch (const UnsoundError& error) {
     fmt::print(stderr, "error: {}: nothing was written; another size may help (--allow-unsound writes it)\n",

@@ -9,6 +9,7 @@
 #include "cases/problem.h"
 #include "cases/toml_reader.h"
 #include "console/progress.h"
+#include "io/library_file.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesh/check_mesh.h"
@@ -71,7 +72,7 @@ class Adding {
     prepare_folder(folder_);
     const FolderLock lock(folder_, 0, 1);
     write_study(folder_, describe(experiment_));
-    fs::copy_file(peer_.file, folder_ / kDescription, fs::copy_options::overwrite_existing);
+    write_file_atomically(folder_ / kDescription, [&](std::ostream& out) { copy_into(out, peer_.file); });
     Progress progress(static_cast<int>(experiment_.n_cases()));
     for (std::size_t i = 0; i < experiment_.n_cases(); ++i) {
       const Case c = experiment_.read_variant(i);
