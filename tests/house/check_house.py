@@ -17,6 +17,8 @@ NOT_IN_LIBRARY = [
     r"std::(cerr|cout|clog)\b",
     r"\b(signal|sigaction|fork|setlocale|setenv)\(",
 ]
+# But for this: HDF5 crashes at the end of a process in which it could not write, so its writers get one of their own.
+FORKS = "io/library_file.cpp"
 
 
 def rooms(root):
@@ -74,6 +76,8 @@ def check_library(root, links):
         for path in sources(root, room, links):
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 code = line.split("//")[0]
+                if path == root / FORKS:
+                    code = code.replace("fork()", "")
                 if any(re.search(pattern, code) for pattern in NOT_IN_LIBRARY):
                     yield f"{path.relative_to(root)}:{number}: not in a library: {code.strip()}"
 
