@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Message_Report.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -30,17 +31,30 @@ TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& par
   return images;
 }
 
-/// Faces that several bodies have.
-int count_common_faces(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape seen, common;
+/// What is glued: solids and closed shells, of open ones the faces, which may touch each other, too.
+TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
+  TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies_of(shape)) {
-    const TopTools_IndexedMapOfShape faces = parts(body, TopAbs_FACE);
-    for (int f = 1; f <= faces.Extent(); ++f) {
+    if (body.ShapeType() != TopAbs_SHELL || BRep_Tool::IsClosed(body)) {
+      all.Append(body);
+      continue;
+    }
+    for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next()) all.Append(face.Current());
+  }
+  return all;
+}
+
+/// The faces or edges that several of some parts have.
+TopTools_IndexedMapOfShape common_of(const TopTools_ListOfShape& all, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape seen, common;
+  for (const TopoDS_Shape& part : all) {
+    const TopTools_IndexedMapOfShape own = parts(part, kind);
+    for (int i = 1; i <= own.Extent(); ++i) {
       const int known = seen.Extent();
-      if (seen.Add(faces(f)) <= known) common.Add(faces(f));
+      if (seen.Add(own(i)) <= known) common.Add(own(i));
     }
   }
-  return common.Extent();
+  return common;
 }
 
 std::string join_titles(const std::vector<std::string>& titles) {
@@ -85,7 +99,7 @@ TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape) {
 }
 
 void glue_shape(CadShape& cad, double tolerance) {
-  const TopTools_ListOfShape bodies = bodies_of(cad.shape);
+  const TopTools_ListOfShape bodies = glued_parts(cad.shape);
   if (bodies.Extent() < 2) {
     cad.warnings.push_back("nothing to glue: the model is one body");
     return;
@@ -105,8 +119,10 @@ void glue_shape(CadShape& cad, double tolerance) {
         fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
   const std::vector<std::string> cut = follow_faces(builder, cad);
   cad.shape = glued;
-  cad.warnings.push_back(
-      fmt::format("glued: {} bodies have {} faces in common", bodies.Extent(), count_common_faces(glued)));
+  const TopTools_ListOfShape after = glued_parts(glued);
+  cad.warnings.push_back(fmt::format("glued: {} bodies have {} faces and {} edges in common", bodies.Extent(),
+                                     common_of(after, TopAbs_FACE).Extent(),
+                                     common_of(after, TopAbs_EDGE).Extent()));
   if (!cut.empty())
     cad.warnings.push_back(fmt::format(
         "glued: faces cut where others lie on them, by their numbers before: {}", join_titles(cut)));

@@ -6,6 +6,7 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
@@ -13,8 +14,10 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 
 #include "base/parallel.h"
+#include "geometry/cad/glue_shape.h"
 #include "geometry/cad/sub_shapes.h"
 
 namespace delquad::cad {
@@ -71,19 +74,44 @@ void fix(CadShape& cad) {
   cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid);
 }
 
+bool sew_branches(CadShape& cad, double tolerance) {
+  TopoDS_Compound open, all;
+  const BRep_Builder builder;
+  builder.MakeCompound(open);
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& body : bodies_of(cad.shape)) {
+    const bool is_closed =
+        body.ShapeType() == TopAbs_SOLID || (body.ShapeType() == TopAbs_SHELL && BRep_Tool::IsClosed(body));
+    builder.Add(is_closed ? all : open, body);
+  }
+  BRepBuilderAPI_Sewing sewing(tolerance, /*option1=*/true, /*option2=*/true, /*option3=*/true,
+                               /*option4=*/true);
+  sewing.Add(open);
+  sewing.Perform();
+  const TopoDS_Shape sewn = sewing.SewedShape();
+  if (sewn.IsNull() || parts(sewn, TopAbs_EDGE).Extent() >= parts(open, TopAbs_EDGE).Extent()) return false;
+  builder.Add(all, sewn);
+  replace(cad, all, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
+  return true;
+}
+
+/// Sews free edges in pairs; where that leaves any, those of what is open once more, all that coincide
+/// together: edges of three faces and more. Parts that are closed stay apart from others.
 void sew(CadShape& cad, double tolerance) {
   const int before = count_free_edges(cad.shape);
   if (before == 0) return;
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  sewing.Add(cad.shape);
-  sewing.Perform();
-  const TopoDS_Shape sewn = sewing.SewedShape();
-  if (sewn.IsNull()) return;
-  const int after = count_free_edges(sewn);
-  if (after >= before) return;
-  replace(cad, sewn, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
-  cad.warnings.push_back(
-      fmt::format("{} of {} free edges coincided and have been sewn", before - after, before));
+  BRepBuilderAPI_Sewing in_pairs(tolerance);
+  in_pairs.Add(cad.shape);
+  in_pairs.Perform();
+  bool any = false;
+  if (const TopoDS_Shape sewn = in_pairs.SewedShape(); !sewn.IsNull() && count_free_edges(sewn) < before) {
+    replace(cad, sewn, [&](const TopoDS_Shape& part) { return in_pairs.ModifiedSubShape(part); });
+    any = true;
+  }
+  any = sew_branches(cad, tolerance) || any;
+  if (any)
+    cad.warnings.push_back(fmt::format("{} of {} free edges coincided and have been sewn",
+                                       before - count_free_edges(cad.shape), before));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <Geom_Curve.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
@@ -28,13 +29,19 @@ bool bounds(const TopoDS_Shape& edge) {
   return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
 }
 
-/// Edges that bound faces; those inside of faces are INTERNAL.
-TopTools_MapOfShape bounding_edges(const TopoDS_Shape& shape) {
-  TopTools_MapOfShape bounding;
-  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
-    for (TopExp_Explorer edge(face.Current().Oriented(TopAbs_FORWARD), TopAbs_EDGE); edge.More(); edge.Next())
-      if (bounds(edge.Current())) bounding.Add(edge.Current());
-  return bounding;
+/// Edges that bound faces, or stand in several; others inside of faces are INTERNAL.
+TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
+  TopTools_MapOfShape joining;
+  TopTools_DataMapOfShapeInteger inside_of;
+  const TopTools_IndexedMapOfShape faces = parts(shape, TopAbs_FACE);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (TopExp_Explorer at(faces(f).Oriented(TopAbs_FORWARD), TopAbs_EDGE); at.More(); at.Next()) {
+      const TopoDS_Shape& edge = at.Current();
+      const int* known = inside_of.Seek(edge);
+      if (bounds(edge) || (known != nullptr && *known != f)) joining.Add(edge);
+      if (known == nullptr) inside_of.Bind(edge, f);
+    }
+  return joining;
 }
 
 Vec3 vec3(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -54,14 +61,14 @@ bool is_finite_curve(const TopoDS_Edge& edge) {
          !Precision::IsInfinite(last);
 }
 
-/// The edges of a wire that bound its face; null: none.
-TopoDS_Shape bounding_part(const TopoDS_Shape& wire) {
+/// The edges of a wire that bound its face or join it to others; null: none.
+TopoDS_Shape joining_part(const TopoDS_Shape& wire, const TopTools_MapOfShape& joining) {
   bool has_others = false, is_empty = true;
   TopoDS_Shape part = wire.EmptyCopied();
   const TopAbs_Orientation side = wire.Orientation();
   part.Orientation(TopAbs_FORWARD);
   for (TopoDS_Iterator edge(wire.Oriented(TopAbs_FORWARD)); edge.More(); edge.Next()) {
-    if (!bounds(edge.Value())) {
+    if (!joining.Contains(edge.Value())) {
       has_others = true;
       continue;
     }
@@ -73,14 +80,14 @@ TopoDS_Shape bounding_part(const TopoDS_Shape& wire) {
   return has_others ? part.Oriented(side) : wire;
 }
 
-/// The face with its bounding edges only.
-TopoDS_Shape without_inner_edges(const TopoDS_Shape& face) {
+/// The face without the edges inside of it alone.
+TopoDS_Shape without_inner_edges(const TopoDS_Shape& face, const TopTools_MapOfShape& joining) {
   const TopoDS_Shape outwards = face.Oriented(TopAbs_FORWARD);
   TopoDS_Shape other = outwards.EmptyCopied();
   bool changed = false;
   for (TopoDS_Iterator child(outwards); child.More(); child.Next()) {
     const TopoDS_Shape part =
-        child.Value().ShapeType() == TopAbs_WIRE ? bounding_part(child.Value()) : TopoDS_Shape();
+        child.Value().ShapeType() == TopAbs_WIRE ? joining_part(child.Value(), joining) : TopoDS_Shape();
     changed = changed || part.IsNull() || !part.IsSame(child.Value());
     if (!part.IsNull()) BRep_Builder().Add(other, part);
   }
@@ -91,11 +98,12 @@ TopoDS_Shape without_inner_edges(const TopoDS_Shape& face) {
 
 void drop_inner_edges(CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
+  const TopTools_MapOfShape joining = joining_edges(cad.shape);
   BRepTools_ReShape reshape;
   PartNames names = cad.names;
   bool any = false;
   for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Shape other = without_inner_edges(faces(f));
+    const TopoDS_Shape other = without_inner_edges(faces(f), joining);
     for (const std::string& name : cad.names.of(faces(f))) names.add(other, name);
     if (other.IsSame(faces(f))) continue;
     reshape.Replace(faces(f), other);
@@ -109,10 +117,10 @@ void drop_inner_edges(CadShape& cad) {
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection) {
   const TopoDS_Shape& shape = cad.shape;
   std::vector<LooseLine> loose;
-  const TopTools_MapOfShape bounding = bounding_edges(shape);
+  const TopTools_MapOfShape joining = joining_edges(shape);
   const TopTools_IndexedMapOfShape edges = parts(shape, TopAbs_EDGE);
   for (int e = 1; e <= edges.Extent(); ++e)
-    if (const TopoDS_Edge edge = TopoDS::Edge(edges(e)); !bounding.Contains(edge) && is_finite_curve(edge))
+    if (const TopoDS_Edge edge = TopoDS::Edge(edges(e)); !joining.Contains(edge) && is_finite_curve(edge))
       loose.push_back({chords(edge, deflection), cad.names.of(edge), fmt::format("edge {}", e)});
   TopTools_IndexedMapOfShape vertices;
   for (TopExp_Explorer vertex(shape, TopAbs_VERTEX, TopAbs_EDGE); vertex.More(); vertex.Next())

@@ -11,8 +11,8 @@ namespace delquad::cad {
 /// ones are left to others.
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 
-/// Takes edges and vertices inside of faces out of them: the kernel fails to triangulate some faces with
-/// them.
+/// Takes edges and vertices inside of one face alone out of it: the kernel fails to triangulate some faces
+/// with them.
 void drop_inner_edges(CadShape& cad);
 
 }  // namespace delquad::cad

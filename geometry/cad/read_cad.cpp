@@ -3,6 +3,8 @@
 #include <TopExp_Explorer.hxx>
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <utility>
 
 #include "base/activity.h"
@@ -12,13 +14,15 @@
 #include "geometry/cad/example_models.h"
 #include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/glue_shape.h"
+#include "geometry/cad/loose_joints.h"
 #include "geometry/cad/prepare_shape.h"
 #include "geometry/cad/shape_projector.h"
 #include "geometry/cad/sub_shapes.h"
 #include "geometry/cad/tessellate.h"
-#include "geometry/cad/touching_faces.h"
 #include "geometry/cad/weld_faces.h"
 #include "geometry/surface/report_edges.h"
+#include "geometry/surface/surface_editor.h"
+#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 
@@ -43,6 +47,12 @@ std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_I
   return all;
 }
 
+int count_solids(const TopoDS_Shape& shape) {
+  int n = 0;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) ++n;
+  return n;
+}
+
 /// Whether the faces of a group, and no others, have a name in common that is more than a colour.
 bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
   const auto has = [&](int face, const std::string& name) {
@@ -59,32 +69,58 @@ bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
 /// Of several solids, names those that have none of their own: "solid 1", ... by their order in the file.
 /// Faces that solids share have the names of both. `groups`: the faces of each body, solids first.
 void name_solids(const TopoDS_Shape& shape, const std::vector<std::vector<int>>& groups, Mesh& mesh) {
-  std::size_t n_solids = 0;
-  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) ++n_solids;
+  const int n_solids = count_solids(shape);
   if (n_solids < 2) return;
   std::vector<char> named;
-  for (std::size_t k = 0; k < n_solids; ++k)
-    named.push_back(groups[k].empty() || has_own_name(mesh, groups[k]));
-  for (std::size_t k = 0; k < n_solids; ++k) {
+  for (int k = 0; k < n_solids; ++k) named.push_back(groups[k].empty() || has_own_name(mesh, groups[k]));
+  for (int k = 0; k < n_solids; ++k) {
     const std::string name = fmt::format("solid {}", k + 1);
     for (const int f : groups[k])
       if (!named[k]) mesh.regions[f].names.push_back(name);
   }
 }
 
-/// Faces of bodies that only coincide get meshes of their own there.
-void tell_touching_faces(SurfaceModel& model, const std::vector<std::vector<int>>& groups, double deflection,
-                         double tolerance) {
-  const auto pairs = touching_faces(model, groups, deflection, tolerance);
-  if (pairs.empty()) return;
-  constexpr std::size_t kMostNamed = 10;
-  const auto title = [&](int f) { return face_title(f + 1, model.fine.regions[f].names); };
+/// "face 2, edge on face 1 (lid) at (1, 0, 2)", of so many.
+std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints) {
+  constexpr std::size_t kMostNamed = 20;
+  constexpr std::array kHow{"face on", "edge on", "corner on", "through"};  // by kind
+  const auto title = [&](int f) { return face_title(mesh.regions[f].tag, mesh.regions[f].names); };
   std::string text;
-  for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i)
-    text += fmt::format("{}{} and {}", i == 0 ? "" : "; ", title(pairs[i][0]), title(pairs[i][1]));
-  model.warnings.push_back(fmt::format(
-      "faces of {} pairs lie on each other and share no nodes (--glue, surface.glue = true): {}{}",
-      pairs.size(), text, pairs.size() > kMostNamed ? "; ..." : ""));
+  for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
+    const auto& [kind, faces, at] = joints[i];
+    text += fmt::format("{}{}, {} {} at {}", i == 0 ? "" : "; ", title(faces[0]),
+                        kHow[static_cast<std::size_t>(kind)], title(faces[1]), show_point(at));
+  }
+  return joints.size() > kMostNamed ? text + "; ..." : text;
+}
+
+/// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
+void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& solids, double deflection,
+                  double tolerance, bool glued) {
+  const std::vector<LooseJoint> joints = loose_joints(model, solids, deflection, tolerance);
+  if (joints.empty()) return;
+  const std::string list = list_joints(model.fine, joints);
+  if (glued)
+    throw InputError(fmt::format("cannot be glued at {}: {}", counted(std::ssize(joints), "place"), list));
+  model.warnings.push_back(
+      fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {}",
+                  counted(std::ssize(joints), "place"), list));
+}
+
+/// A curve that stands in a face has a point inside, so that a patch can be opened between its ends.
+void part_single_lines(SurfaceModel& model) {
+  SurfaceEditor editor(model);
+  const std::vector<int> curve_of = model.fine.line_curve;
+  std::set<int> embedded;
+  for (const EmbeddedCurve& e : model.embedded) embedded.insert(e.curve);
+  for (const int curve : embedded) {
+    const auto [first, last] = std::ranges::equal_range(curve_of, curve);
+    if (last - first != 1) continue;
+    const auto [a, b] = model.fine.lines[static_cast<std::size_t>(first - curve_of.begin())];
+    const Vec3 middle = 0.5 * (model.fine.points[a] + model.fine.points[b]);
+    editor.split_edge(a, b, model.projector->to_curve(curve, middle));
+  }
+  editor.finish();
 }
 
 void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
@@ -140,6 +176,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (int f = 0; f < faces.Extent(); ++f) model.fine.regions[f].names = cad.names.of(faces(f + 1));
   for (Entity& curve : model.fine.curves)
     if (curve.tag <= edges.Extent()) curve.names = cad.names.of(edges(curve.tag));
+  model.embedded = std::move(welded.embedded);
   const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);
   name_solids(cad.shape, groups, model.fine);
   orient(model, groups);
@@ -147,7 +184,9 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
   for (const auto& [point, face] : welded.inside)
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
-  tell_touching_faces(model, groups, options.deflection * cad.diagonal, kTouching * cad.diagonal);
+  if (!model.embedded.empty()) part_single_lines(model);
+  check_joints(model, {groups.begin(), groups.begin() + count_solids(cad.shape)},
+               options.deflection * cad.diagonal, kTouching * cad.diagonal, options.glue);
   return model;
 }
 

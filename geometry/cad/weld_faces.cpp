@@ -74,6 +74,7 @@ class Welder {
     int n_passages = 0;    ///< of first_face's boundary along it
     bool is_seam = false;  ///< of first_face, which lies on both sides of it
     bool is_shared = false;
+    std::vector<int> inside_of;  ///< faces, ascending
   };
 
   int new_node(const Vec3& p) {
@@ -130,7 +131,10 @@ class Welder {
     }
     // The face lies on the left of a forward edge.
     const bool reversed = edge.Orientation() == TopAbs_REVERSED;
-    if (!reversed && edge.Orientation() != TopAbs_FORWARD) return;
+    if (!reversed && edge.Orientation() != TopAbs_FORWARD) {
+      if (use.inside_of.empty() || use.inside_of.back() != f) use.inside_of.push_back(f);
+      return;
+    }
     for (int k = 0; k + 1 < n; ++k) {
       std::array<int, 2> side{use.nodes[k], use.nodes[k + 1]};
       if (reversed != faces_[f].is_reversed) std::swap(side[0], side[1]);
@@ -191,8 +195,13 @@ class Welder {
       for (int& node : triangle) node = number_[node];
   }
 
+  /// With the edges inside of faces.
   std::vector<std::vector<std::array<int, 2>>> numbered_boundaries() {
     std::vector<std::vector<std::array<int, 2>>> sides(boundary_.size());
+    for (const EdgeUse& use : uses_)
+      for (const int f : use.inside_of)
+        for (std::size_t k = 0; k + 1 < use.nodes.size(); ++k)
+          boundary_[f].push_back({use.nodes[k], use.nodes[k + 1]});
     for (std::size_t f = 0; f < boundary_.size(); ++f) {
       for (const auto& [a, b] : boundary_[f]) {
         const int p = number_[sets_.find(a)], q = number_[sets_.find(b)];
@@ -216,6 +225,7 @@ class Welder {
     }
     if (chain.size() < 2) return;
     Mesh& mesh = welded.mesh;
+    for (const int f : use.inside_of) welded.embedded.push_back({static_cast<int>(mesh.curves.size()), f});
     for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
       mesh.lines.push_back({chain[k], chain[k + 1]});
       mesh.line_curve.push_back(static_cast<int>(mesh.curves.size()));

@@ -8,6 +8,7 @@
 #include "delquad/mesh.h"
 #include "geometry/cad/part_twin_sides.h"
 #include "geometry/cad/tessellate.h"
+#include "geometry/surface/surface_model.h"
 
 namespace delquad::cad {
 
@@ -21,8 +22,9 @@ struct WeldedFaces {
   Mesh mesh;  ///< regions are the faces, without names
   std::vector<CurveMesh> curves;
   std::vector<int> corners;
-  std::vector<PointInside> inside;  ///< not on the surface yet: see part_twin_sides()
-  std::vector<int> bad_faces;       ///< triangles miss the boundary by more than `gap`, or are no surface
+  std::vector<EmbeddedCurve> embedded;  ///< edges inside of faces, by curve
+  std::vector<PointInside> inside;      ///< not on the surface yet: see part_twin_sides()
+  std::vector<int> bad_faces;           ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
 /// Makes one node of those of all faces that stand for the same point: of an edge by their order along it

@@ -49,7 +49,10 @@ class Gluing {
       if (std::ranges::none_of(edge, [&](const HalfEdge& e) { return wanted_[e.element] != 0; })) return;
       const std::pair ends(edge[0].lo, edge[0].hi);
       if (std::ranges::binary_search(lines, ends)) return;
-      if (continues(edge) || !std::ranges::binary_search(open_lines, ends)) glue(edge);
+      if (std::ranges::binary_search(open_lines, ends))
+        glue_across_line(edge);
+      else
+        glue(edge);
     });
   }
 
@@ -68,6 +71,13 @@ class Gluing {
     return edge.size() == 2 && wanted_[edge[1].element] && wanted_[edge[0].element] &&
            edge[0].forward != edge[1].forward &&
            fine_.triangle_region[edge[0].element] == fine_.triangle_region[edge[1].element];
+  }
+
+  /// Each face that lies on both sides.
+  void glue_across_line(std::span<const HalfEdge> edge) {
+    for (const HalfEdge& a : edge)
+      for (const HalfEdge& b : edge)
+        if (const std::array pair{a, b}; a.element < b.element && continues(pair)) glue(pair);
   }
 
   void glue(std::span<const HalfEdge> edge) {

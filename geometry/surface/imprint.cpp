@@ -115,7 +115,8 @@ class ImprintProjector final : public SurfaceProjector {
   ImprintProjector(std::shared_ptr<const SurfaceProjector> base, int first_curve,
                    const std::vector<EmbeddedCurve>& embedded)
       : base_(std::move(base)), first_curve_(first_curve) {
-    for (const EmbeddedCurve& c : embedded) face_of_.push_back(c.face);
+    for (const EmbeddedCurve& c : embedded)
+      if (c.curve >= first_curve) face_of_.push_back(c.face);
   }
   Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(face, x); }
   Vec3 to_curve(int curve, const Vec3& x) const override {

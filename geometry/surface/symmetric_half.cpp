@@ -431,18 +431,21 @@ class SymmetricCutter {
   }
 
   void find_embedded() {
-    std::vector<const EmbeddedCurve*> of(n_curves_, nullptr);
-    for (const EmbeddedCurve& e : whole_.embedded) of[e.curve] = &e;
+    std::multimap<int, EmbeddedCurve> of;
+    for (const EmbeddedCurve& e : whole_.embedded) of.emplace(e.curve, e);
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh());
     half_.model.embedded.clear();
     int before = -1;
     for (std::size_t l = 0; l < mesh().lines.size(); ++l) {
       const int curve = mesh().line_curve[l];
       if (std::exchange(before, curve) == curve) continue;
-      const int whole = half_.whole_curve[curve];
-      if (whole < 0 || of[whole] == nullptr) continue;
-      if (sides_of_edge(sides, mesh().lines[l][0], mesh().lines[l][1]).size() == 2)
-        half_.model.embedded.push_back({curve, of[whole]->face, of[whole]->is_whisker});
+      const auto [first, last] = of.equal_range(half_.whole_curve[curve]);
+      for (const auto& [whole, e] : std::ranges::subrange(first, last)) {
+        const auto on_both_sides = std::ranges::count_if(
+            sides_of_edge(sides, mesh().lines[l][0], mesh().lines[l][1]),
+            [&](const HalfEdge& s) { return mesh().triangle_region[s.element] == e.face; });
+        if (on_both_sides == 2) half_.model.embedded.push_back({curve, e.face, e.is_whisker});
+      }
     }
   }
 

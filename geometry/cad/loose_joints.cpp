@@ -1,0 +1,336 @@
+#include "geometry/cad/loose_joints.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/box.h"
+#include "base/box_tree.h"
+#include "base/cancel.h"
+#include "mesh/half_edges.h"
+#include "mesh/nearest_triangle.h"
+
+namespace delquad::cad {
+
+namespace {
+
+using Pair = std::array<int, 2>;
+using Places = std::vector<Vec3>;
+
+Pair in_order(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Part of a chord: its middle is not nearer to a face that the curve leaves in a tangent direction. An arc
+/// that turns by .15 rises .019 above its chord.
+constexpr double kPartOfChord = 0.01;
+/// Where two faces cross is found by going from one to the other, which takes so many steps where they meet
+/// at 15 degrees; steps that are no shorter than this part of the one before lead nowhere.
+constexpr int kMostMeetingSteps = 200;
+constexpr double kStepsShrink = 0.97;
+/// Faces that share a curve or a node meet in many places near it: so many tolerances around.
+constexpr double kAroundShared = 10;
+
+/// Where the segment from p to q meets the triangle, its outline included.
+std::optional<Vec3> meeting(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kRounding = 1e-9;
+  const Vec3 normal = cross(b - a, c - a);
+  const double from = dot(p - a, normal), to = dot(q - a, normal);
+  if (from * to > 0 || from == to) return std::nullopt;
+  const Vec3 x = p + (from / (from - to)) * (q - p);
+  const double least = -kRounding * dot(normal, normal);
+  for (const auto& [u, v] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    if (dot(cross(v - u, x - u), normal) < least) return std::nullopt;
+  return x;
+}
+
+class JointFinder {
+ public:
+  JointFinder(const SurfaceModel& model, const std::vector<std::vector<int>>& solids, double deflection,
+              double tolerance)
+      : model_(model),
+        mesh_(model.fine),
+        deflection_(deflection),
+        tolerance_(tolerance),
+        sides_(sorted_half_edges(mesh_)),
+        faces_(mesh_.regions.size()) {
+    for (int s = 0; s < std::ssize(solids); ++s)
+      for (const int f : solids[s]) faces_[f].solids.push_back(s);
+    for (int t = 0; t < std::ssize(mesh_.triangles); ++t) faces_[face_of(t)].triangles.push_back(t);
+    for (Face& face : faces_) set_box(face);
+    find_lines();
+    find_parts();
+  }
+
+  std::vector<LooseJoint> find() {
+    using Kind = LooseJoint::Kind;
+    const std::vector<Pair> pairs = near_pairs();
+    for (const auto& [f, g] : pairs)
+      if (shared_lines(f, g).empty() && !add(Kind::kFaces, f, g, common_area(f, g)))
+        add(Kind::kFaces, f, g, common_area(g, f));
+    for (const auto& [f, g] : pairs)
+      if (!has_joint(f, g) && !add_line_joint(f, g)) add_line_joint(g, f);
+    for (const auto& [f, g] : pairs)
+      if (!has_joint(f, g) && !add(Kind::kCrossing, f, g, crossing(f, g)))
+        add(Kind::kCrossing, f, g, crossing(g, f));
+    std::ranges::sort(joints_, {}, [](const LooseJoint& j) { return in_order(j.faces[0], j.faces[1]); });
+    return std::move(joints_);
+  }
+
+ private:
+  struct Trees {
+    NearestTriangle nearest;
+    BoxTree<Vec3> boxes;
+  };
+  struct Face {
+    std::vector<int> triangles, solids, lines, nodes;  ///< ascending; the nodes on lines
+    Box<Vec3> box{};
+    int part = -1;
+    std::unique_ptr<Trees> trees{};
+  };
+
+  int face_of(int triangle) const { return mesh_.triangle_region[triangle]; }
+  const Vec3& corner(int t, int k) const { return mesh_.points[mesh_.triangles[t][k]]; }
+  Box<Vec3> box_of(int t) const { return Box<Vec3>::around({corner(t, 0), corner(t, 1), corner(t, 2)}); }
+
+  void set_box(Face& face) const {
+    if (face.triangles.empty()) return;
+    face.box = box_of(face.triangles[0]);
+    for (const int t : face.triangles)
+      for (int k = 0; k < 3; ++k) face.box.add(corner(t, k));
+    const Vec3 more{deflection_, deflection_, deflection_};
+    face.box = {face.box.low - more, face.box.high + more};
+  }
+
+  void find_lines() {
+    for (int l = 0; l < std::ssize(mesh_.lines); ++l) {
+      const auto& [a, b] = mesh_.lines[l];
+      line_on_[in_order(a, b)] = l;
+      for (const HalfEdge& side : sides_of_edge(sides_, a, b)) {
+        Face& face = faces_[face_of(side.element)];
+        if (face.lines.empty() || face.lines.back() != l) face.lines.push_back(l);
+        face.nodes.insert(face.nodes.end(), {a, b});
+      }
+    }
+    for (Face& face : faces_) std::ranges::sort(face.nodes);
+  }
+
+  void find_parts() {
+    std::vector<int> parent(faces_.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int f) {
+      while (parent[f] != f) f = parent[f] = parent[parent[f]];
+      return f;
+    };
+    for_each_edge(sides_, [&](std::span<const HalfEdge> edge) {
+      for (const HalfEdge& side : edge) {
+        const int f = root(face_of(edge[0].element)), g = root(face_of(side.element));
+        parent[std::max(f, g)] = std::min(f, g);
+      }
+    });
+    for (int f = 0; f < std::ssize(faces_); ++f) faces_[f].part = root(f);
+    is_open_.assign(faces_.size(), 0);
+    for_each_edge(sides_, [&](std::span<const HalfEdge> edge) {
+      if (edge.size() == 1) is_open_[faces_[face_of(edge[0].element)].part] = 1;
+    });
+  }
+
+  /// Faces whose boxes meet, that no solid has both, and that are not of one closed part.
+  std::vector<Pair> near_pairs() const {
+    std::vector<int> order;
+    for (int f = 0; f < std::ssize(faces_); ++f)
+      if (!faces_[f].triangles.empty()) order.push_back(f);
+    std::ranges::sort(order, {}, [&](int f) { return faces_[f].box.low.x; });
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      check_cancelled();
+      const Face& first = faces_[order[i]];
+      for (std::size_t j = i + 1; j < order.size() && faces_[order[j]].box.low.x <= first.box.high.x; ++j) {
+        const Face& second = faces_[order[j]];
+        if (first.part == second.part && is_open_[first.part] == 0) continue;
+        if (!first.box.overlaps(second.box)) continue;
+        if (std::ranges::none_of(first.solids,
+                                 [&](int s) { return std::ranges::binary_search(second.solids, s); }))
+          pairs.push_back(in_order(order[i], order[j]));
+      }
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+  }
+
+  Pair parts_of(int f, int g) const { return in_order(faces_[f].part, faces_[g].part); }
+
+  bool has_joint(int f, int g) const {
+    return std::ranges::any_of(
+        joints_, [&](const LooseJoint& j) { return in_order(j.faces[0], j.faces[1]) == in_order(f, g); });
+  }
+
+  /// The first of the places where no joint of the same parts is known.
+  bool add(LooseJoint::Kind kind, int f, int g, const Places& places) {
+    for (const Vec3& x : places) {
+      const bool is_known = std::ranges::any_of(joints_, [&](const LooseJoint& j) {
+        return parts_of(j.faces[0], j.faces[1]) == parts_of(f, g) && is_on(x, j.faces[0], tolerance_) &&
+               is_on(x, j.faces[1], tolerance_);
+      });
+      if (is_known) continue;
+      joints_.push_back({kind, {f, g}, x});
+      return true;
+    }
+    return false;
+  }
+
+  /// A place inside a triangle of f that is a place of g.
+  Places common_area(int f, int g) {
+    constexpr double kNear = 2.0 / 3, kFar = 1.0 / 6;
+    for (const int t : faces_[f].triangles) {
+      if (!box_of(t).overlaps(faces_[g].box)) continue;
+      const Vec3 &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+      for (const Vec3& place : {1.0 / 3 * (a + b + c), kNear * a + kFar * (b + c), kNear * b + kFar * (c + a),
+                                kNear * c + kFar * (a + b)})
+        if (faces_[g].box.distance2(place) == 0 && is_near(place, g))
+          if (const Vec3 x = model_.projector->to_face(f, place); is_on(x, g, tolerance_)) return {x};
+    }
+    return {};
+  }
+
+  /// Where lines of f that are not those of g lie on it. Of one part only free lines count.
+  bool add_line_joint(int f, int g) {
+    Places middles, ends;
+    for (const int l : faces_[f].lines) {
+      const auto& [a, b] = mesh_.lines[l];
+      const Vec3 &p = mesh_.points[a], &q = mesh_.points[b];
+      if (!Box<Vec3>::around({p, q}).overlaps(faces_[g].box)) continue;
+      if (std::ranges::binary_search(faces_[g].lines, l)) continue;
+      if (faces_[f].part == faces_[g].part && sides_of_edge(sides_, a, b).size() > 1) continue;
+      const double reach = std::min(tolerance_, kPartOfChord * norm(q - p));
+      if (const Vec3 x = 0.5 * (p + q); is_near(x, g))
+        if (const Vec3 y = model_.projector->to_curve(mesh_.line_curve[l], x); is_on(y, g, reach))
+          middles.push_back(y);
+      for (const int v : {a, b})
+        if (!std::ranges::binary_search(faces_[g].nodes, v) && is_on(mesh_.points[v], g, reach))
+          ends.push_back(mesh_.points[v]);
+    }
+    return add(LooseJoint::Kind::kEdge, f, g, middles) || add(LooseJoint::Kind::kCorner, f, g, ends);
+  }
+
+  /// A place where a side of a triangle of f goes through g.
+  Places crossing(int f, int g) {
+    constexpr std::array<Pair, 3> kSides{{{0, 1}, {1, 2}, {2, 0}}};
+    for (const int t : faces_[f].triangles)
+      for (const auto& [i, k] : kSides) {
+        const Vec3 &p = corner(t, i), &q = corner(t, k);
+        const auto box = Box<Vec3>::around({p, q});
+        if (!box.overlaps(faces_[g].box)) continue;
+        Places found;
+        trees_of(g).boxes.search(
+            0.0, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
+            [&](int n) {
+              const int s = faces_[g].triangles[n];
+              if (!found.empty() || !box_of(s).overlaps(box)) return;
+              if (const auto x = meeting(p, q, corner(s, 0), corner(s, 1), corner(s, 2)))
+                if (const auto y = on_both(*x, f, g)) found.push_back(*y);
+            });
+        if (!found.empty()) return found;
+      }
+    return {};
+  }
+
+  /// The place of both faces next to one of their triangles' places, and not next to what both have.
+  std::optional<Vec3> on_both(Vec3 x, int f, int g) {
+    double before = 2 * deflection_ + tolerance_;
+    for (int step = 0; step < kMostMeetingSteps; ++step) {
+      const Vec3 y = model_.projector->to_face(g, x);
+      const double apart = norm(y - x);
+      x = model_.projector->to_face(f, y);
+      if (apart <= tolerance_) break;
+      if (!(apart < kStepsShrink * before)) return std::nullopt;
+      before = apart;
+    }
+    if (!is_on(x, f, tolerance_) || !is_on(x, g, tolerance_)) return std::nullopt;
+    const double around = kAroundShared * tolerance_;
+    for (const int l : shared_lines(f, g))
+      if (norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x) <= around) return std::nullopt;
+    std::vector<int> nodes;
+    std::ranges::set_intersection(faces_[f].nodes, faces_[g].nodes, std::back_inserter(nodes));
+    if (std::ranges::any_of(nodes, [&](int v) { return norm(mesh_.points[v] - x) <= around; }))
+      return std::nullopt;
+    return x;
+  }
+
+  /// One of each curve.
+  std::vector<int> shared_lines(int f, int g) const {
+    std::vector<int> shared;
+    std::ranges::set_intersection(faces_[f].lines, faces_[g].lines, std::back_inserter(shared));
+    const auto [first, last] = std::ranges::unique(shared, {}, [&](int l) { return mesh_.line_curve[l]; });
+    shared.erase(first, last);
+    return shared;
+  }
+
+  /// The nearest triangle on points of its own: as many as it has corners.
+  Trees& trees_of(int g) {
+    if (faces_[g].trees) return *faces_[g].trees;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<Box<Vec3>> boxes;
+    for (const int t : faces_[g].triangles) {
+      const int n = static_cast<int>(points.size());
+      for (int k = 0; k < 3; ++k) points.push_back(corner(t, k));
+      triangles.push_back({n, n + 1, n + 2});
+      boxes.push_back(box_of(t));
+    }
+    faces_[g].trees = std::make_unique<Trees>(
+        Trees{NearestTriangle(std::move(points), std::move(triangles)), BoxTree<Vec3>(boxes)});
+    return *faces_[g].trees;
+  }
+
+  bool is_near(const Vec3& x, int g) {
+    return trees_of(g).nearest.find(x, 3 * deflection_ + tolerance_).triangle >= 0;
+  }
+
+  /// The triangles tell where the face is, its surface how far, its curves where it ends.
+  bool is_on(const Vec3& x, int g, double tolerance) {
+    if (!(faces_[g].box.distance2(x) <= tolerance * tolerance)) return false;
+    const NearestTriangle::Found found = trees_of(g).nearest.find(x, 2 * deflection_ + tolerance);
+    return found.triangle >= 0 && norm(model_.projector->to_face(g, x) - x) <= tolerance &&
+           is_within(x, faces_[g].triangles[found.triangle], tolerance);
+  }
+
+  /// Whether x, next to a triangle, is not beyond the boundary of its face.
+  bool is_within(const Vec3& x, int t, double tolerance) const {
+    const Vec3 normal = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+      const Vec3 inwards = cross(normal, mesh_.points[b] - mesh_.points[a]);
+      if (dot(x - mesh_.points[a], inwards) > 2 * deflection_ * norm(inwards)) continue;
+      const auto sides = sides_of_edge(sides_, a, b);
+      const auto line = line_on_.find(in_order(a, b));
+      if (line == line_on_.end() || std::ranges::count_if(sides, [&](const HalfEdge& s) {
+                                      return face_of(s.element) == face_of(t);
+                                    }) > 1)
+        continue;
+      const Vec3 beside = x - model_.projector->to_curve(mesh_.line_curve[line->second], x);
+      if (norm(beside) > tolerance && !(dot(beside, inwards) > 0)) return false;
+    }
+    return true;
+  }
+
+  const SurfaceModel& model_;
+  const Mesh& mesh_;
+  double deflection_, tolerance_;
+  std::vector<HalfEdge> sides_;
+  std::vector<Face> faces_;
+  std::map<Pair, int> line_on_;  ///< by its ends
+  std::vector<char> is_open_;    ///< by part
+  std::vector<LooseJoint> joints_;
+};
+
+}  // namespace
+
+std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
+                                     double deflection, double tolerance) {
+  return model.fine.regions.size() < 2 ? std::vector<LooseJoint>{}
+                                       : JointFinder(model, solids, deflection, tolerance).find();
+}
+
+}  // namespace delquad::cad

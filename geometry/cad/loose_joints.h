@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/surface/surface_model.h"
+
+namespace delquad::cad {
+
+/// Two faces that meet at a place and share no nodes there.
+struct LooseJoint {
+  enum class Kind {
+    kFaces,    ///< they lie on each other
+    kEdge,     ///< an edge of the first lies on the second
+    kCorner,   ///< an end of an edge of the first does
+    kCrossing  ///< one passes through the other
+  };
+  Kind kind;
+  std::array<int, 2> faces;  ///< indices of regions
+  Vec3 at;                   ///< a common place
+};
+
+/// The joints of faces that no solid has both, by their faces. Of two faces one is found, and of parts (faces
+/// that hang together) none where they have another. A closed part has none with itself. `solids`: faces of
+/// each. Faces within `tolerance` (a length) touch. `deflection`: how far triangles may be off; faces that
+/// lie on each other in less than a triangle, cross by less than that, or touch as a ball does a table may
+/// be missed.
+std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
+                                     double deflection, double tolerance);
+
+}  // namespace delquad::cad
