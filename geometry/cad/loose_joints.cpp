@@ -1,6 +1,7 @@
 #include "geometry/cad/loose_joints.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -29,8 +30,12 @@ constexpr double kPartOfChord = 0.01;
 /// at 15 degrees; steps that are no shorter than this part of the one before lead nowhere.
 constexpr int kMostMeetingSteps = 200;
 constexpr double kStepsShrink = 0.97;
-/// Faces that share a curve or a node meet in many places near it: so many tolerances around.
-constexpr double kAroundShared = 10;
+/// Of two ascending lists.
+std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> both;
+  std::ranges::set_intersection(a, b, std::back_inserter(both));
+  return both;
+}
 
 /// Where the segment from p to q meets the triangle, its outline included.
 std::optional<Vec3> meeting(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -67,7 +72,7 @@ class JointFinder {
     using Kind = LooseJoint::Kind;
     const std::vector<Pair> pairs = near_pairs();
     for (const auto& [f, g] : pairs)
-      if (shared_lines(f, g).empty() && !add(Kind::kFaces, f, g, common_area(f, g)))
+      if (common(faces_[f].lines, faces_[g].lines).empty() && !add(Kind::kFaces, f, g, common_area(f, g)))
         add(Kind::kFaces, f, g, common_area(g, f));
     for (const auto& [f, g] : pairs)
       if (!has_joint(f, g) && !add_line_joint(f, g)) add_line_joint(g, f);
@@ -214,9 +219,21 @@ class JointFinder {
     return add(LooseJoint::Kind::kEdge, f, g, middles) || add(LooseJoint::Kind::kCorner, f, g, ends);
   }
 
-  /// A place where a side of a triangle of f goes through g.
+  /// A place where a side of a triangle of f goes through g, and not next to what both share: triangles of
+  /// neighbours may cross there.
   Places crossing(int f, int g) {
     constexpr std::array<Pair, 3> kSides{{{0, 1}, {1, 2}, {2, 0}}};
+    const std::vector<int> nodes = common(faces_[f].nodes, faces_[g].nodes),
+                           lines = common(faces_[f].lines, faces_[g].lines);
+    const auto is_apart = [&](const Vec3& x) {
+      return std::ranges::none_of(nodes,
+                                  [&](int v) { return norm(mesh_.points[v] - x) <= 2 * deflection_; }) &&
+             std::ranges::none_of(lines, [&](int l) {
+               const Vec3 &a = mesh_.points[mesh_.lines[l][0]], &b = mesh_.points[mesh_.lines[l][1]];
+               const auto w = nearest_weights(a, b, b, x);
+               return norm(w[0] * a + (w[1] + w[2]) * b - x) <= 2 * deflection_;
+             });
+    };
     for (const int t : faces_[f].triangles)
       for (const auto& [i, k] : kSides) {
         const Vec3 &p = corner(t, i), &q = corner(t, k);
@@ -228,15 +245,16 @@ class JointFinder {
             [&](int n) {
               const int s = faces_[g].triangles[n];
               if (!found.empty() || !box_of(s).overlaps(box)) return;
-              if (const auto x = meeting(p, q, corner(s, 0), corner(s, 1), corner(s, 2)))
-                if (const auto y = on_both(*x, f, g)) found.push_back(*y);
+              const auto x = meeting(p, q, corner(s, 0), corner(s, 1), corner(s, 2));
+              if (!x || !is_apart(*x)) return;
+              if (const auto y = on_both(*x, f, g)) found.push_back(*y);
             });
         if (!found.empty()) return found;
       }
     return {};
   }
 
-  /// The place of both faces next to one of their triangles' places, and not next to what both have.
+  /// The place of both faces next to one of their triangles' places.
   std::optional<Vec3> on_both(Vec3 x, int f, int g) {
     double before = 2 * deflection_ + tolerance_;
     for (int step = 0; step < kMostMeetingSteps; ++step) {
@@ -247,24 +265,7 @@ class JointFinder {
       if (!(apart < kStepsShrink * before)) return std::nullopt;
       before = apart;
     }
-    if (!is_on(x, f, tolerance_) || !is_on(x, g, tolerance_)) return std::nullopt;
-    const double around = kAroundShared * tolerance_;
-    for (const int l : shared_lines(f, g))
-      if (norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x) <= around) return std::nullopt;
-    std::vector<int> nodes;
-    std::ranges::set_intersection(faces_[f].nodes, faces_[g].nodes, std::back_inserter(nodes));
-    if (std::ranges::any_of(nodes, [&](int v) { return norm(mesh_.points[v] - x) <= around; }))
-      return std::nullopt;
-    return x;
-  }
-
-  /// One of each curve.
-  std::vector<int> shared_lines(int f, int g) const {
-    std::vector<int> shared;
-    std::ranges::set_intersection(faces_[f].lines, faces_[g].lines, std::back_inserter(shared));
-    const auto [first, last] = std::ranges::unique(shared, {}, [&](int l) { return mesh_.line_curve[l]; });
-    shared.erase(first, last);
-    return shared;
+    return is_on(x, f, tolerance_) && is_on(x, g, tolerance_) ? std::optional(x) : std::nullopt;
   }
 
   /// The nearest triangle on points of its own: as many as it has corners.
@@ -293,26 +294,42 @@ class JointFinder {
     if (!(faces_[g].box.distance2(x) <= tolerance * tolerance)) return false;
     const NearestTriangle::Found found = trees_of(g).nearest.find(x, 2 * deflection_ + tolerance);
     return found.triangle >= 0 && norm(model_.projector->to_face(g, x) - x) <= tolerance &&
-           is_within(x, faces_[g].triangles[found.triangle], tolerance);
+           is_within(x, faces_[g].triangles[found.triangle], found.weights, tolerance);
   }
 
-  /// Whether x, next to a triangle, is not beyond the boundary of its face.
-  bool is_within(const Vec3& x, int t, double tolerance) const {
+  /// Whether x, next to a place of a triangle, is not beyond the boundary of its face.
+  bool is_within(const Vec3& x, int t, const std::array<double, 3>& weights, double tolerance) const {
+    const auto& v = mesh_.triangles[t];
+    if (const auto whole = std::ranges::find(weights, 1.0); whole != weights.end())
+      return is_at_corner(x, face_of(t), v[whole - weights.begin()], tolerance);
     const Vec3 normal = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+      const int a = v[k], b = v[(k + 1) % 3];
       const Vec3 inwards = cross(normal, mesh_.points[b] - mesh_.points[a]);
       if (dot(x - mesh_.points[a], inwards) > 2 * deflection_ * norm(inwards)) continue;
-      const auto sides = sides_of_edge(sides_, a, b);
       const auto line = line_on_.find(in_order(a, b));
-      if (line == line_on_.end() || std::ranges::count_if(sides, [&](const HalfEdge& s) {
-                                      return face_of(s.element) == face_of(t);
-                                    }) > 1)
-        continue;
+      if (line == line_on_.end() || !ends_at(face_of(t), line->second)) continue;
       const Vec3 beside = x - model_.projector->to_curve(mesh_.line_curve[line->second], x);
       if (norm(beside) > tolerance && !(dot(beside, inwards) > 0)) return false;
     }
     return true;
+  }
+
+  /// The same where a node is the nearest place of the face: beyond it, if it is one of the boundary.
+  bool is_at_corner(const Vec3& x, int f, int node, double tolerance) const {
+    bool is_inside = true;
+    for (const int l : faces_[f].lines) {
+      if (std::ranges::count(mesh_.lines[l], node) == 0 || !ends_at(f, l)) continue;
+      if (norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x) <= tolerance) return true;
+      is_inside = false;
+    }
+    return is_inside;
+  }
+
+  /// Whether the face lies on one side of the line.
+  bool ends_at(int f, int line) const {
+    return std::ranges::count_if(sides_of_edge(sides_, mesh_.lines[line][0], mesh_.lines[line][1]),
+                                 [&](const HalfEdge& s) { return face_of(s.element) == f; }) == 1;
   }
 
   const SurfaceModel& model_;
