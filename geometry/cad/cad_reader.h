@@ -33,20 +33,21 @@ struct CadOptions {
   bool keep_going = false;
 };
 
-/// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are
-/// in the unit that is asked for in STEP and IGES, whatever the file's unit, and as given in BREP, which has
-/// none, so that to ask for one is an InputError. Faces of different bodies that lie on each other are told
-/// in a warning; with options.glue bodies share them. Each face and each edge stands once, as region and
-/// curve; their tags are their numbers in the file's order, so that gaps stay where degenerate edges and
-/// seams were: these are no curves, the triangulation is connected across them. A region's names are those of
-/// its face, solids and products in STEP and IGES and its colour ("colour #rrggbb"). Normals of a solid point
-/// outwards. Invalid shapes are healed and coincident free edges sewn, and a warning says so; warnings also
-/// tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the surface
-/// is regular. The kernel works in a worker process (see find_worker()), so that a damaged file cannot bring
-/// the program down; what it prints is lost. Throws Cancelled, and InputError naming the file for files that
+/// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are in
+/// the unit that is asked for in STEP and IGES, whatever the file's unit, and as given in BREP, which has
+/// none, so that to ask for one is an InputError. Where faces that no solid has both touch or cross (see
+/// loose_joints.h) is told in a warning; with options.glue they share curves and nodes there. Each face and
+/// each edge stands once, as region and curve; their tags are their numbers in the file's order, so that gaps
+/// stay where degenerate edges and seams were: these are no curves, the triangulation is connected across
+/// them. A region's names are those of its face, solids and products in STEP and IGES and its colour ("colour
+/// #rrggbb"). Normals of a solid point outwards. Edges that stand in faces and join others are embedded.
+/// Invalid shapes are healed and coincident free edges sewn, and a warning says so; warnings also tell free
+/// and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the surface is
+/// regular. The kernel works in a worker process (see find_worker()), so that a damaged file cannot bring the
+/// program down; what it prints is lost. Throws Cancelled, and InputError naming the file for files that
 /// cannot be read or hold no face, and naming the faces that are unbounded, have no area, cross their own
 /// boundary or cannot be triangulated, unless options.keep_going leaves them out and others remain (an
-/// unbounded one is refused in any case).
+/// unbounded one is refused in any case), or the places that cannot be glued.
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 

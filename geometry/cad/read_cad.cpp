@@ -101,7 +101,8 @@ void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& soli
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
   if (glued)
-    throw InputError(fmt::format("cannot be glued at {}: {}", counted(std::ssize(joints), "place"), list));
+    throw InputError(fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap",
+                                 counted(std::ssize(joints), "place"), list));
   model.warnings.push_back(
       fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {}",
                   counted(std::ssize(joints), "place"), list));

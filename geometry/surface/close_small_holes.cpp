@@ -250,7 +250,7 @@ SurfaceModel close_small_holes(SurfaceModel model, double length) {
   const Mesh former = model.fine;
   if (!SmallHoles(model, length).close()) return model;
   TidyGroups kept = tidy_model(model);
-  model.projector = make_compound_projector(model.projector, former, kept.faces, std::move(kept.curves));
+  regroup(model, former, kept.faces, std::move(kept.curves));
   return model;
 }
 

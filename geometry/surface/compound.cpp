@@ -102,13 +102,18 @@ std::vector<Entity> merged(const std::vector<Entity>& entities, const Groups& me
   return all;
 }
 
-/// Curves with the same names are of one kind.
+/// Lines of curves with the same names, of as many triangles, are of one kind.
 std::vector<int> kinds_of_lines(const Mesh& mesh) {
-  std::map<std::vector<std::string>, int> kind_of;
+  std::map<std::pair<std::vector<std::string>, std::size_t>, int> kind_of;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<int> kinds;
-  for (const int curve : mesh.line_curve) {
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto [a, b] = mesh.lines[l];
     kinds.push_back(
-        kind_of.emplace(mesh.curves[curve].names, static_cast<int>(kind_of.size())).first->second);
+        kind_of
+            .try_emplace({mesh.curves[mesh.line_curve[l]].names, sides_of_edge(sides, a, b).size()},
+                         static_cast<int>(kind_of.size()))
+            .first->second);
   }
   return kinds;
 }
@@ -220,7 +225,7 @@ SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const Compo
   const Mesh former = model.fine;
   const Groups faces = join_faces(model.fine, group_of);
   Groups curves = rechain(model, corner);
-  model.projector = make_compound_projector(model.projector, former, faces, std::move(curves));
+  regroup(model, former, faces, std::move(curves));
   return model;
 }
 
@@ -298,9 +303,11 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
   const std::vector<Entity> old = mesh.curves;
   Groups curves = joins ? rechain(model, corner) : each_alone(old.size());
   report_short_curves(old, lengths, length, curves, rest, model.warnings);
-  if (joins)
-    model.projector = make_compound_projector(model.projector, model.fine,
-                                              each_alone(model.fine.regions.size()), std::move(curves));
+  if (joins) {
+    Mesh former = model.fine;
+    former.curves = old;
+    regroup(model, former, each_alone(former.regions.size()), std::move(curves));
+  }
   return model;
 }
 

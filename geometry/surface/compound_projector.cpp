@@ -70,11 +70,20 @@ EntityGroups each_alone(std::size_t n) {
   return groups;
 }
 
-std::shared_ptr<const SurfaceProjector> make_compound_projector(std::shared_ptr<const SurfaceProjector> base,
-                                                                const Mesh& fine, const EntityGroups& faces,
-                                                                EntityGroups curves) {
-  if (!base) return nullptr;
-  return std::make_shared<CompoundProjector>(std::move(base), fine, faces, std::move(curves));
+void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves) {
+  const auto numbers = [](const EntityGroups& groups, std::size_t n) {
+    std::vector<int> number(n, -1);
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      for (const int member : groups[i]) number[member] = static_cast<int>(i);
+    return number;
+  };
+  const std::vector<int> face_of = numbers(faces, former.regions.size()),
+                         curve_of = numbers(curves, former.curves.size());
+  for (EmbeddedCurve& e : model.embedded) e.face = face_of[e.face], e.curve = curve_of[e.curve];
+  std::erase_if(model.embedded, [](const EmbeddedCurve& e) { return e.face < 0 || e.curve < 0; });
+  if (model.projector)
+    model.projector =
+        std::make_shared<CompoundProjector>(std::move(model.projector), former, faces, std::move(curves));
 }
 
 }  // namespace delquad

@@ -265,7 +265,7 @@ SurfaceModel contract_short_curves(SurfaceModel model, double length) {
               : name + " stays: it is closed, or the surface would fold or tear without it"});
   }
   TidyGroups kept = tidy_model(model);
-  model.projector = make_compound_projector(model.projector, former, kept.faces, std::move(kept.curves));
+  regroup(model, former, kept.faces, std::move(kept.curves));
   return model;
 }
 

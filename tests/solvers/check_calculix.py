@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM. Exit code 77: no ccx.
+"""CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM [WRITER]. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip, shell, periodic or materials.
+PROBLEM: patch, shell_patch, strip, shell, periodic, materials or joints, whose models WRITER writes.
 
 CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
 checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
@@ -346,14 +346,77 @@ def materials(delquad, folder):
     return good
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials)}
+def pressed(nodes, quads):
+    """Forces at the nodes under unit pressure, and the area. The normal of a bilinear quad is bilinear, too: two points a
+    direction integrate exactly."""
+    forces, area = {}, []
+    for quad in quads:
+        x = [nodes[n] for n in quad]
+        for u in (-3 ** -0.5, 3 ** -0.5):
+            for v in (-3 ** -0.5, 3 ** -0.5):
+                signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+                along = [math.fsum(s * (1 + t * v) / 4 * p[k] for (s, t), p in zip(signs, x)) for k in range(3)]
+                across = [math.fsum(t * (1 + s * u) / 4 * p[k] for (s, t), p in zip(signs, x)) for k in range(3)]
+                normal = cross(along, across)
+                area.append(math.hypot(*normal))
+                for (s, t), n in zip(signs, quad):
+                    share = (1 + s * u) * (1 + t * v) / 4
+                    forces[n] = [f + share * c for f, c in zip(forces.get(n, (0, 0, 0)), normal)]
+    return forces, math.fsum(area)
+
+
+def outline_of_one_region(inp, elements):
+    """Nodes on free edges of the region that has most of these."""
+    count = {}
+    for quad in elements:
+        for i in range(4):
+            edge = frozenset((quad[i], quad[i - 1]))
+            count[edge] = count.get(edge, 0) + 1
+    free = {edge for edge, n in count.items() if n == 1}
+    regions = [set(members(inp, "NSET", name)) for name in sets_of(inp)["NSET"] if re.fullmatch(r"region_\d+", name)]
+    nodes = max(regions, key=lambda region: sum(edge <= region for edge in free))
+    return sorted({n for edge in free if edge <= nodes for n in edge})
+
+
+def joints(delquad, folder, writer):
+    """Glued shells under pressure, held at the outline of one face: the sum of the reactions is pressure times area. The pressure is
+    put on as forces at nodes, integrated over the shells' middle surfaces: CalculiX makes bricks of shells, which overlap where
+    shells meet at an angle, and its own pressure acts on the outsides of these, whose area is another by as much as a percent."""
+    models = subprocess.run([writer, folder], check=True, capture_output=True, text=True).stdout.split("\n")
+    good, worst = True, [0.0, 0.0]
+    for name, exact, is_flat in (line.split() for line in models if line):
+        for kind in ("step", "iges", "brep"):
+            inp = mesh(delquad, folder, f"{name}.{kind}", "", "glued.inp", "--glue", "--size", "0.8", "--pipeline", "DB")
+            nodes, quads = inp_nodes(inp), elements_of(inp)["S4"]
+            forces, area = pressed(nodes, quads)
+            held = outline_of_one_region(inp, quads)
+            regions = [of for of in sets_of(inp)["ELSET"] if re.fullmatch(r"region_\d+", of)]
+            with open(os.path.join(folder, "sets.inp"), "w", encoding="utf-8") as file:
+                file.write("\n".join(["*INCLUDE, INPUT=glued.inp", "*ELSET, ELSET=ALL_OF_IT", *regions, "*NSET, NSET=HELD",
+                                      *map(str, held), ""]))
+            rows, = solve(folder, os.path.join(folder, "sets.inp"), "SHELL SECTION, ELSET=ALL_OF_IT",
+                          ["*BOUNDARY", "HELD, 1, 3", "*CLOAD", *(f"{n}, {k + 1}, {f[k]:.13e}" for n, f in forces.items() for k in range(3)),
+                           "*NODE PRINT, NSET=HELD", "RF"], 0.1)
+            # Forces on held nodes go into what holds them.
+            reaction, load = total([row[1:] for row in rows]), total(forces.values())
+            off = math.dist(reaction, [-f for f in load]) / area
+            too_large = abs(area / float(exact) - 1) if is_flat == "1" else 0
+            if off > PRINTED or too_large > PRINTED:
+                print(f"{name}.{kind}: reaction {reaction}, load {load}, area {area}, exact {exact}")
+                good = False
+            worst = [max(worst[0], off), max(worst[1], too_large)]
+    print(f"reactions {worst[0]:.1e} of pressure times area off, plane areas {worst[1]:.1e}")
+    return good and worst[0] > 0
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, joints)}
 
 
 def main():
     if not shutil.which("ccx"):
         absent("CalculiX is not installed (calculix-ccx)")
     with tempfile.TemporaryDirectory() as folder:
-        return 0 if PROBLEMS[sys.argv[2]](os.path.abspath(sys.argv[1]), folder) else 1
+        return 0 if PROBLEMS[sys.argv[2]](os.path.abspath(sys.argv[1]), folder, *sys.argv[3:]) else 1
 
 
 if __name__ == "__main__":

@@ -2,17 +2,19 @@
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <TopoDS_Compound.hxx>
+#include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Cylinder.hxx>
 #include <numbers>
+#include <utility>
 
 #include "delquad/mesh.h"
 
@@ -59,57 +61,71 @@ double area_of(const TopoDS_Face& face) {
 std::vector<ShellJoint> shell_joints() {
   const gp_Pnt o(0, 0, 0);
   const gp_Dir x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  using Pairs = std::vector<std::array<int, 2>>;
-  const Pairs both{{1, 2}};
   std::vector<ShellJoint> all;
-  const auto add = [&](const char* name, std::vector<TopoDS_Face> faces, Pairs joined, int n_glued,
-                       bool is_flat = true) {
-    double area = 0;
+  const auto add = [&](const char* name, std::vector<TopoDS_Face> faces, int n_glued, bool is_flat = true,
+                       double common = 0) {
+    double area = -common;
     for (const TopoDS_Face& face : faces) area += area_of(face);
-    all.push_back({name, std::move(faces), std::move(joined), area, n_glued, is_flat});
+    all.push_back({name, std::move(faces), area, n_glued, is_flat});
   };
-  add("web_across", {plate(), web({4, 0, 0}, {4, 6, 0})}, both, 3);
-  add("web_inside", {plate(), web({4, 1, 0}, {4, 5, 0})}, both, 2);
-  add("web_from_the_side", {plate(), web({4, 0, 0}, {4, 4, 0})}, both, 2);
-  add("web_over_the_side", {plate(), web({4, -2, 0}, {4, 3, 0})}, both, 2);
-  add("web_over_both_sides", {plate(), web({4, -2, 0}, {4, 8, 0})}, both, 3);
-  add("web_aslant", {plate(), parallelogram({2, 1, 0}, {5, 3, 0}, {-1, 2, 3})}, both, 2);
-  add("webs_crossing", {plate(), web({2, 3, 0}, {8, 3, 0}), web({5, 1, 0}, {5, 5, 0})},
-      {{1, 2}, {1, 3}, {2, 3}}, 5);
+  add("web_across", {plate(), web({4, 0, 0}, {4, 6, 0})}, 3);
+  add("web_inside", {plate(), web({4, 1, 0}, {4, 5, 0})}, 2);
+  add("web_from_the_side", {plate(), web({4, 0, 0}, {4, 4, 0})}, 2);
+  add("web_over_the_side", {plate(), web({4, -2, 0}, {4, 3, 0})}, 2);
+  add("web_over_both_sides", {plate(), web({4, -2, 0}, {4, 8, 0})}, 3);
+  add("web_aslant", {plate(), parallelogram({2, 1, 0}, {5, 3, 0}, {-1, 2, 3})}, 2);
+  add("webs_crossing", {plate(), web({2, 3, 0}, {8, 3, 0}), web({5, 1, 0}, {5, 5, 0})}, 5);
   add("web_below_two_plates",
       {parallelogram({0, 0, 0}, {4, 0, 0}, {0, 6, 0}), parallelogram({4, 0, 0}, {4, 0, 0}, {0, 6, 0}),
        web({4, 1, -3}, {4, 5, -3})},
-      {{1, 3}}, 3);
+      3);
   add("web_below_ends_of_two_plates",
       {parallelogram({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), parallelogram({4, 2, 0}, {4, 0, 0}, {0, 4, 0}),
        web({4, 0, -3}, {4, 6, -3})},
-      {{1, 2}, {1, 3}, {2, 3}}, 3);
-  add("arched_web", {plate(), cylinder(gp_Ax3(gp_Pnt(5, 1, 0), z, x), 3, 0.3, 2.2, 2)}, both, 2, false);
+      3);
+  add("arched_web", {plate(), cylinder(gp_Ax3(gp_Pnt(5, 1, 0), z, x), 3, 0.3, 2.2, 2)}, 2, false);
   add("fin_on_a_pipe",
-      {cylinder(gp_Ax3(o, z, x), 3, -2, 2, 8), parallelogram({3, 0, 2}, {2, 0, 0}, {0, 0, 4})}, both, 2, false);
-  add("wall_in_a_pipe", {cylinder(gp_Ax3(o, z, x), 3, 0, 2 * pi, 8), disc(gp_Ax2(gp_Pnt(0, 0, 4), z), 3)},
-      both, 3, false);
-  add("plates_crossing", {plate(), parallelogram({4, 0, -3}, {0, 6, 0}, {0, 0, 6})}, both, 4);
-  add("narrow_plate_crossing", {plate(), parallelogram({4, 2, -3}, {0, 2, 0}, {0, 0, 6})}, both, 3);
-  add("plates_crossing_in_part", {plate(), parallelogram({4, 3, -3}, {0, 6, 0}, {0, 0, 6})}, both, 2);
-  add("plates_crossing_aslant", {plate(), parallelogram({3, 1, -3}, {1, 4, 0}, {2, 0, 6})}, both, 3);
+      {cylinder(gp_Ax3(o, z, x), 3, -2, 2, 8), parallelogram({3, 0, 2}, {2, 0, 0}, {0, 0, 4})}, 2, false);
+  add("wall_in_a_pipe", {cylinder(gp_Ax3(o, z, x), 3, 0, 2 * pi, 8), disc(gp_Ax2(gp_Pnt(0, 0, 4), z), 3)}, 3,
+      false);
+  add("plates_crossing", {plate(), parallelogram({4, 0, -3}, {0, 6, 0}, {0, 0, 6})}, 4);
+  add("narrow_plate_crossing", {plate(), parallelogram({4, 2, -3}, {0, 2, 0}, {0, 0, 6})}, 3);
+  add("plates_crossing_in_part", {plate(), parallelogram({4, 3, -3}, {0, 6, 0}, {0, 0, 6})}, 2);
+  add("plates_crossing_aslant", {plate(), parallelogram({3, 1, -3}, {1, 4, 0}, {2, 0, 6})}, 3);
   add("three_plates_crossing",
       {parallelogram({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), parallelogram({-4, 0, -4}, {8, 0, 0}, {0, 0, 8}),
        parallelogram({0, -4, -4}, {0, 8, 0}, {0, 0, 8})},
-      {{1, 2}, {1, 3}, {2, 3}}, 12);
-  add("pipe_through_a_plate", {plate(), cylinder(gp_Ax3(gp_Pnt(5, 3, -2), z, x), 2, 0, 2 * pi, 5)}, both, 4,
-      false);
-  add("corner_of_unequal_plates", {plate(), web({0, 1, 0}, {0, 5, 0})}, both, 2);
-  add("corner_of_shifted_plates", {plate(), web({0, 3, 0}, {0, 9, 0})}, both, 2);
-  add("gusset", {plate(), web({0, 0, 0}, {0, 6, 0}), polygon({{0, 3, 0}, {3, 3, 0}, {0, 3, 2}})},
-      {{1, 3}, {2, 3}}, 3);
+      12);
+  add("pipe_through_a_plate", {plate(), cylinder(gp_Ax3(gp_Pnt(5, 3, -2), z, x), 2, 0, 2 * pi, 5)}, 4, false);
+  add("corner_of_unequal_plates", {plate(), web({0, 1, 0}, {0, 5, 0})}, 2);
+  add("corner_of_shifted_plates", {plate(), web({0, 3, 0}, {0, 9, 0})}, 2);
+  add("gusset", {plate(), web({0, 0, 0}, {0, 6, 0}), polygon({{0, 3, 0}, {3, 3, 0}, {0, 3, 2}})}, 3);
   add("hat_on_a_plate",
       {plate(), web({3, 0, 0}, {3, 6, 0}), web({7, 0, 0}, {7, 6, 0}),
        parallelogram({3, 0, 3}, {4, 0, 0}, {0, 6, 0})},
-      {{1, 2}, {1, 3}}, 6);
-  add("doubler", {plate(), parallelogram({3, 2, 0}, {3, 0, 0}, {0, 2, 0})}, both, 2);
-  add("tip_on_a_plate", {plate(), polygon({{4, 3, 0}, {6, 3, 3}, {2, 3, 3}})}, both, 2);
+      6);
+  add("doubler", {plate(), parallelogram({3, 2, 0}, {3, 0, 0}, {0, 2, 0})}, 2, true, 6);
   return all;
+}
+
+std::vector<TopoDS_Face> star_of_faces(int n) {
+  std::vector<TopoDS_Face> faces;
+  for (int i = 0; i < n; ++i)
+    faces.push_back(
+        parallelogram({0, 0, 0}, {0, 6, 0}, {4 * std::cos(2 * pi * i / n), 0, 4 * std::sin(2 * pi * i / n)}));
+  return faces;
+}
+
+std::vector<TopoDS_Face> tip_on_a_plate() { return {plate(), polygon({{4, 3, 0}, {6, 3, 3}, {2, 3, 3}})}; }
+
+std::vector<std::vector<TopoDS_Face>> faces_apart() {
+  constexpr double kGap = 1e-3;  // far below the deflection, far above what touches
+  const gp_Ax3 axis(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+  return {{cylinder(axis, 3, 0, 2 * pi, 8), cylinder(axis, 3 - kGap, 0, 2 * pi, 8)},
+          {cylinder(axis, 3, 0, 2 * pi, 8), disc(gp_Ax2(gp_Pnt(0, 0, 4), axis.Direction()), 3 - kGap)},
+          {plate(), parallelogram({10 + kGap, 0, 0}, {4, 0, 0}, {0, 6, 0})},
+          {plate(), web({10 + kGap, 0, 0}, {10 + kGap, 6, 0})},
+          {plate(), parallelogram({2, 2, kGap}, {4, 0, 0}, {0, 2, 0})}};
 }
 
 TopoDS_Shape compound_of(const std::vector<TopoDS_Face>& faces) {
