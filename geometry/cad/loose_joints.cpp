@@ -141,7 +141,7 @@ class JointFinder {
     });
   }
 
-  /// Faces whose boxes meet, that no solid has both, and that are not of one closed part.
+  /// Faces whose boxes meet, that no solid has both, and that are not of one closed shell.
   std::vector<Pair> near_pairs() const {
     std::vector<int> order;
     for (int f = 0; f < std::ssize(faces_); ++f)
@@ -153,7 +153,9 @@ class JointFinder {
       const Face& first = faces_[order[i]];
       for (std::size_t j = i + 1; j < order.size() && faces_[order[j]].box.low.x <= first.box.high.x; ++j) {
         const Face& second = faces_[order[j]];
-        if (first.part == second.part && is_open_[first.part] == 0) continue;
+        if (first.part == second.part && is_open_[first.part] == 0 &&
+            (first.solids.empty() || second.solids.empty()))
+          continue;
         if (!first.box.overlaps(second.box)) continue;
         if (std::ranges::none_of(first.solids,
                                  [&](int s) { return std::ranges::binary_search(second.solids, s); }))

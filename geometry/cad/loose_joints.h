@@ -21,7 +21,7 @@ struct LooseJoint {
 };
 
 /// The joints of faces that no solid has both, by their faces. Of two faces one is found, and of parts (faces
-/// that hang together) none where they have another. A closed part has none with itself. `solids`: faces of
+/// that hang together) none where they have another. A closed shell has none with itself. `solids`: faces of
 /// each. Faces within `tolerance` (a length) touch. `deflection`: how far triangles may be off; faces that
 /// lie on each other in less than a triangle, cross by less than that, or touch as a ball does a table may
 /// be missed.
