@@ -197,6 +197,9 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
     }
     result.region.push_back(region_of[loop]);
   }
+  if (result.regions.empty())
+    throw InputError(
+        fmt::format("{}{}the loops enclose nothing", names.source, names.source.empty() ? "" : ": "));
   for (std::size_t l = 0; l < loops.size(); ++l) {
     if (loops[l].is_hole && filled[l]) {
       const Vec3& at = lines.points[lines.lines[std::ranges::find(lines.line_curve, loops[l].curves.front()) -

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/box.h"
@@ -105,18 +106,17 @@ class Chainer {
       ends_.push_back(model.curves[c].shape->point(0));
       ends_.push_back(model.curves[c].shape->point(1));
     }
-    partner_.assign(ends_.size(), -1);
     grid_.emplace(low_, tolerance_);
   }
 
   ModelChain run() {
     chain_.loops = merge_loops();
-    for (const ModelLoop& loop : chain_.loops) close(loop);
     chain_.curve_ends.resize(model_.curves.size());
     for (std::size_t e = 0; e < ends_.size(); ++e) chain_.curve_ends[e / 2][e % 2] = node_at(ends_[e]);
+    for (const ModelLoop& loop : chain_.loops) check_closed(loop);
     add_corners();
     for (const ModelPoint& point : model_.points) chain_.point_nodes.push_back(node_at(point.at));
-    if (model_.loops.size() > 1 || !model_.points.empty() || !embedded_.empty()) join_spans();
+    join_spans();
     return std::move(chain_);
   }
 
@@ -252,54 +252,40 @@ class Chainer {
                                    curve_label(model_, *twice)));
   }
 
-  // Pairs the ends of the loop's curves and walks round once.
-  void close(const ModelLoop& loop) {
-    std::vector<End> ends;
-    for (int c : loop.curves) ends.insert(ends.end(), {2 * c, 2 * c + 1});
+  /// At each node an even number of the loop's curves ends, and all of them hang together: a loop may pass a
+  /// node several times.
+  void check_closed(const ModelLoop& loop) const {
     const std::string where = prefix(loop.where.empty() ? model_.source : loop.where);
-    pair_up(ends, where);
-    std::size_t walked = 0;
-    End e = ends[0];
-    do {
-      ++walked;
-      e = partner_[static_cast<std::size_t>(e ^ 1)];
-    } while (e != ends[0]);
-    if (walked != loop.curves.size())
-      throw InputError(
-          fmt::format("{}the loop's curves close to more than one chain: {} of {} curves lie on that of {}",
-                      where, walked, loop.curves.size(), label(ends[0])));
-  }
-
-  void pair_up(const std::vector<End>& ends, const std::string& where) {
-    using Cell = std::pair<long long, long long>;
-    const auto cell = [&](End e) {
-      const Vec2 d = at(e) - low_;
-      return Cell{static_cast<long long>(d.x / tolerance_), static_cast<long long>(d.y / tolerance_)};
-    };
-    std::map<Cell, std::vector<End>> grid;
-    for (End e : ends) grid[cell(e)].push_back(e);
-    std::vector<End> loose;
-    for (End e : ends) {
-      std::vector<End> near;
-      const auto [cx, cy] = cell(e);
-      for (long long x = cx - 1; x <= cx + 1; ++x)
-        for (long long y = cy - 1; y <= cy + 1; ++y)
-          if (const auto found = grid.find({x, y}); found != grid.end())
-            for (End other : found->second)
-              if (other != e && norm(at(other) - at(e)) <= tolerance_) near.push_back(other);
-      if (near.size() > 1)
+    std::vector<End> ends, loose;
+    for (const int c : loop.curves) ends.insert(ends.end(), {2 * c, 2 * c + 1});
+    const auto node = [&](End e) { return chain_.curve_ends[e / 2][e % 2]; };
+    std::map<int, std::vector<End>> meeting;
+    for (const End e : ends) meeting[node(e)].push_back(e);
+    for (const End e : ends) {
+      const std::vector<End>& here = meeting[node(e)];
+      if (here.size() == 1) loose.push_back(e);
+      if (here.size() > 1 && here.size() % 2 == 1)
         throw InputError(fmt::format(
-            "{}{} ends of curves meet at ({}, {}): of {}, {} and {}; a loop joins them two by two", where,
-            near.size() + 1, at(e).x, at(e).y, label(e), label(near[0]), label(near[1])));
-      if (near.empty())
-        loose.push_back(e);
-      else
-        partner_[static_cast<std::size_t>(e)] = near[0];
+            "{}{} ends of curves meet at ({}, {}): of {}, {} and {}; a loop leaves a point as often as it "
+            "arrives",
+            where, here.size(), at(e).x, at(e).y, label(here[0]), label(here[1]), label(here[2])));
     }
     if (!loose.empty()) report_open(loose, where);
+    std::set<int> walked{loop.curves[0]};
+    for (std::vector<int> open{loop.curves[0]}; !open.empty();) {
+      const int c = open.back();
+      open.pop_back();
+      for (const int v : chain_.curve_ends[c])
+        for (const End e : meeting[v])
+          if (walked.insert(e / 2).second) open.push_back(e / 2);
+    }
+    if (walked.size() != loop.curves.size())
+      throw InputError(
+          fmt::format("{}the loop's curves close to more than one chain: {} of {} curves lie on that of {}",
+                      where, walked.size(), loop.curves.size(), label(ends[0])));
   }
 
-  // All other ends are in pairs, so there are at least two.
+  // All other nodes have an even number of ends, so there are at least two.
   [[noreturn]] void report_open(const std::vector<End>& loose, const std::string& where) const {
     const End e = loose[0];
     const End nearest = *std::min_element(loose.begin() + 1, loose.end(), [&](End a, End b) {
@@ -312,7 +298,6 @@ class Chainer {
 
   const PlanarModel& model_;
   std::vector<Vec2> ends_;
-  std::vector<End> partner_;
   std::vector<int> embedded_;
   Vec2 low_;
   double tolerance_ = 0;

@@ -29,9 +29,9 @@ struct ModelChain {
   std::vector<ModelLoop> loops;
 };
 
-/// Each loop is checked to be one closed chain of curves. Ends, corners and points nearer to each other than
-/// kJoinTolerance are one node. Throws InputError for open loops, curves without length, a model without
-/// loops.
+/// Each loop is checked to be closed and in one piece; it may pass a node several times. Ends, corners and
+/// points nearer to each other than kJoinTolerance are one node. Throws InputError for open loops, curves
+/// without length, a model without loops.
 ModelChain chain_model(const PlanarModel& model);
 
 /// The curve as messages call it: its name or number, and where it was read.
