@@ -152,7 +152,7 @@ std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char>
 void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFailure>& failures) {
   const std::vector<FaceFailure> before = failures;
   for (const FaceFailure& failure : before)
-    for (int mask = 1; mask < 1 << mirrored.planes.count(); ++mask) {
+    for (int mask = 1; failure.face >= 0 && mask < 1 << mirrored.planes.count(); ++mask) {
       const int face = image_face(mirrored, mask, failure.face);
       if (std::ranges::find(failures, face, &FaceFailure::face) != failures.end()) continue;
       failures.push_back({face, fmt::format("face {} is the mirror image of another: {}",

@@ -207,7 +207,8 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
                                   prepared.boundary.regions[pair.master].tag)});
   std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
-  for (const FaceFailure& failure : result.failures) left_out[failure.face] = 1;
+  for (const FaceFailure& failure : result.failures)
+    if (failure.face >= 0) left_out[failure.face] = 1;
   if (std::ranges::none_of(prepared.patches, [&](const PreparedPatch& p) { return !left_out[p.region]; }))
     throw InputError("no face can be meshed: " + result.failures.at(0).reason);
   return left_out;

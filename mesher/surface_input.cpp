@@ -147,8 +147,10 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
                                           : read_cad(std::get<CadModel>(problem.model), options);
   const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
                              problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0;
-  if (!model.left_out.empty() && changes_faces)
-    throw InputError(model.left_out[0].reason + "; faces cannot be joined before all can be used");
+  const auto unusable =
+      std::ranges::find_if(model.left_out, [](const LeftOutFace& f) { return f.face >= 0; });
+  if (unusable != model.left_out.end() && changes_faces)
+    throw InputError(unusable->reason + "; faces cannot be joined before all can be used");
   return make_compounds(problem.surface, std::move(model));
 }
 

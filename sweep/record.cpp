@@ -338,7 +338,8 @@ Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
 Json failures_json(const PreparedProblem& p, const RunResult& result) {
   Json json = Json::array();
   for (const FaceFailure& failure : result.failures)
-    json.push_back({{"face", p.boundary.regions[failure.face].tag}, {"reason", failure.reason}});
+    json.push_back({{"face", failure.face < 0 ? Json() : Json(p.boundary.regions[failure.face].tag)},
+                    {"reason", failure.reason}});
   return json;
 }
 

@@ -156,7 +156,8 @@ void define_result(py::module_& m) {
               failures.emplace_back(failure.face, failure.reason);
             return failures;
           },
-          "(index into regions, reason) of faces that were left out")
+          "(index into regions, reason) of faces that were left out; -1: of parts of a file that cannot be "
+          "read")
       .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.sound(); })
       .def_property_readonly(
           "unsound", [](const Result& r) { return r.rest.soundness.reasons; }, "why it is not sound");

@@ -28,6 +28,7 @@
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
+#include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/cad/glue_shape.h"
 #include "geometry/cad/heal_shape.h"
@@ -169,13 +170,13 @@ void set_kernel_threads() {
 CadShape read(const CadRequest& request) {
   switch (request.source) {
     case CadRequest::Source::kBytes:
-      return read_shape_bytes(request.text, request.options.unit);
+      return read_shape_bytes(request.text, request.options);
     case CadRequest::Source::kShape:
       return from_bytes(request.text);
     case CadRequest::Source::kFile:
       break;
   }
-  return read_shape(request.text, request.options.unit);
+  return read_shape(request.text, request.options);
 }
 
 /// The worker is of use only as long as somebody listens, and must not go on for ever.
@@ -235,7 +236,7 @@ void work_for(int socket, int parent) {
     limit_to(request.seconds);
     answer(request, socket);
   } catch (...) {
-    send_reply(socket, Reply::kMessage, why_not());
+    send_reply(socket, Reply::kMessage, as_utf8(why_not()));
   }
   _exit(1);
 }

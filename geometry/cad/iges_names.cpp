@@ -14,8 +14,11 @@
 #include <XSControl_WorkSession.hxx>
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/cad/text_encoding.h"
 
 namespace delquad::cad {
 
@@ -50,12 +53,18 @@ PartNames iges_names(const IGESControl_Reader& reader) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  std::vector<std::string> names_of;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
+    names_of.push_back(entity.IsNull() ? "" : name_of(*entity));
+  }
+  decode_texts(names_of);
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
     if (entity.IsNull()) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(transfer, entity);
     if (shape.IsNull()) continue;
-    const std::string name = name_of(*entity), colour = colour_of(*entity);
+    const std::string name = names_of[i - 1], colour = colour_of(*entity);
     for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
       if (!name.empty()) names.add(face.Current(), name);
       if (!colour.empty()) names.add(face.Current(), std::string(kColourName) + colour);

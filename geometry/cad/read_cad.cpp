@@ -166,6 +166,8 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
       model.left_out.push_back({f, face_title(f + 1, cad.names.of(faces(f + 1))) + ": " + why_not[f]});
   if (!model.left_out.empty() && (!options.keep_going || welded.mesh.triangles.empty()))
     refuse(cad, faces, why_not);
+  if (welded.mesh.triangles.empty()) throw InputError("its faces have no area: nothing is left to mesh");
+  for (const std::string& part : cad.missing) model.left_out.push_back({-1, part});
 
   model.source = source;
   model.warnings = std::move(cad.warnings);

@@ -64,6 +64,7 @@ std::string to_bytes(const CadShape& cad) {
   put(out, cad.diagonal);
   put(out, texts(cad.warnings));
   put(out, std::vector<std::string>{cad.unit});
+  put(out, cad.missing);
   put(out, cad.why_not);
   put(out, cad.loose);
   // The shape last: its reader looks ahead. The names are in the order of its faces and edges, so they come
@@ -89,6 +90,7 @@ CadShape from_bytes(const std::string& bytes) {
   cad.diagonal = get<double>(in);
   for (std::string& text : get_texts(in)) cad.warnings.emplace_back(std::move(text));
   cad.unit = get_texts(in).at(0);
+  cad.missing = get_texts(in);
   cad.why_not = get_texts(in);
   cad.loose = get_lines(in);
   for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {

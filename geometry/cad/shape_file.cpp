@@ -11,17 +11,25 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <Resource_FormatType.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TCollection_AsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 
 #include "base/length_unit.h"
+#include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/cad/iges_names.h"
+#include "geometry/cad/lost_shapes.h"
 #include "geometry/cad/step_names.h"
+#include "geometry/surface/surface_messages.h"
 
 namespace delquad::cad {
 
@@ -31,7 +39,7 @@ namespace {
 class FirstComplaint : public Message_Printer {
  public:
   /// " (...)", or nothing when there was none.
-  std::string why() const { return text_.empty() ? "" : " (" + text_ + ")"; }
+  std::string why() const { return text_.empty() ? "" : " (" + as_utf8(text_) + ")"; }
 
  protected:
   void send(const TCollection_AsciiString& message, const Message_Gravity gravity) const override {
@@ -69,40 +77,68 @@ std::string beginning(const std::filesystem::path& path) {
   return text;
 }
 
+/// "#3 (Plane), #7 (Line), ...": the first of a list.
+std::string first_of(const std::vector<std::string>& list) {
+  constexpr std::size_t kMostNamed = 5;
+  return fmt::format("{}{}", fmt::join(list.begin(), list.begin() + std::min(list.size(), kMostNamed), ", "),
+                     list.size() > kMostNamed ? ", ..." : "");
+}
+
+/// Throws InputError unless the rest is wanted; then the shape's list has what is missing.
+void lose(const std::string& kind, const std::vector<std::string>& lost, bool keep_going, CadShape& cad) {
+  if (lost.empty()) return;
+  const std::string text = fmt::format("{} of the {} file cannot be read: {}",
+                                       counted(std::ssize(lost), "part"), kind, first_of(lost));
+  if (!keep_going) throw InputError(text + ": expected a whole model (--keep-going meshes the rest)");
+  cad.missing.push_back(text);
+}
+
 /// What STEP and IGES have in common.
 template <class Reader>
-CadShape transfer(Reader& reader, const std::string& kind, const std::string& unit,
+CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
                   const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
   const Handle(FirstComplaint) complaint = listen();
-  const LengthUnit& wanted = length_unit(unit.empty() ? "mm" : unit);
+  const LengthUnit& wanted = length_unit(options.unit.empty() ? "mm" : options.unit);
   Interface_Static::SetCVal("xstep.cascade.unit", wanted.kernel);
   if (load(reader) != IFSelect_RetDone)
     throw InputError("not a readable " + kind + " file" + complaint->why());
   CadShape cad;
   const int roots = reader.NbRootsForTransfer();
   const int transferred = reader.TransferRoots();
+  const LostShapes lost = lost_shapes(reader);
+  lose(kind, lost.damaged, options.keep_going && reader.NbShapes() > 0, cad);
   if (reader.NbShapes() == 0) throw InputError("the " + kind + " file holds no shape" + complaint->why());
-  if (transferred < roots) {
-    cad.warnings.push_back(fmt::format("{} of {} shapes of the {} file cannot be read{}", roots - transferred,
-                                       roots, kind, complaint->why()));
-  }
+  if (lost.damaged.empty() && transferred < roots)
+    cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
+                                       roots - transferred, roots, kind, complaint->why()));
+  if (!lost.doubtful.empty())
+    cad.warnings.push_back(fmt::format("{} of the {} file were read with errors: {}",
+                                       counted(std::ssize(lost.doubtful), "part"), kind,
+                                       first_of(lost.doubtful)));
+  if (!lost.unused.empty())
+    cad.warnings.push_back(fmt::format("{} faces of the {} file belong to no shape and are left out: {}",
+                                       lost.unused.size(), kind, first_of(lost.unused)));
   cad.shape = reader.OneShape();
   cad.unit = wanted.name;
   return cad;
 }
 
-CadShape read_step(const std::string& unit,
+CadShape read_step(const CadOptions& options, std::istream& text,
                    const std::function<IFSelect_ReturnStatus(STEPControl_Reader&)>& load) {
   STEPControl_Reader reader;
-  CadShape cad = transfer(reader, "STEP", unit, load);
-  cad.names = step_names(reader);
+  // Each byte a character: what they mean is found out from all names.
+  Interface_Static::SetIVal("read.step.codepage", Resource_FormatType_iso8859_1);
+  CadShape cad = transfer(reader, "STEP", options, load);
+  const bool is_ascii = std::all_of(std::istreambuf_iterator<char>(text), {},
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  cad.names = step_names(reader, is_ascii);
   return cad;
 }
 
-CadShape read_iges(const std::string& path, const std::string& unit) {
+CadShape read_iges(const std::string& path, const CadOptions& options) {
   IGESControl_Reader reader;
   CadShape cad = transfer<IGESControl_Reader>(
-      reader, "IGES", unit, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
+      reader, "IGES", options, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
   cad.names = iges_names(reader);
   return cad;
 }
@@ -123,20 +159,21 @@ struct TemporaryFile {
 };
 
 /// The kernel reads IGES from files only.
-CadShape read_iges_bytes(const std::string& bytes, const std::string& unit) {
+CadShape read_iges_bytes(const std::string& bytes, const CadOptions& options) {
   const TemporaryFile file;
   std::ofstream out(file.path, std::ios::binary);
   if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
     throw InputError("the IGES file's bytes do not fit into a temporary file, " + file.path);
-  return read_iges(file.path, unit);
+  return read_iges(file.path, options);
 }
 
-CadShape read_brep(std::istream& in, const std::string& unit) {
-  if (!unit.empty())
+CadShape read_brep(const std::string& bytes, const CadOptions& options) {
+  if (!options.unit.empty())
     throw InputError(
         "BREP files do not say their unit: lengths stay as they are, and no unit can be asked for");
   const Handle(FirstComplaint) complaint = listen();
   // The kernel reads on and on behind the end of a truncated file unless the stream stops it.
+  std::istringstream in(bytes);
   in.exceptions(std::ios::failbit | std::ios::badbit);
   CadShape cad;
   try {
@@ -145,6 +182,10 @@ CadShape read_brep(std::istream& in, const std::string& unit) {
     throw InputError("not a readable BREP file (it ends too early or is damaged)");
   }
   if (cad.shape.IsNull()) throw InputError("not a readable BREP file" + complaint->why());
+  TopTools_MapOfShape faces;
+  for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
+    faces.Add(face.Current().Located(TopLoc_Location()));
+  lose("BREP", lost_in_brep(bytes, faces.Extent()), options.keep_going, cad);
   return cad;
 }
 
@@ -167,22 +208,26 @@ Kind kind_of(const std::string& beginning) {
 
 }  // namespace
 
-CadShape read_shape(const std::filesystem::path& path, const std::string& unit) {
+CadShape read_shape(const std::filesystem::path& path, const CadOptions& options) {
   const Kind kind = kind_of(beginning(path));
-  if (kind == Kind::kStep)
-    return read_step(unit, [&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
-  if (kind == Kind::kIges) return read_iges(path.string(), unit);
   std::ifstream in(path, std::ios::binary);
-  return read_brep(in, unit);
+  if (kind == Kind::kStep)
+    return read_step(options, in, [&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
+  if (kind == Kind::kIges) return read_iges(path.string(), options);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return read_brep(bytes.str(), options);
 }
 
-CadShape read_shape_bytes(const std::string& bytes, const std::string& unit) {
+CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options) {
   const Kind kind = kind_of(bytes.substr(0, kBeginning));
-  if (kind == Kind::kIges) return read_iges_bytes(bytes, unit);
-  std::istringstream in(bytes);
-  if (kind == Kind::kStep)
-    return read_step(unit, [&](STEPControl_Reader& reader) { return reader.ReadStream("bytes", in); });
-  return read_brep(in, unit);
+  if (kind == Kind::kIges) return read_iges_bytes(bytes, options);
+  if (kind == Kind::kStep) {
+    std::istringstream in(bytes), text(bytes);
+    return read_step(options, text,
+                     [&](STEPControl_Reader& reader) { return reader.ReadStream("bytes", in); });
+  }
+  return read_brep(bytes, options);
 }
 
 }  // namespace delquad::cad

@@ -3,14 +3,15 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 
-/// Reads STEP, IGES or BREP, by content, lengths in `unit` (see CadOptions); silences the kernel for good.
-/// Throws InputError without the name of the file.
-CadShape read_shape(const std::filesystem::path& path, const std::string& unit);
+/// Reads STEP, IGES or BREP, by content; silences the kernel for good. Throws InputError without the name of
+/// the file, also for files of which a part cannot be read, unless options.keep_going leaves it out.
+CadShape read_shape(const std::filesystem::path& path, const CadOptions& options);
 /// The same from the contents of such a file.
-CadShape read_shape_bytes(const std::string& bytes, const std::string& unit);
+CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options);
 
 }  // namespace delquad::cad

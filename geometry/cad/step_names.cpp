@@ -18,8 +18,11 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <string>
+#include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/cad/text_encoding.h"
 
 namespace delquad::cad {
 
@@ -45,7 +48,7 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
 
 }  // namespace
 
-PartNames step_names(const STEPControl_Reader& reader) {
+PartNames step_names(const STEPControl_Reader& reader, bool is_ascii) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const auto add = [&](const Handle(Standard_Transient) & entity, const std::string& name) {
@@ -56,10 +59,11 @@ PartNames step_names(const STEPControl_Reader& reader) {
   };
 
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
-  for (int i = 1; i <= model->NbEntities(); ++i) {
-    const std::string name = name_of(model->Value(i));
-    if (!name.empty()) add(model->Value(i), name);
-  }
+  std::vector<std::string> names_of;
+  for (int i = 1; i <= model->NbEntities(); ++i) names_of.push_back(name_of(model->Value(i)));
+  if (!is_ascii) decode_kernel_texts(names_of);
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const std::string& name = names_of[i - 1]; !name.empty()) add(model->Value(i), name);
 
   STEPConstruct_Styles styles(reader.WS());
   if (!styles.LoadStyles()) return names;

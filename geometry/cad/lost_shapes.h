@@ -1,0 +1,23 @@
+#pragma once
+
+#include <XSControl_Reader.hxx>
+#include <string>
+#include <vector>
+
+namespace delquad::cad {
+
+/// Parts of a file that did not become shapes, each with its place and the reason.
+struct LostShapes {
+  std::vector<std::string> damaged;   ///< the model without them is not what was written
+  std::vector<std::string> unused;    ///< faces that no shape of the file has
+  std::vector<std::string> doubtful;  ///< became shapes, but not without errors
+};
+
+/// Of a STEP or IGES reader whose roots are transferred: what faces are made of and cannot be read ("#17
+/// (Direction): ..."; in IGES numbers of the directory, "D23"), and faces that became none.
+LostShapes lost_shapes(XSControl_Reader& reader);
+
+/// Of a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were read.
+std::vector<std::string> lost_in_brep(const std::string& text, int n_faces);
+
+}  // namespace delquad::cad
