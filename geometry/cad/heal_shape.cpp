@@ -11,10 +11,16 @@
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <vector>
 
 #include "base/parallel.h"
 #include "geometry/cad/glue_shape.h"
@@ -49,6 +55,97 @@ void replace(CadShape& cad, const TopoDS_Shape& shape, Image image) {
   }
   cad.shape = shape;
   cad.names = names;
+}
+
+/// How often each face (by number in `faces`) runs along an edge, of each edge once all that coincide are
+/// one.
+std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
+                                               const TopTools_IndexedMapOfShape& faces, double tolerance) {
+  BRepBuilderAPI_Sewing sewing(tolerance, /*option1=*/true, /*option2=*/true, /*option3=*/true,
+                               /*option4=*/true);
+  sewing.Add(shape);
+  sewing.Perform();
+  TopTools_IndexedMapOfShape edges;
+  std::vector<std::map<int, int>> faces_of;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (TopExp_Explorer edge(sewing.ModifiedSubShape(faces(f)), TopAbs_EDGE); edge.More(); edge.Next()) {
+      if (BRep_Tool::Degenerated(TopoDS::Edge(edge.Current()))) continue;
+      const auto at = static_cast<std::size_t>(edges.Add(edge.Current()));
+      faces_of.resize(std::max(faces_of.size(), at));
+      ++faces_of[at - 1][f];
+    }
+  return faces_of;
+}
+
+/// Adds the closed bodies among the faces that are in none yet, by face, numbered by one of their faces.
+/// Faces belong together where two meet; where more do, `in_order`, two and two as they come: files have the
+/// faces of a body one after the other.
+void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, bool in_order,
+                 std::vector<int>& body) {
+  std::vector<int> part(body.size());
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](int f) {
+    while (part[f] != f) f = part[f] = part[part[f]];
+    return f;
+  };
+  std::vector<std::vector<int>> free(faces_at_edges.size());  // faces at the edge that are in no body
+  for (std::size_t e = 0; e < free.size(); ++e) {
+    for (const auto& [f, n] : faces_at_edges[e])
+      if (body[f] == 0 && n == 1) free[e].push_back(f);
+    if (free[e].size() == 2 || (in_order && free[e].size() % 2 == 0))
+      for (std::size_t k = 0; k < free[e].size(); k += 2) part[root(free[e][k + 1])] = root(free[e][k]);
+  }
+  std::vector<char> is_open(body.size(), 0);
+  for (const std::vector<int>& faces : free) {
+    std::map<int, int> n_of_part;
+    for (const int f : faces) ++n_of_part[root(f)];
+    for (const auto& [p, n] : n_of_part)
+      if (n != 2) is_open[p] = 1;
+  }
+  for (std::size_t f = 1; f < body.size(); ++f)
+    if (const int p = root(static_cast<int>(f)); body[f] == 0 && !is_open[p]) body[f] = p;
+}
+
+/// Where edges of more than two faces coincide, the closed bodies are sewn by themselves: those that touch
+/// stay apart.
+void sew_bodies(CadShape& cad, double tolerance) {
+  TopTools_IndexedMapOfShape faces;
+  TopoDS_Compound all, open;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  builder.MakeCompound(open);
+  for (const TopoDS_Shape& shape : bodies_of(cad.shape)) {
+    const bool is_open = count_free_edges(shape) > 0;
+    builder.Add(is_open ? open : all, shape);
+    if (is_open) TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  }
+  if (faces.IsEmpty()) return;
+  const auto at_edges = faces_at_edges(open, faces, tolerance);
+  if (std::ranges::none_of(at_edges, [](const auto& of) { return of.size() > 2; })) return;
+  std::vector<int> body(faces.Extent() + 1, 0);
+  for (const bool in_order : {true, false}) find_closed(at_edges, in_order, body);
+  std::map<int, Handle(BRepBuilderAPI_Sewing)> sewings;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    if (body[f] == 0) {
+      builder.Add(all, faces(f));
+      continue;
+    }
+    Handle(BRepBuilderAPI_Sewing)& sewing = sewings[body[f]];
+    if (sewing.IsNull()) sewing = new BRepBuilderAPI_Sewing(tolerance);
+    sewing->Add(faces(f));
+  }
+  if (sewings.empty()) return;
+  for (const auto& [first, sewing] : sewings) {
+    sewing->Perform();
+    builder.Add(all, sewing->SewedShape());
+  }
+  replace(cad, all, [&](const TopoDS_Shape& shape) {
+    for (const auto& [first, sewing] : sewings)
+      if (sewing->IsModifiedSubShape(shape)) return sewing->ModifiedSubShape(shape);
+    return shape;
+  });
+  cad.warnings.push_back(fmt::format(
+      "free edges coincided: closed bodies that touch have been sewn each by itself: {}", sewings.size()));
 }
 
 BRepCheck_Analyzer check_shape(const TopoDS_Shape& shape) {
@@ -120,6 +217,7 @@ void heal_shape(CadShape& cad, double tolerance) {
   // A file may carry an old triangulation, coarser than asked or of another shape.
   BRepTools::Clean(cad.shape);
   fix(cad);
+  sew_bodies(cad, tolerance);
   sew(cad, tolerance);
 }
 

@@ -1,5 +1,7 @@
 #include "geometry/cad/mesh_by_outline.h"
 
+#include <fmt/format.h>
+
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -14,6 +16,7 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Pnt.hxx>
 #include <map>
 #include <optional>
 
@@ -132,8 +135,14 @@ class OutlineMesher {
   bool has_meshed(const TopoDS_Shape& face) const { return waiting_.Contains(plain(face)) && !reason(face); }
   bool is_coarse(const TopoDS_Shape& face) const { return coarse_.Contains(plain(face)); }
   std::optional<std::string> reason(const TopoDS_Shape& face) const {
-    const auto at = reasons_.find(waiting_.FindIndex(plain(face)));
-    return at == reasons_.end() ? std::nullopt : std::optional(at->second);
+    const int number = waiting_.FindIndex(plain(face));
+    const auto at = reasons_.find(number);
+    if (at == reasons_.end()) return std::nullopt;
+    const auto crossing = crossing_at_.find(number);
+    if (crossing == crossing_at_.end()) return at->second;
+    const Vec3& x = crossing->second;
+    const gp_Pnt p = gp_Pnt(x.x, x.y, x.z).Transformed(face.Location().Transformation());
+    return fmt::format("{} near ({:.6g}, {:.6g}, {:.6g})", at->second, p.X(), p.Y(), p.Z());
   }
 
  private:
@@ -180,8 +189,11 @@ class OutlineMesher {
       const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
       const FaceOutline outline = outline_of(face, chords_);
       const Vec2 scale = parameter_scale(*surface, outline.uv);
-      if (!crossing_chords(outline, scale).empty())
+      if (const auto crossing = crossing_chords(outline, scale); !crossing.empty()) {
+        const auto& [passage, k] = crossing[0];
+        crossing_at_[waiting_.FindIndex(face)] = outline.points[outline.passages[passage].points[k]];
         throw InputError("its boundary crosses or touches itself");
+      }
       const PatchBoundary boundary = boundary_of(outline, scale);
       const TriPatch start = constrained_delaunay(boundary);
       check_sides(boundary, start);
@@ -196,6 +208,7 @@ class OutlineMesher {
   EdgeChords chords_;
   TopTools_IndexedMapOfShape waiting_, coarse_;
   std::map<int, std::string> reasons_;  ///< of those waiting that cannot be meshed
+  std::map<int, Vec3> crossing_at_;  ///< of those whose boundary crosses itself, a place of the unplaced face
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "delquad/error.h"
 #include "geometry/cad/part_twin_sides.h"
 #include "geometry/cad/repair_face.h"
+#include "mesh/half_edges.h"
 
 namespace delquad::cad {
 
@@ -59,6 +60,7 @@ class Welder {
     add_triangles(welded.mesh);
     number_points(welded.mesh);
     welded.inside = part_twin_sides(welded.mesh, numbered_boundaries());
+    for (const HalfEdge& side : sorted_half_edges(welded.mesh)) sides_.push_back({side.lo, side.hi});
     for (int e = 0; e < edges_.Extent(); ++e) add_curve(e, welded);
     find_corners(welded);
     welded.bad_faces = std::move(bad_faces_);
@@ -225,11 +227,20 @@ class Welder {
     }
     if (chain.size() < 2) return;
     Mesh& mesh = welded.mesh;
-    for (const int f : use.inside_of) welded.embedded.push_back({static_cast<int>(mesh.curves.size()), f});
+    // Edges that lie on each other in one face have it on neither side.
+    const auto bounds_something = [&](std::size_t k) {
+      const auto [a, b] = std::minmax(chain[k], chain[k + 1]);
+      return std::ranges::binary_search(sides_, std::array{a, b});
+    };
+    bool is_curve = false;
     for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+      if (!bounds_something(k)) continue;
+      is_curve = true;
       mesh.lines.push_back({chain[k], chain[k + 1]});
       mesh.line_curve.push_back(static_cast<int>(mesh.curves.size()));
     }
+    if (!is_curve) return;
+    for (const int f : use.inside_of) welded.embedded.push_back({static_cast<int>(mesh.curves.size()), f});
     mesh.curves.push_back({e + 1, {}});
     welded.curves.push_back(std::move(curve));
   }
@@ -260,7 +271,8 @@ class Welder {
   NodeSets sets_;
   std::vector<std::vector<int>> node_of_;  ///< of each point of each face
   std::vector<int> bad_faces_;
-  std::vector<int> number_;  ///< point of the mesh of each node; -1: none
+  std::vector<std::array<int, 2>> sides_;  ///< of triangles between points, sorted
+  std::vector<int> number_;                ///< point of the mesh of each node; -1: none
 };
 
 }  // namespace

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "geometry/cad/cad_reader.h"
+#include "geometry/cad/example_models.h"
+#include "tests/geometry/cad/cad_files.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using namespace testing_support;
+
+class DamagedCad : public ::testing::Test {
+ protected:
+  std::string example(CadFormat format) {
+    std::ostringstream text;
+    write_example("thin_box", format, text);
+    return text.str();
+  }
+  std::string iges_box() {
+    return read_text(write_iges(folder_ / "box.igs", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  }
+  static std::string changed(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+  /// Refused, naming `words`; what is left has `faces` where that is asked for.
+  void expect_refused(const std::string& bytes, std::initializer_list<const char*> words, std::size_t faces) {
+    const std::string last = std::data(words)[words.size() - 1];
+    SCOPED_TRACE(last);
+    const CadModel model{{}, bytes};
+    expect_input_error([&] { read_cad(model); }, words);
+    if (faces == 0) return;
+    const SurfaceModel rest = read_cad(model, {.keep_going = true});
+    EXPECT_EQ(rest.fine.regions.size(), faces);
+    ASSERT_EQ(rest.left_out.size(), 1u);
+    EXPECT_EQ(rest.left_out[0].face, -1);
+    EXPECT_NE(rest.left_out[0].reason.find(last), std::string::npos) << rest.left_out[0].reason;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(DamagedCad, StepFilesAreRefusedWithTheEntity) {
+  const std::string text = example(CadFormat::kStep);
+  const std::size_t faces = read_cad(CadModel{{}, text}).fine.regions.size();
+  expect_refused(changed(text, "ADVANCED_FACE", "ADVANCED_FACX"), {"STEP file cannot be read", "ClosedShell"},
+                 faces - 1);
+  expect_refused(changed(text, "CLOSED_SHELL('',(#", "CLOSED_SHELL('',(#9"),
+                 {"cannot be read", "ClosedShell", "AdvancedFace"}, faces - 1);
+}
+
+TEST_F(DamagedCad, IgesFilesAreRefusedWithTheEntity) {
+  const std::string text = iges_box();
+  const std::size_t faces = read_cad(CadModel{{}, text}).fine.regions.size();
+  ASSERT_EQ(faces, 6u);
+  expect_refused(changed(text, "\n510,", "\n510,x"), {"IGES file cannot be read", "Face"}, faces - 1);
+  expect_refused(changed(text, "\n190,", "\n190,x"), {"IGES file cannot be read", "Face", "PlaneSurface"},
+                 faces - 1);
+}
+
+TEST_F(DamagedCad, BrepFilesAreRefusedWithTheLine) {
+  const std::string text = example(CadFormat::kBrep);
+  expect_refused(changed(text, "\n1 0 0 1 0 ", "\n1 0 0 1..5 0 "),
+                 {"BREP file cannot be read", "'1..5' is no number"}, 0);
+  // The shell's first face stands for its last, too: the last is in the file, but part of nothing.
+  const std::size_t shell = text.find("\nSh\n"), first = text.find_first_of("+-", shell);
+  const std::size_t next = text.find_first_of("+-", first + 1);
+  ASSERT_NE(next, std::string::npos);
+  const std::string face = text.substr(first, text.find(' ', first) - first);
+  std::string lost = text;
+  lost.replace(next, text.find(' ', next) - next, face);
+  expect_refused(lost, {"BREP file cannot be read", "faces belong to no shape"}, 0);
+}
+
+TEST_F(DamagedCad, WhatIsNoShapeMayBeMissing) {
+  const std::string text = example(CadFormat::kStep);
+  // No name at all.
+  const SurfaceModel model = read_cad(CadModel{{}, changed(text, "ADVANCED_FACE('',", "ADVANCED_FACE($,")});
+  EXPECT_TRUE(model.left_out.empty());
+}
+
+TEST_F(DamagedCad, NoTriangleIsLeft) {
+  const char* given = std::getenv("DELQUAD_DATA");
+  const std::filesystem::path file = std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) /
+                                     "hard2" / "damaged_no_face.brep";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
+  expect_input_error([&] { read_cad(file, {.keep_going = true}); },
+                     {file.c_str(), "nothing is left to mesh"});
+}
+
+}  // namespace
+}  // namespace delquad
