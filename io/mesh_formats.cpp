@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "base/utf8.h"
 #include "delquad/error.h"
 #include "io/hex_writers.h"
 #include "io/mesh_groups.h"
@@ -166,7 +167,14 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->read == nullptr)
     unknown(path, extensions_of([](const MeshFormat& f) { return f.read != nullptr; }));
-  return format->read(path, notes);
+  Mesh mesh = format->read(path, notes);
+  const auto make_utf8 = [](Entity& entity) {
+    for (std::string& name : entity.names) name = as_utf8(name);
+  };
+  std::ranges::for_each(mesh.curves, make_utf8);
+  std::ranges::for_each(mesh.regions, make_utf8);
+  for (NamedPoint& point : mesh.named_points) make_utf8(point.entity);
+  return mesh;
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order) {

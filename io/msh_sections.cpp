@@ -4,6 +4,7 @@
 #include <climits>
 #include <set>
 
+#include "base/utf8.h"
 #include "io/mesh_io.h"
 #include "io/msh_numbers.h"
 #include "io/msh_raw.h"
@@ -167,7 +168,7 @@ class SectionReader {
     const long long count = in_.integer("the number of physical names", 0, INT_MAX);
     for (long long i = 0; i < count; ++i) {
       const auto [key, name] = named();
-      contents_.physical_names[key] = name;
+      contents_.physical_names[key] = as_utf8(name);
     }
   }
 

@@ -91,6 +91,14 @@ TEST_F(Stl, EachSolidOfATextIsARegion) {
   EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 1}));
 }
 
+TEST_F(Stl, NamesBecomeUtf8) {
+  const auto name_of = [&](const std::string& bytes) {
+    return read(text_file(kStlTetrahedron, bytes)).regions[0].names[0];
+  };
+  EXPECT_EQ(name_of("caf\xC3\xA9"), "caf\u00E9");
+  EXPECT_EQ(name_of("caf\xE9"), "caf\u00E9");
+}
+
 TEST_F(Stl, NamesTheLineOrByteOfWhatIsWrong) {
   expect_error("", {"case.stl", "0 bytes"});
   expect_error("solid a\nendsolid a\n", {"case.stl", "no triangles"});
