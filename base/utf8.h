@@ -9,10 +9,10 @@ namespace delquad {
 /// U+10FFFF.
 bool is_utf8(std::string_view text);
 
-/// Bytes of ISO 8859-1 as UTF-8.
-std::string utf8_of_latin1(std::string_view bytes);
-
-/// The text as it is where it is UTF-8, else as if it were ISO 8859-1.
+/// The text where it is UTF-8; else its bytes are taken for ISO 8859-1, so that nothing of them is lost.
 std::string as_utf8(std::string_view text);
+
+/// Text of units of two bytes as UTF-8; U+FFFD for what is no character.
+std::string from_utf16(std::string_view bytes, bool is_big_endian);
 
 }  // namespace delquad
