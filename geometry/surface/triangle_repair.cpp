@@ -4,14 +4,15 @@
 
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "base/box.h"
 #include "delquad/error.h"
+#include "geometry/surface/flat_triangles.h"
 #include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesh/drop_unused_points.h"
+#include "mesh/stray_points.h"
 #include "mesh/weld.h"
 
 namespace delquad {
@@ -19,34 +20,10 @@ namespace delquad {
 namespace {
 
 using Triangle = std::array<int, 3>;
-using Edge = std::array<int, 2>;
-
-Edge sorted_edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 Triangle sorted_vertices(Triangle v) {
   std::sort(v.begin(), v.end());
   return v;
-}
-
-bool repeats_vertex(const Triangle& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
-
-int longest_side(const std::vector<Vec3>& points, const Triangle& v) {
-  int longest = 0;
-  double length = -1;
-  for (int k = 0; k < 3; ++k) {
-    const double l = norm(points[v[(k + 1) % 3]] - points[v[k]]);
-    if (l > length) longest = k;
-    length = std::max(length, l);
-  }
-  return longest;
-}
-
-bool has_area(const std::vector<Vec3>& points, const Triangle& v) {
-  constexpr double kCollinear = 1e-12;  // height by longest side: what rounding leaves of collinear points
-  const int k = longest_side(points, v);
-  const Vec3 base = points[v[(k + 1) % 3]] - points[v[k]], side = points[v[(k + 2) % 3]] - points[v[k]];
-  const double length = norm(base);
-  return norm(cross((1 / length) * base, side)) > kCollinear * length;
 }
 
 /// Keeps the triangles for which keep(t), in order; returns how many went and where the first of them was.
@@ -71,68 +48,11 @@ Dropped keep_triangles(Mesh& mesh, Keep keep) {
   return dropped;
 }
 
-void replace_line(Mesh& mesh, Edge edge, int middle) {
-  for (size_t i = mesh.lines.size(); i-- > 0;) {
-    const auto [a, b] = mesh.lines[i];
-    if (sorted_edge(a, b) != edge) continue;
-    mesh.lines[i] = {a, middle};
-    mesh.lines.push_back({middle, b});
-    mesh.line_curve.push_back(mesh.line_curve[i]);
-  }
-}
-
-/// Cuts the neighbour across the longest side of each flat triangle at its third vertex, which takes the flat
-/// one's place, where both halves have area. Returns how many were cut.
-int cut_beside_flat_triangles(Mesh& mesh, const std::vector<int>& flat) {
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  std::set<int> touched;
-  std::set<Edge> added;
-  int cuts = 0;
-  for (const int t : flat) {
-    const Triangle v = mesh.triangles[t];
-    const int k = longest_side(mesh.points, v);
-    const int middle = v[(k + 2) % 3];
-    const auto edge = sides_of_edge(sides, v[k], v[(k + 1) % 3]);
-    if (edge.size() != 2 || touched.contains(t)) continue;
-    const HalfEdge& other = edge[0].element == t ? edge[1] : edge[0];
-    const int u = other.element;
-    if (touched.contains(u)) continue;
-    const int side = side_number(mesh, other);
-    const int a = side_start(mesh, side), b = side_end(mesh, side), apex = side_end(mesh, next_side(side));
-    const Triangle first = {a, middle, apex}, second = {middle, b, apex};
-    if (!has_area(mesh.points, first) || !has_area(mesh.points, second)) continue;
-    if (!sides_of_edge(sides, middle, apex).empty() || !added.insert(sorted_edge(middle, apex)).second)
-      continue;
-    mesh.triangles[t] = first;
-    mesh.triangles[u] = second;
-    mesh.triangle_region[t] = mesh.triangle_region[u];
-    replace_line(mesh, sorted_edge(a, b), middle);
-    touched.insert({t, u});
-    ++cuts;
-  }
-  return cuts;
-}
-
-void take_out_flat_triangles(Mesh& mesh, std::vector<Warning>& warnings) {
-  Dropped dropped = keep_triangles(mesh, [&](size_t t) { return !repeats_vertex(mesh.triangles[t]); });
-  const auto flat_triangles = [&] {
-    std::vector<int> flat;
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (!has_area(mesh.points, mesh.triangles[t])) flat.push_back(static_cast<int>(t));
-    }
-    return flat;
-  };
-  std::vector<int> flat = flat_triangles();
-  const int n_flat = static_cast<int>(flat.size());
-  if (dropped.count == 0 && n_flat == 0) return;
-  if (dropped.count == 0) dropped.first = mesh.points[mesh.triangles[flat[0]][0]];
-  constexpr int kRounds = 64;  // each cuts the outermost of the flat triangles that lie on each other
-  for (int round = 0; round < kRounds && cut_beside_flat_triangles(mesh, flat) > 0; ++round) {
-    flat = flat_triangles();
-  }
-  keep_triangles(mesh, [&](size_t t) { return has_area(mesh.points, mesh.triangles[t]); });
-  warnings.push_back(fmt::format("left out {} without area (the first at {})",
-                                 counted(dropped.count + n_flat, "triangle"), show_point(dropped.first)));
+void leave_out_flat(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
+  const FlatTriangles flat = take_out_flat_triangles(mesh, source);
+  if (flat.count > 0)
+    warnings.push_back(fmt::format("left out {} without area (the first at {})",
+                                   counted(flat.count, "triangle"), show_point(flat.first)));
 }
 
 void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
@@ -296,13 +216,15 @@ void check_contents(const Mesh& mesh, const std::string& source) {
     throw InputError(
         fmt::format("{}: point {} at {}: expected finite coordinates", source, i + 1, show_point(p)));
   }
+  if (const auto strays = stray_points(mesh); !strays.empty())
+    throw InputError(fmt::format("{}: {}", source, describe(strays[0], mesh)));
 }
 
 }  // namespace
 
 void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
   tell_branches(mesh, source, warnings);
-  orient_triangles(mesh, source, warnings);
+  orient_triangles(mesh, source, warnings, true);
   const std::vector<int> side_of_line = settle_lines(mesh, warnings);
   split_vertices(mesh, warnings);
   for (size_t i = 0; i < side_of_line.size(); ++i) {
@@ -314,9 +236,9 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
                       std::vector<Warning>& warnings) {
   check_contents(mesh, source);
   close_gaps(mesh, weld_tolerance, warnings);
-  take_out_flat_triangles(mesh, warnings);
-  if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   take_out_twins(mesh, warnings);
+  leave_out_flat(mesh, source, warnings);
+  if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   settle_triangles(mesh, source, warnings);
   const int unused = drop_unused_points(mesh);
   if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");

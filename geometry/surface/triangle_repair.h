@@ -15,17 +15,15 @@ namespace delquad {
 /// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, only
 /// a
 ///   warning tells of the gaps;
-/// - triangles without area go; where one has its third vertex between the others, its neighbour is cut
-/// there, so
-///   that no gap opens;
 /// - of triangles on the same vertices the first stays;
+/// - triangles without area go, and no gap opens (take_out_flat_triangles);
 /// - triangles that run against their neighbours are turned, the fewer in each component; a closed component
-/// is
-///   turned outwards, unless it lies in the bounding box of the largest one and may be a cavity;
+///   is turned outwards, unless it lies in the bounding box of the largest one and may be a cavity; where
+///   neighbours cannot agree, sharp edges between them stay as joints of sheets;
 /// - a vertex where fans touch becomes one vertex a fan;
 /// - lines that are not edges go.
-/// Throws InputError, beginning with `source`, for coordinates that are not finite, quads, no triangles,
-/// more branches than edges between two triangles, a surface that cannot be oriented.
+/// Throws InputError, beginning with `source`, for coordinates that are not finite, stray points, quads, no
+/// triangles, more branches than edges between two triangles, a surface that cannot be oriented.
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 

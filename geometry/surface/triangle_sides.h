@@ -46,4 +46,12 @@ inline std::vector<int> side_twins(const Mesh& mesh) {
   return twin;
 }
 
+/// The same where the two run opposite ways, so that their triangles agree.
+inline std::vector<int> agreeing_twins(const Mesh& mesh) {
+  std::vector<int> twin = side_twins(mesh);
+  for (int s = 0; s < static_cast<int>(twin.size()); ++s)
+    if (twin[s] > s && side_start(mesh, s) == side_start(mesh, twin[s])) twin[s] = twin[twin[s]] = -1;
+  return twin;
+}
+
 }  // namespace delquad

@@ -291,7 +291,7 @@ SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& optio
   if (!(options.weld_tolerance >= 0)) throw std::invalid_argument("weld tolerance: expected 0 or more");
   const double weld_tolerance = options.weld_tolerance * diagonal(triangles.points);
   model.fine = repair_triangles(std::move(triangles), weld_tolerance, options.source, model.warnings);
-  const std::vector<int> twin = side_twins(model.fine);
+  const std::vector<int> twin = agreeing_twins(model.fine);
   const std::vector<double> angles = side_angles(model.fine, twin);
   std::vector<int> cut = find_cuts(model.fine, twin, angles, angle);
   std::vector<std::pair<int, int>> loose;
@@ -313,7 +313,7 @@ KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
   settle_triangles(triangles, options.source, model.warnings);
   model.fine = std::move(triangles);
   Mesh& fine = model.fine;
-  const std::vector<int> twin = side_twins(fine);
+  const std::vector<int> twin = agreeing_twins(fine);
   std::vector<double> angles = side_angles(fine, twin);
   for (std::size_t s = 0; s < twin.size(); ++s)
     if (twin[s] >= 0 && element[s / 3] == element[twin[s] / 3]) angles[s] = 0;

@@ -85,7 +85,8 @@ inline std::vector<std::string> violations(const SurfaceModel& model) {
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     const auto at = lines.find({edge[0].lo, edge[0].hi});
     if (at == lines.end()) return;
-    if (edge.size() > 2) branching[at->second] = 1;
+    if (edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward))
+      branching[at->second] = 1;
     const auto [first, is_first] = triangles_on.try_emplace(at->second, edge.size());
     if (first->second != edge.size()) uneven.insert(at->second);
   });
