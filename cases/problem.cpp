@@ -94,7 +94,7 @@ CrossSpec make_cross(const CrossText& text) {
 TriangleModel read_triangles(const Case& c) {
   return located(c.where, [&] {
     TriangleModel model{{}, c.surface_file.string()};
-    model.mesh = read_mesh(c.surface_file, &model.notes);
+    model.mesh = read_mesh(c.surface_file, &model.notes, c.keep_going ? Strays::kKept : Strays::kRefused);
     return model;
   });
 }

@@ -42,13 +42,15 @@ class MeditReader {
       skip_comments();
       dimension_ = in_.integer("the dimension", 2, 3);
     } else if (keyword == "Vertices") {
-      for (long long n = count(); n > 0; --n) vertex();
+      for (long long n = count(keyword); n > 0; --n) vertex();
     } else if (keyword == "Edges") {
-      elements(mesh_.lines, mesh_.line_curve, 1);
+      elements(keyword, mesh_.lines, mesh_.line_curve, 1);
     } else if (keyword == "Triangles") {
-      elements(mesh_.triangles, mesh_.triangle_region, 2);
+      elements(keyword, mesh_.triangles, mesh_.triangle_region, 2);
     } else if (keyword == "Quadrilaterals") {
-      elements(mesh_.quads, mesh_.quad_region, 2);
+      elements(keyword, mesh_.quads, mesh_.quad_region, 2);
+    } else if (!(keyword[0] >= 'A' && keyword[0] <= 'Z')) {
+      in_.fail(fmt::format("expected a keyword{}, found {}", section_, TextScanner::printable(keyword)));
     } else if (keyword == "Tetrahedra" || keyword == "Hexahedra") {
       in_.fail(fmt::format("{}: expected a mesh of lines, triangles and quadrilaterals", keyword));
     } else {
@@ -87,9 +89,10 @@ class MeditReader {
     return std::string(in_.token(what));
   }
 
-  long long count() {
+  long long count(const std::string& keyword) {
     skip_comments();
     const long long n = in_.integer("a count", 0, INT_MAX);
+    section_ = fmt::format(" after the {} {} that are announced", n, keyword);
     if (n > static_cast<long long>(in_.bytes_left()))
       in_.fail(fmt::format("{} items do not fit in the {} bytes that follow", n, in_.bytes_left()));
     return n;
@@ -109,8 +112,9 @@ class MeditReader {
   }
 
   template <size_t N>
-  void elements(std::vector<std::array<int, N>>& all, std::vector<int>& entity_of, int dim) {
-    for (long long n = count(); n > 0; --n) {
+  void elements(const std::string& keyword, std::vector<std::array<int, N>>& all, std::vector<int>& entity_of,
+                int dim) {
+    for (long long n = count(keyword); n > 0; --n) {
       skip_comments();
       std::array<int, N> element;
       for (int& v : element)
@@ -123,6 +127,7 @@ class MeditReader {
   TextScanner in_;
   Mesh mesh_;
   long long dimension_ = 3;
+  std::string section_;  ///< the last one, for messages
   NumberedEntities entities_;
 };
 

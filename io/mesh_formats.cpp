@@ -41,10 +41,10 @@ void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
 
 /// Readers that note nothing.
 template <Mesh (*read)(const std::filesystem::path&)>
-Mesh read_plainly(const std::filesystem::path& path, ReadNotes*) {
+Mesh read_plainly(const std::filesystem::path& path, ReadNotes*, Strays) {
   return read(path);
 }
-Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes* notes) {
+Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes* notes, Strays) {
   return read_msh(path, nullptr, notes);
 }
 
@@ -52,6 +52,10 @@ Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes* notes) {
 template <void (*write)(const std::filesystem::path&, const HexMesh&)>
 void write_plainly(const std::filesystem::path& path, const HexMesh& mesh, bool) {
   write(path, mesh);
+}
+
+void make_utf8(Entity& entity) {
+  for (std::string& name : entity.names) name = as_utf8(name);
 }
 
 /// What formats rename that have labels by these rules.
@@ -155,7 +159,7 @@ const std::vector<MeshFormat>& mesh_formats() {
       {{".bdf", ".nas"}, "Nastran bulk data", read_plainly<read_nastran>, write_nastran, 2},
       {{".k", ".key"}, "LS-DYNA keywords", nullptr, write_ls_dyna, 1},
       {{".off"}, "Object File Format", read_off, nullptr, 1},
-      {{".stl"}, "stereolithography", read_plainly<read_stl>, nullptr, 1},
+      {{".stl"}, "stereolithography", read_stl, nullptr, 1},
       {{".ply"}, "Polygon File Format", read_ply, nullptr, 1},
       {{".3mf"}, "3D Manufacturing Format", read_3mf, nullptr, 1},
       {{".svg"}, "a picture", nullptr, write_picture, kMostOrder},
@@ -164,15 +168,16 @@ const std::vector<MeshFormat>& mesh_formats() {
 }
 
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes) {
+  return read_mesh(path, notes, Strays::kRefused);
+}
+
+Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->read == nullptr)
     unknown(path, extensions_of([](const MeshFormat& f) { return f.read != nullptr; }));
-  Mesh mesh = format->read(path, notes);
-  const auto make_utf8 = [](Entity& entity) {
-    for (std::string& name : entity.names) name = as_utf8(name);
-  };
-  std::ranges::for_each(mesh.curves, make_utf8);
-  std::ranges::for_each(mesh.regions, make_utf8);
+  Mesh mesh = format->read(path, notes, strays);
+  for (auto* entities : {&mesh.curves, &mesh.regions})
+    for (Entity& entity : *entities) make_utf8(entity);
   for (NamedPoint& point : mesh.named_points) make_utf8(point.entity);
   return mesh;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delquad/hexahedra.h"
+#include "io/mesh_io.h"
 
 namespace delquad {
 
@@ -12,7 +13,7 @@ namespace delquad {
 struct MeshFormat {
   std::vector<std::string> extensions;  ///< in small letters, with the dot; the usual one first
   std::string description;
-  Mesh (*read)(const std::filesystem::path&, ReadNotes*);  ///< null: it is not read
+  Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays);  ///< null: it is not read
   void (*write)(const std::filesystem::path&,
                 const Mesh&);  ///< null: it is not written, but for MSH, which has options
   int most_order;              ///< of elements that are written

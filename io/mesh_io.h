@@ -46,6 +46,16 @@ std::string kind_of_file(const std::filesystem::path& path);
 /// Whether a name can stand in an MSH file: it has no double quote and no line break.
 bool fits_msh(std::string_view name);
 
+/// What readers of triangles do with numbers that can hardly be coordinates: those that are not finite, and
+/// stray points (mesh/stray_points.h).
+enum class Strays {
+  kRefused,  ///< InputError with their place
+  kKept,     ///< for a caller who leaves them out; the greatest number stands for one that is not finite
+};
+
+/// read_mesh() that keeps strays, in formats of triangles alone.
+Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays strays);
+
 // All readers unpack files that are compressed by gzip, and refuse one that holds another format than its
 // name says.
 
@@ -58,22 +68,27 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nu
               ReadNotes* notes = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles.
-Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr,
+              Strays strays = Strays::kRefused);
 /// Reads Object File Format, text or binary, with or without colours and normals, which are ignored. Faces of
 /// more than four vertices are split into triangles.
-Mesh read_off(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+Mesh read_off(const std::filesystem::path& path, ReadNotes* notes = nullptr,
+              Strays strays = Strays::kRefused);
 
 /// Reads STL, text or binary, by content. Points with the same coordinates become one. Each solid of a text
 /// file is a region with its name.
-Mesh read_stl(const std::filesystem::path& path);
+Mesh read_stl(const std::filesystem::path& path, ReadNotes* notes = nullptr,
+              Strays strays = Strays::kRefused);
 
 /// Reads the Polygon File Format (Stanford), text or binary of either byte order. Faces of one colour are a
 /// region with its name ("colour #rrggbb"), unless there are more than 64 colours; other properties are left
 /// out. Faces of more than four vertices are split into triangles.
-Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes = nullptr,
+              Strays strays = Strays::kRefused);
 /// Reads 3MF: what the model's build holds, in its unit. Each object is a region with its name, or one for
 /// each of its colours, unless there are more than 64. Throws InputError with the line of the model inside.
-Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes = nullptr,
+              Strays strays = Strays::kRefused);
 
 /// Reads VTK XML of an unstructured grid: lines, triangles and quads; arrays as text or base64, inline or
 /// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();

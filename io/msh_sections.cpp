@@ -100,7 +100,9 @@ class SectionReader {
 
   void expect_end(const std::string& name) {
     const std::string end = "$End" + name;
-    if (in_.token(end) != end) in_.fail(fmt::format("expected {}", end));
+    if (const std::string_view found = in_.token(end); found != end)
+      in_.fail(
+          fmt::format("expected {} after as many as are announced, found {}", end, in_.printable(found)));
   }
 
   /// Titles, times and counts are text in binary files, too.
@@ -194,7 +196,7 @@ class SectionReader {
     if (!fits_msh(name))
       in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
                            in_.printable(name)));
-    return {{dim, std::abs(tag)}, std::string(name)};
+    return {{dim, std::abs(tag)}, as_utf8(name)};
   }
 
   /// Bytes begin on the line after the section's title; in 2.2 after that of their number, which is text.

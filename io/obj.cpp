@@ -16,14 +16,15 @@ namespace {
 
 class ObjReader : FaceReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : FaceReader(path, "OBJ") {}
+  ObjReader(const std::filesystem::path& path, Strays strays) : FaceReader(path, "OBJ", strays) {
+    in_.join_continued_lines();
+  }
 
   Mesh read(ReadNotes* notes) {
     while (!in_.at_end()) {
       const std::string keyword(in_.token("a keyword"));
       if (keyword == "v") {
-        const double x = coordinate(), y = coordinate(), z = coordinate();
-        mesh_.points.push_back({x, y, z});
+        read_point();
       } else if (keyword == "l") {
         read_line();
       } else if (keyword == "f") {
@@ -41,12 +42,27 @@ class ObjReader : FaceReader {
   }
 
  private:
+  /// Of the numbers on the line.
+  bool ends() { return in_.at_end_of_line() || in_.next_is('#'); }
+
+  /// In a file of the plane all points have two coordinates; a lone one that has may have lost its third.
+  void read_point() {
+    const double x = coordinate(), y = coordinate();
+    const bool is_planar = ends();
+    if (mesh_.points.empty()) is_planar_ = is_planar;
+    if (is_planar != is_planar_)
+      in_.fail(
+          fmt::format("expected {} coordinates, as the points before have", is_planar_ ? "two" : "three"));
+    const double z = is_planar ? 0 : coordinate();
+    add_point({x, y, z});
+  }
+
   /// The vertices on the rest of the line, each "v", "v/vt" or "v/vt/vn"; a negative v counts from the last
   /// one.
   std::vector<int> vertices() {
     std::vector<int> result;
     const long long n = static_cast<long long>(mesh_.points.size());
-    while (!in_.at_end_of_line()) {
+    while (!ends()) {
       const std::string_view token = in_.token("a vertex");
       long long v = 0;
       const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), v);
@@ -82,6 +98,7 @@ class ObjReader : FaceReader {
     return it->second;
   }
 
+  bool is_planar_ = false;
   std::vector<std::string> names_;
   Index curve_of_, region_of_;
 };
@@ -125,7 +142,9 @@ void write_elements(TextWriter& out, char keyword, const std::vector<std::array<
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes) { return ObjReader(path).read(notes); }
+Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
+  return ObjReader(path, strays).read(notes);
+}
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   write_file_atomically(path, [&](std::ostream& stream) {

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <climits>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -16,7 +15,7 @@ namespace {
 
 class OffReader : FaceReader {
  public:
-  explicit OffReader(const std::filesystem::path& path) : FaceReader(path, "OFF") {}
+  OffReader(const std::filesystem::path& path, Strays strays) : FaceReader(path, "OFF", strays) {}
 
   Mesh read(ReadNotes* notes) {
     if (read_header()) return read_bytes(notes);
@@ -30,12 +29,20 @@ class OffReader : FaceReader {
                            n_faces, in_.bytes_left()));
     }
     for (long long i = 0; i < n_points; ++i) read_point();
-    for (long long i = 0; i < n_faces; ++i) read_face();
-    skip_comments();
+    for (long long i = 0; i < n_faces; ++i) {
+      in_.skip_comments();
+      if (in_.at_end())
+        in_.fail(
+            fmt::format("the header announces {} vertices and {} faces, but {} faces follow the vertices",
+                        n_points, n_faces, i));
+      read_face();
+    }
+    in_.skip_comments();
     if (!in_.at_end()) {
       const std::string_view found = in_.token("the end");
-      in_.fail(fmt::format("expected the end of the file after {} faces, found {}", n_faces,
-                           TextScanner::printable(found)));
+      in_.fail(fmt::format(
+          "expected the end of the file after {} vertices and {} faces, as the header says, found {}",
+          n_points, n_faces, TextScanner::printable(found)));
     }
     return whole(notes);
   }
@@ -50,7 +57,7 @@ class OffReader : FaceReader {
   /// Vertices may have texture coordinates, colours and normals (ST, C, N); these follow the three
   /// coordinates. True where all that follows are bytes.
   bool read_header() {
-    skip_comments();
+    in_.skip_comments();
     const std::string_view word = in_.token("'OFF'");
     const bool known = word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" ||
                        word == "STOFF" || word == "STCOFF" || word == "STNOFF" || word == "STCNOFF";
@@ -82,8 +89,7 @@ class OffReader : FaceReader {
 
   double real32() {
     const float value = std::bit_cast<float>(word32("a coordinate"));
-    if (!std::isfinite(value)) in_.fail(fmt::format("coordinate {}: expected a finite number", value));
-    return double{value};
+    return in_.finite(double{value}, strays_);
   }
 
   /// Big-endian words of four bytes, as Geomview writes them: each face ends with how many parts its colour
@@ -95,7 +101,7 @@ class OffReader : FaceReader {
     word32("the number of edges");
     for (std::uint32_t i = 0; i < n_points; ++i) {
       const double x = real32(), y = real32(), z = real32();
-      mesh_.points.push_back({x, y, z});
+      add_point({x, y, z});
       in_.bytes(beside, "colours or normals");
     }
     for (std::uint32_t i = 0; i < n_faces; ++i) {
@@ -108,28 +114,32 @@ class OffReader : FaceReader {
       add_face(v, 0);
       in_.bytes(4 * std::size_t{count("the number of a colour's parts", 4)}, "a colour");
     }
+    if (in_.bytes_left() > 0)
+      in_.fail(fmt::format("{} bytes follow the {} vertices and {} faces that the header announces",
+                           in_.bytes_left(), n_points, n_faces));
     return whole(notes);
   }
 
-  void skip_comments() {
-    while (in_.next_is('#')) in_.rest_of_line();
-  }
-
   long long integer(std::string_view what, long long low, long long high) {
-    skip_comments();
+    in_.skip_comments();
     return in_.integer(what, low, high);
   }
 
   void read_point() {
-    skip_comments();
-    const double x = in_.real("a coordinate"), y = coordinate(), z = coordinate();
-    mesh_.points.push_back({x, y, z});
+    in_.skip_comments();
+    const double x = in_.real("a coordinate", strays_), y = coordinate(), z = coordinate();
+    add_point({x, y, z});
     in_.rest_of_line();  // colours, normals
   }
 
   void read_face() {
-    const long long n = integer("the number of a face's vertices", 0, INT_MAX);
+    const long long n = in_.integer("the number of a face's vertices", 0, INT_MAX);
     const long long last = static_cast<long long>(mesh_.points.size()) - 1;
+    if (n < 3)
+      in_.fail(
+          fmt::format("face of {} vertices: expected three or more; is the number of vertices in the header "
+                      "right ({})?",
+                      n, last + 1));
     std::vector<int> v;
     for (long long k = 0; k < n; ++k) v.push_back(static_cast<int>(in_.integer("a vertex", 0, last)));
     add_face(v, 0);
@@ -141,6 +151,8 @@ class OffReader : FaceReader {
 
 }  // namespace
 
-Mesh read_off(const std::filesystem::path& path, ReadNotes* notes) { return OffReader(path).read(notes); }
+Mesh read_off(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
+  return OffReader(path, strays).read(notes);
+}
 
 }  // namespace delquad

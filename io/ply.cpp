@@ -58,7 +58,7 @@ struct Element {
 
 class PlyReader : FaceReader {
  public:
-  explicit PlyReader(const std::filesystem::path& path) : FaceReader(path, "PLY") {}
+  PlyReader(const std::filesystem::path& path, Strays strays) : FaceReader(path, "PLY", strays) {}
 
   Mesh read(ReadNotes* notes) {
     read_header();
@@ -68,8 +68,9 @@ class PlyReader : FaceReader {
       if (!fits)
         in_.fail(fmt::format("{} elements {} do not fit in the {} bytes that follow", element.number,
                              TextScanner::printable(element.name), in_.bytes_left()));
-      for (long long i = 0; i < element.number; ++i) read_element(element);
+      for (long long i = 0; i < element.number; ++i) read_element(element, i);
     }
+    check_end();
     if (mesh_.triangles.empty() && mesh_.quads.empty())
       in_.fail("the file holds no faces: expected triangles, not points alone");
     colours_.finish(mesh_, notes);
@@ -92,7 +93,7 @@ class PlyReader : FaceReader {
         read_property();
       } else if (keyword == "end_header") {
         break;
-      } else if (keyword != "comment" && keyword != "obj_info") {
+      } else if (keyword != "comment" && keyword != "obj_info" && !keyword.starts_with('#')) {
         in_.fail(fmt::format("expected 'element', 'property' or 'end_header', found {}",
                              TextScanner::printable(keyword)));
       }
@@ -165,7 +166,7 @@ class PlyReader : FaceReader {
   double scalar(const Property& property, const Scalar& type) {
     if (coding_ == Coding::kText) {
       if (!property_counts_) return in_.token(property.shown), 0;
-      return type.is_real ? in_.real(property.shown)
+      return type.is_real ? in_.real(property.shown, strays_)
                           : static_cast<double>(in_.integer(property.shown, LLONG_MIN, LLONG_MAX));
     }
     const std::string_view bytes = in_.bytes(static_cast<std::size_t>(type.bytes), property.shown);
@@ -192,7 +193,46 @@ class PlyReader : FaceReader {
     }
   }
 
-  void read_element(const Element& element) {
+  /// "'vertex': 8, 'face': 12"
+  std::string announced() const {
+    std::string text;
+    for (const Element& e : elements_)
+      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", TextScanner::printable(e.name), e.number);
+    return text;
+  }
+
+  /// Files of bytes may end with white space or zeros, which are nothing.
+  void check_end() {
+    if (coding_ == Coding::kText) in_.skip_comments();
+    const std::string_view rest = in_.text().substr(in_.text().size() - in_.bytes_left());
+    if (rest.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
+      in_.fail(fmt::format(
+          "expected the end of the file after the elements that the header announces ({}): {} bytes follow",
+          announced(), rest.size()));
+  }
+
+  /// Texts have one element on each line: else their number in the header is wrong.
+  void check_line(const Element& element, long long i, int line) {
+    if (coding_ != Coding::kText) return;
+    if (in_.line() != line || !(in_.at_end_of_line() || in_.next_is('#')))
+      in_.fail(fmt::format(
+                   "element {} of {} {}: expected its values, and no others, on a line; are the numbers of "
+                   "elements in the header right ({})?",
+                   i + 1, element.number, TextScanner::printable(element.name), announced()),
+               line);
+    in_.rest_of_line();
+  }
+
+  /// The element with index i of its kind.
+  void read_element(const Element& element, long long i) {
+    if (element.properties.empty()) return;
+    if (coding_ == Coding::kText) {
+      in_.skip_comments();
+      if (in_.at_end())
+        in_.fail(fmt::format("the header announces {} elements {}, but {} follow", element.number,
+                             TextScanner::printable(element.name), i));
+    }
+    const int line = in_.line();
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
     Vec3 point;
     std::vector<int> corners;
@@ -208,10 +248,11 @@ class PlyReader : FaceReader {
       const int channel = !is_face ? -1 : name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1;
       property_counts_ = axis >= 0 || channel >= 0;
       const double value = scalar(property, *property.type);
-      if (axis >= 0) set_coordinate(axis, value, point);
+      if (axis >= 0) (axis == 0 ? point.x : axis == 1 ? point.y : point.z) = in_.finite(value, strays_);
       if (channel >= 0) rgb[channel] = part_of_255(property.type->is_real ? 255 * value : value);
     }
-    if (is_vertex) mesh_.points.push_back(point);
+    check_line(element, i, line);
+    if (is_vertex) add_point(point);
     if (is_face) {
       if (static_cast<long long>(mesh_.points.size()) < n_vertices_) in_.fail("faces before the vertices");
       add_face(corners, colours_.region("", std::ranges::min(rgb) < 0 ? "" : colour_text(rgb)));
@@ -223,11 +264,6 @@ class PlyReader : FaceReader {
     return std::isnan(value) ? -1 : static_cast<int>(std::clamp(value, 0.0, 255.0));
   }
 
-  void set_coordinate(int axis, double value, Vec3& point) const {
-    if (!std::isfinite(value)) in_.fail(fmt::format("coordinate {}: expected a finite number", value));
-    (axis == 0 ? point.x : axis == 1 ? point.y : point.z) = value;
-  }
-
   Coding coding_ = Coding::kText;
   std::vector<Element> elements_;
   long long n_vertices_ = 0;
@@ -237,6 +273,8 @@ class PlyReader : FaceReader {
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes) { return PlyReader(path).read(notes); }
+Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
+  return PlyReader(path, strays).read(notes);
+}
 
 }  // namespace delquad

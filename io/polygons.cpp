@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/split_polygon.h"
+#include "mesh/stray_points.h"
 
 namespace delquad {
 
@@ -41,17 +43,30 @@ void FaceSplitter::note(ReadNotes* notes) const {
                                n_polygons_ == 1 ? "was" : "were", n_triangles_));
 }
 
-FaceReader::FaceReader(const std::filesystem::path& path, const char* kind) : in_(path) {
+void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place) {
+  if (strays == Strays::kKept) return;
+  if (const auto found = stray_points(mesh); !found.empty())
+    throw InputError(place(found[0].point) + ": " + describe(found[0], mesh));
+}
+
+FaceReader::FaceReader(const std::filesystem::path& path, const char* kind, Strays strays)
+    : in_(path), strays_(strays) {
   refuse_other_kinds(in_, kind);
+}
+
+void FaceReader::add_point(const Vec3& p) {
+  mesh_.points.push_back(p);
+  places_.push_back(in_.position());
 }
 
 double FaceReader::coordinate() {
   if (in_.at_end_of_line()) in_.fail("expected three coordinates");
-  return in_.real("a coordinate");
+  return in_.real("a coordinate", strays_);
 }
 
 Mesh FaceReader::finished(ReadNotes* notes) {
   splitter_.note(notes);
+  check_strays(mesh_, strays_, [&](int i) { return in_.place(places_[static_cast<size_t>(i)]); });
   drop_unused_points(mesh_);
   return std::move(mesh_);
 }

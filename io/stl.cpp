@@ -8,6 +8,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/weld.h"
@@ -20,6 +21,7 @@ constexpr size_t kHeader = 80, kFirstFacet = kHeader + 4, kFacet = 50;  // bytes
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
+/// Whether the words are the same but for capitals.
 bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char c, char d) { return lower(c) == lower(d); });
@@ -41,8 +43,10 @@ std::optional<std::uint32_t> binary_facets(std::string_view bytes) {
     if (bytes.size() == kFirstFacet + n * kFacet) return n;
   }
   const size_t word = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  const bool is_text = same_word(bytes.substr(word, 5), "solid") &&
-                       bytes.substr(0, kFirstFacet).find('\0') == std::string_view::npos;
+  const std::string_view begin = bytes.substr(word);
+  const bool is_text =
+      (same_word(begin.substr(0, 5), "solid") || begin.starts_with('#') || begin.starts_with("//")) &&
+      bytes.substr(0, kFirstFacet).find('\0') == std::string_view::npos;
   if (is_text) return std::nullopt;
   return bytes.size() < kFirstFacet ? 0 : little_endian(bytes, kHeader);
 }
@@ -54,7 +58,13 @@ void add_triangle(Mesh& mesh, const std::array<Vec3, 3>& corners) {
   mesh.triangle_region.push_back(static_cast<int>(mesh.regions.size()) - 1);
 }
 
-Mesh read_binary(const std::string& path, std::string_view bytes, std::uint32_t n) {
+size_t byte_of(size_t facet, size_t number) {
+  constexpr size_t kNormal = 12;
+  return kFirstFacet + facet * kFacet + kNormal + 4 * number;
+}
+
+Mesh read_binary(const TextScanner& in, const std::string& path, std::uint32_t n, Strays strays) {
+  const std::string_view bytes = in.text();
   if (bytes.size() < kFirstFacet) {
     throw InputError(
         fmt::format("{}: {} bytes: expected an STL file, which begins with \"solid\" or has {} bytes before "
@@ -70,16 +80,15 @@ Mesh read_binary(const std::string& path, std::string_view bytes, std::uint32_t 
   Mesh mesh;
   mesh.regions = {{1, {}}};
   mesh.points.reserve(3 * size_t{n});
-  for (size_t at = kFirstFacet; at < expected; at += kFacet) {
-    constexpr size_t kNormal = 12;
+  for (size_t facet = 0; facet < n; ++facet) {
     const auto number = [&](size_t k) {
-      const size_t byte = at + kNormal + 4 * k;
+      const size_t byte = byte_of(facet, k);
       const float value = std::bit_cast<float>(little_endian(bytes, byte));
-      if (!std::isfinite(value)) {
+      if (strays == Strays::kRefused && !std::isfinite(value)) {
         throw InputError(
             fmt::format("{}: byte {}: coordinate {}: expected a finite number", path, byte, value));
       }
-      return double{value};
+      return in.finite(double{value}, strays);
     };
     std::array<Vec3, 3> corners;
     for (size_t k = 0; k < 3; ++k) corners[k] = {number(3 * k), number(3 * k + 1), number(3 * k + 2)};
@@ -88,12 +97,13 @@ Mesh read_binary(const std::string& path, std::string_view bytes, std::uint32_t 
   return mesh;
 }
 
+/// Words in capitals or not, those of an end in one or in two ("end solid"), lines of comments.
 class TextReader {
  public:
-  explicit TextReader(TextScanner& in) : in_(in) {}
+  TextReader(TextScanner& in, Strays strays) : in_(in), strays_(strays) {}
 
   Mesh read() {
-    while (!in_.at_end()) {
+    for (in_.skip_comments(); !in_.at_end(); in_.skip_comments()) {
       expect("solid");
       const std::string name = rest_of_line();
       mesh_.regions.push_back({static_cast<int>(mesh_.regions.size()) + 1, {}});
@@ -104,9 +114,19 @@ class TextReader {
     return std::move(mesh_);
   }
 
+  /// Of each corner.
+  const std::vector<int>& lines() const { return lines_; }
+
  private:
+  std::string next_word(std::string_view what) {
+    in_.skip_comments();
+    std::string word(in_.token(what));
+    if (same_word(word, "end")) word += in_.token(what);
+    return word;
+  }
+
   void expect(std::string_view word) {
-    const std::string_view found = in_.token(fmt::format("'{}'", word));
+    const std::string found = next_word(fmt::format("'{}'", word));
     if (!same_word(found, word)) {
       in_.fail(fmt::format("expected '{}', found {}", word, TextScanner::printable(found)));
     }
@@ -120,7 +140,7 @@ class TextReader {
 
   /// False at the end of the solid.
   bool read_facet() {
-    const std::string_view word = in_.token("'facet' or 'endsolid'");
+    const std::string word = next_word("'facet' or 'endsolid'");
     if (same_word(word, "endsolid")) return false;
     if (!same_word(word, "facet")) {
       in_.fail(fmt::format("expected 'facet' or 'endsolid', found {}", TextScanner::printable(word)));
@@ -132,9 +152,8 @@ class TextReader {
     std::array<Vec3, 3> corners;
     for (Vec3& p : corners) {
       expect("vertex");
-      p.x = in_.real("a coordinate");
-      p.y = in_.real("a coordinate");
-      p.z = in_.real("a coordinate");
+      for (double* x : {&p.x, &p.y, &p.z}) *x = in_.real("a coordinate", strays_);
+      lines_.push_back(in_.line());
     }
     expect("endloop");
     expect("endfacet");
@@ -143,19 +162,27 @@ class TextReader {
   }
 
   TextScanner& in_;
+  Strays strays_;
   Mesh mesh_;
+  std::vector<int> lines_;
 };
 
 }  // namespace
 
-Mesh read_stl(const std::filesystem::path& path) {
+Mesh read_stl(const std::filesystem::path& path, ReadNotes*, Strays strays) {
   TextScanner scanner(path);
   const std::optional<std::uint32_t> n = binary_facets(scanner.text());
   const bool is_whole = n && scanner.text().size() == kFirstFacet + *n * kFacet;
   if (!is_whole) refuse_other_kinds(scanner, "STL");
-  Mesh mesh = n ? read_binary(path.string(), scanner.text(), *n) : TextReader(scanner).read();
+  TextReader text(scanner, strays);
+  Mesh mesh = n ? read_binary(scanner, path.string(), *n, strays) : text.read();
   if (mesh.triangles.empty()) throw InputError(path.string() + ": the file holds no triangles");
   rename_points(mesh, names_of_equal_points(mesh));
+  check_strays(mesh, strays, [&](int i) {
+    const auto corner = static_cast<size_t>(i);
+    return n ? fmt::format("{}: byte {}", path.string(), byte_of(corner / 3, 3 * (corner % 3)))
+             : scanner.place(static_cast<size_t>(text.lines()[corner]));
+  });
   drop_unused_points(mesh);
   return mesh;
 }

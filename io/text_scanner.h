@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/mesh_io.h"
+
 namespace delquad {
 
 /// The whole file, unpacked when it is compressed by gzip. Throws InputError.
@@ -13,7 +15,7 @@ std::string read_whole_file(const std::filesystem::path& path);
 /// where the line is that of the last token, or "file: byte N: message" once bytes were read.
 class TextScanner {
  public:
-  /// Reads the whole file, as read_whole_file().
+  /// Reads the whole file, as read_whole_file(). Without its byte order mark; UTF-16 becomes UTF-8.
   explicit TextScanner(const std::filesystem::path& path);
 
   /// Whether only white space is left.
@@ -22,11 +24,17 @@ class TextScanner {
   bool at_end_of_line();
   /// Whether the next token begins with c.
   bool next_is(char c) { return !at_end() && text_[at_] == c; }
+  /// Goes to what follows lines that begin with '#' or "//".
+  void skip_comments();
+  /// Lines that end with a backslash go on with the next one from now on.
+  void join_continued_lines();
   /// The next token; `what` names it in errors.
   std::string_view token(std::string_view what);
   long long integer(std::string_view what, long long low, long long high);
   /// A finite number.
-  double real(std::string_view what);
+  double real(std::string_view what, Strays strays = Strays::kRefused);
+  /// The same of a number that was read as bytes.
+  double finite(double value, Strays strays) const;
   /// A token as it can be shown in a message: short, printable, in quotes.
   static std::string printable(std::string_view token);
   /// The next bytes, as they are; `what` names them in errors.
@@ -40,6 +48,9 @@ class TextScanner {
   bool next_line();
 
   int line() const { return line_; }
+  /// The line, or the byte; and "file:line" or "file: byte N" of what this returned.
+  size_t position() const { return in_bytes_ ? at_ : static_cast<size_t>(line_); }
+  std::string place(size_t position) const;
   /// The whole file.
   std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }

@@ -9,15 +9,19 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "base/located.h"
 #include "delquad/error.h"
 #include "io/face_colours.h"
 #include "io/mesh_io.h"
+#include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "mesh/drop_unused_points.h"
 
-// 3D Manufacturing Format, core specification 1.3 and its materials: a ZIP archive with one model in XML.
+// 3D Manufacturing Format, core specification 1.3, its materials, and of production that objects may lie in
+// other files of the archive: a ZIP archive with models in XML.
 
 namespace delquad {
 
@@ -39,8 +43,11 @@ struct Triangle {
   std::string colour;
 };
 
+/// The file of the archive, and the object's number there.
+using ObjectId = std::pair<std::string, int>;
+
 struct Component {
-  int object;
+  ObjectId object;
   Transform transform;
 };
 
@@ -54,15 +61,88 @@ struct Object {
   double size = 1;  ///< points, triangles and objects in it, those of its components, too
 };
 
-/// What the XML says, gathered while it is read.
+struct ZipCloser {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+
+/// The files of the archive.
+class Archive {
+ public:
+  explicit Archive(std::string path) : path_(std::move(path)) {
+    int error = 0;
+    archive_.reset(zip_open(path_.c_str(), ZIP_RDONLY, &error));
+    if (archive_) return;
+    zip_error_t reason;
+    zip_error_init_with_code(&reason, error);
+    const std::string text = zip_error_strerror(&reason);
+    zip_error_fini(&reason);
+    throw InputError(path_ + ": not a readable 3MF file, which is a ZIP archive: " + text);
+  }
+
+  const std::string& path() const { return path_; }
+
+  /// Nothing where there is no such file. What the archive says of its size counts for nothing.
+  std::optional<std::string> text_of(const std::string& name) const {
+    const zip_int64_t at = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE);
+    if (at < 0) return std::nullopt;
+    const std::unique_ptr<zip_file_t, ZipCloser> file(
+        zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(at), 0));
+    if (!file) fail(name, zip_strerror(archive_.get()));
+    constexpr std::size_t kInflated = 1 << 16, kMostBytes = 1'000'000'000;
+    std::string text;
+    for (;;) {
+      const std::size_t before = text.size();
+      text.resize(before + kInflated);
+      const zip_int64_t n = zip_fread(file.get(), text.data() + before, kInflated);
+      if (n < 0) fail(name, zip_file_strerror(file.get()));
+      text.resize(before + static_cast<std::size_t>(n));
+      if (n == 0) return text;
+      if (text.size() > kMostBytes) throw InputError(path_ + ": " + name + " has more than 1 GB");
+    }
+  }
+
+  /// The first file with a model that is no part of another, where none has the usual name.
+  std::string main_model() const {
+    constexpr const char* kUsual = "3D/3dmodel.model";
+    if (zip_name_locate(archive_.get(), kUsual, ZIP_FL_NOCASE) >= 0) return kUsual;
+    for (zip_int64_t i = 0; i < zip_get_num_entries(archive_.get(), 0); ++i) {
+      const char* name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+      if (name != nullptr && std::string_view(name).ends_with(".model") &&
+          !std::string_view(name).starts_with("3D/Objects/"))
+        return name;
+    }
+    throw InputError(path_ + ": a ZIP archive without a model (3D/*.model): expected a 3MF file");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& name, const char* reason) const {
+    throw InputError(fmt::format("{}: {} cannot be unpacked: {}", path_, name, reason));
+  }
+
+  std::string path_;
+  std::unique_ptr<zip_t, ZipCloser> archive_;
+};
+
+/// What the XML of a file of the archive says, gathered while it is read; objects of other files when they
+/// are named.
 class ModelParser {
  public:
-  ModelParser(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+  using Objects = std::map<ObjectId, Object>;
+
+  ModelParser(const Archive& archive, std::string part, Objects& found, const ModelParser* main = nullptr)
+      : objects(found),
+        archive_(archive),
+        part_(std::move(part)),
+        main_(main),
+        text_(archive.text_of(part_).value_or("")) {
+    if (main_ != nullptr) unit = main_->unit;
+  }
 
   void parse() {
     constexpr std::size_t kPiece = 1 << 20;
     for (std::size_t at = 0; at < text_.size() || at == 0; at += kPiece) {
-      const std::string_view piece = text_.substr(at, kPiece);
+      const std::string_view piece = std::string_view(text_).substr(at, kPiece);
       const bool is_last = at + kPiece >= text_.size();
       const auto status =
           XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
@@ -72,7 +152,7 @@ class ModelParser {
     }
   }
 
-  std::map<int, Object> objects;
+  Objects& objects;
   std::vector<Component> build;
   std::string unit = "mm";
 
@@ -99,7 +179,8 @@ class ModelParser {
   }
 
   std::string place() const {
-    return fmt::format("{}: its model, line {}: ", file_, XML_GetCurrentLineNumber(parser_.get()));
+    const std::string part = main_ == nullptr ? "its model" : part_;
+    return fmt::format("{}: {}, line {}: ", archive_.path(), part, XML_GetCurrentLineNumber(parser_.get()));
   }
 
   void begin_guarded(const char* name, const char** list) {
@@ -110,7 +191,8 @@ class ModelParser {
       const char* colon = std::strchr(name, ':');
       begin(colon == nullptr ? name : colon + 1, attributes);
     } catch (const std::exception& error) {
-      reason_ = place() + error.what();
+      const std::string reason = error.what();
+      reason_ = reason.starts_with(archive_.path()) ? reason : place() + reason;
       XML_StopParser(parser_.get(), XML_FALSE);
     }
   }
@@ -147,13 +229,29 @@ class ModelParser {
     return transform;
   }
 
-  Component component_of(const Attributes& attributes) const {
-    if (attributes.find("p:path") != attributes.end())
-      throw InputError("objects in other files of the archive: expected all in one (the core of 3MF)");
+  Component component_of(const Attributes& attributes) {
     const int id = number<int>(text_of(attributes, "objectid"), "objectid");
-    if (objects.find(id) == objects.end())
-      throw InputError(fmt::format("objectid {}: there is no such object before it", id));
-    return {id, transform_of(attributes)};
+    const auto path =
+        std::ranges::find_if(attributes, [](const auto& a) { return a.first.ends_with(":path"); });
+    const std::string part = path == attributes.end() ? part_ : read_part(path->second);
+    if (objects.find({part, id}) == objects.end())
+      throw InputError(fmt::format("objectid {}: there is no such object {}", id,
+                                   part == part_ ? "before it" : "in " + part));
+    return {{part, id}, transform_of(attributes)};
+  }
+
+  /// Reads another file of the archive, once; returns its name.
+  std::string read_part(std::string_view path) {
+    std::string part(path.substr(path.starts_with('/') ? 1 : 0));
+    if (part == part_) return part;
+    if (main_ != nullptr)
+      throw InputError(fmt::format("an object in {}: expected objects in other files in the main model alone",
+                                   TextScanner::printable(path)));
+    if (!parts_.insert(part).second) return part;
+    if (!archive_.text_of(part))
+      throw InputError(fmt::format("there is no file {} in the archive", TextScanner::printable(path)));
+    ModelParser(archive_, part, objects, this).parse();
+    return part;
   }
 
   void begin(std::string_view name, const Attributes& attributes) {
@@ -188,6 +286,9 @@ class ModelParser {
     const auto at = kUnits.find(given->second);
     if (at == kUnits.end())
       throw InputError(fmt::format("unknown unit {}", TextScanner::printable(given->second)));
+    if (main_ != nullptr && unit != at->second)
+      throw InputError(fmt::format("lengths in {}, but those of the main model are in {}: expected one unit",
+                                   at->second, unit));
     unit = at->second;
   }
 
@@ -210,7 +311,7 @@ class ModelParser {
 
   void begin_object(const Attributes& attributes) {
     const int id = number<int>(text_of(attributes, "id"), "id");
-    const auto [at, is_new] = objects.try_emplace(id);
+    const auto [at, is_new] = objects.try_emplace({part_, id});
     if (!is_new) throw InputError(fmt::format("a second object {}", id));
     object_ = &at->second;
     if (const auto name = attributes.find("name"); name != attributes.end()) object_->name = name->second;
@@ -244,8 +345,11 @@ class ModelParser {
     object_->size += objects.at(component.object).size;
   }
 
-  std::string file_, reason_;
-  std::string_view text_;
+  const Archive& archive_;
+  std::string part_;         ///< the file of the archive
+  const ModelParser* main_;  ///< that names this one; null: it is the main model itself
+  std::string text_, reason_;
+  std::set<std::string> parts_;  ///< that were read
   Parser parser_ = make_parser();
   Object* object_ = nullptr;
   std::map<int, std::vector<std::string>> palettes_;
@@ -276,6 +380,7 @@ class Assembly {
         throw InputError("an object is placed where coordinates are not finite");
       mesh.points.push_back(p);
     }
+    if (!object.points.empty()) first_points_[first] = component.object;
     const bool turns = std::ranges::count_if(transforms, &Transform::mirrors) % 2 != 0;
     for (const Triangle& t : object.triangles) {
       const auto [a, b, c] = t.v;
@@ -285,61 +390,23 @@ class Assembly {
     for (const Component& inner : object.components) add(inner, transforms, own);
   }
 
+  /// "object 3, vertex 7": where the model has a point of the mesh.
+  std::string place(int point) const {
+    const auto at = std::prev(first_points_.upper_bound(point));
+    return fmt::format("{}, object {}, vertex {}", at->second.first, at->second.second, point - at->first);
+  }
+
  private:
   const ModelParser& model_;
+  std::map<int, ObjectId> first_points_;  ///< of the objects that were placed
 };
-
-struct ZipCloser {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-
-/// What the archive says of the size counts for nothing.
-std::string all_of(zip_file_t& file, const std::string& path) {
-  constexpr std::size_t kInflated = 1 << 16, kMostBytes = 1'000'000'000;
-  std::string text;
-  for (;;) {
-    const std::size_t before = text.size();
-    text.resize(before + kInflated);
-    const zip_int64_t n = zip_fread(&file, text.data() + before, kInflated);
-    if (n < 0) throw InputError(path + ": its model cannot be unpacked: " + zip_file_strerror(&file));
-    text.resize(before + static_cast<std::size_t>(n));
-    if (n == 0) return text;
-    if (text.size() > kMostBytes) throw InputError(path + ": its model has more than 1 GB");
-  }
-}
-
-/// The model among the files of the archive.
-std::string model_text(const std::string& path) {
-  int error = 0;
-  const std::unique_ptr<zip_t, ZipCloser> archive(zip_open(path.c_str(), ZIP_RDONLY, &error));
-  if (!archive) {
-    zip_error_t reason;
-    zip_error_init_with_code(&reason, error);
-    const std::string text = zip_error_strerror(&reason);
-    zip_error_fini(&reason);
-    throw InputError(path + ": not a readable 3MF file, which is a ZIP archive: " + text);
-  }
-  for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
-    zip_stat_t about;
-    zip_stat_index(archive.get(), static_cast<zip_uint64_t>(i), 0, &about);
-    if ((about.valid & ZIP_STAT_NAME) == 0 || !std::string_view(about.name).ends_with(".model")) continue;
-    if (std::string_view(about.name).starts_with("3D/Objects/")) continue;
-    const std::unique_ptr<zip_file_t, ZipCloser> file(
-        zip_fopen_index(archive.get(), static_cast<zip_uint64_t>(i), 0));
-    if (!file)
-      throw InputError(
-          fmt::format("{}: its model cannot be unpacked: {}", path, zip_strerror(archive.get())));
-    return all_of(*file, path);
-  }
-  throw InputError(path + ": a ZIP archive without a model (3D/*.model): expected a 3MF file");
-}
 
 }  // namespace
 
-Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes) {
-  const std::string text = model_text(path.string());
-  ModelParser model(path.string(), text);
+Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
+  const Archive archive(path.string());
+  ModelParser::Objects objects;
+  ModelParser model(archive, archive.main_model(), objects);
   model.parse();
   double size = 0;
   for (const Component& item : model.build) size += model.objects.at(item.object).size;
@@ -350,6 +417,7 @@ Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes) {
   for (const Component& item : model.build) located(path.string(), [&] { assembly.add(item, {}, ""); });
   Mesh mesh = std::move(assembly.mesh);
   if (mesh.triangles.empty()) throw InputError(path.string() + ": the file's build holds no triangles");
+  check_strays(mesh, strays, [&](int i) { return path.string() + ": " + assembly.place(i); });
   assembly.colours.finish(mesh, notes);
   mesh.unit = model.unit;
   drop_unused_points(mesh);

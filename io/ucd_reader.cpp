@@ -19,13 +19,19 @@ class UcdReader {
   Mesh read() {
     skip_comments();
     const long long n_points = count("the number of nodes"), n_cells = count("the number of cells");
+    long long n_values = 0;
     for (const char* what : {"nodes", "cells", "the model"})
-      in_.integer(fmt::format("the number of values of {}", what), 0, INT_MAX);
+      n_values += in_.integer(fmt::format("the number of values of {}", what), 0, INT_MAX);
     for (long long i = 0; i < n_points; ++i) node();
     for (long long i = 0; i < n_cells; ++i) cell();
-    // Values follow, which are no part of the mesh.
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
       in_.fail("the file holds no lines, triangles or quads");
+    // Values follow, where they are announced, which are no part of the mesh.
+    skip_comments();
+    if (n_values == 0 && !in_.at_end())
+      in_.fail(fmt::format(
+          "expected the end of the file after {} nodes and {} cells, as the header says, found {}", n_points,
+          n_cells, TextScanner::printable(in_.token("the end"))));
     drop_unused_points(mesh_);
     return std::move(mesh_);
   }

@@ -271,6 +271,11 @@ class VtuReader {
     }
   }
 
+  void check_number(const Tree& piece, const std::string& name, size_t n) const {
+    const auto announced = piece.get_optional<size_t>("<xmlattr>." + name);
+    if (announced && *announced != n) fail(fmt::format("{} is {}, but there are {}", name, *announced, n));
+  }
+
   void read_piece(const Tree& piece) {
     const Tree* coordinates = array_named(child(piece, "Points"), "");
     if (!coordinates) fail("expected an array of points");
@@ -282,12 +287,14 @@ class VtuReader {
       mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
     }
     const size_t n_points = mesh_.points.size() - first;
+    check_number(piece, "NumberOfPoints", n_points);
     const Tree& cells = child(piece, "Cells");
     const std::vector<double> corners = read_array(needed_array(cells, "connectivity")),
                               offsets = read_array(needed_array(cells, "offsets")),
                               types = read_array(needed_array(cells, "types"));
     if (types.size() != offsets.size())
       fail(fmt::format("{} types of cells and {} offsets", types.size(), offsets.size()));
+    check_number(piece, "NumberOfCells", types.size());
     const std::vector<double> curve = tags(piece, "curve", types.size()),
                               region = tags(piece, "region", types.size());
     std::vector<double> field;

@@ -13,8 +13,10 @@
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
 #include "geometry/surface/mirror.h"
+#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangulated_model.h"
 #include "mesh/split_polygon.h"
+#include "mesh/stray_points.h"
 
 namespace delquad {
 namespace {
@@ -91,12 +93,38 @@ void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
   mesh.unit = spec.unit;
 }
 
-SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
+/// Takes the elements at stray points out; says which, nothing where there are none.
+std::string leave_out_strays(Mesh& mesh) {
+  const std::vector<StrayPoint> strays = stray_points(mesh);
+  if (strays.empty()) return "";
+  std::vector<char> is_stray(mesh.points.size(), 0);
+  for (const StrayPoint& stray : strays) is_stray[stray.point] = 1;
+  const auto keep = [&](auto& elements, std::vector<int>& entity_of) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (std::ranges::any_of(elements[i], [&](int v) { return is_stray[v] != 0; })) continue;
+      elements[kept] = elements[i];
+      entity_of[kept++] = entity_of[i];
+    }
+    const std::size_t gone = elements.size() - kept;
+    elements.resize(kept);
+    entity_of.resize(kept);
+    return gone;
+  };
+  const std::string why = describe(strays[0], mesh);
+  keep(mesh.lines, mesh.line_curve);
+  const std::size_t gone = keep(mesh.triangles, mesh.triangle_region) + keep(mesh.quads, mesh.quad_region);
+  return fmt::format("{} {} missing: {}", counted(static_cast<long long>(gone), "element"),
+                     gone == 1 ? "is" : "are", why);
+}
+
+SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model, bool keep_going,
                           const std::vector<FeatureBall>& kept_features) {
   if (spec.glue)
     throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
+  const std::string missing = keep_going ? leave_out_strays(triangles) : "";
   convert(model.source, spec, triangles);
   std::vector<LooseLine> points;
   for (const NamedPoint& named : triangles.named_points)
@@ -116,6 +144,11 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model,
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
   SurfaceModel surface = make_compounds(spec, make_surface_model(std::move(triangles), options));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
+  if (!missing.empty()) {
+    auto& faces = surface.fine.regions;
+    surface.left_out.push_back({static_cast<int>(faces.size()), source + ": " + missing});
+    faces.push_back({std::ranges::max_element(faces, {}, &Entity::tag)->tag + 1, {}});
+  }
   surface.fine.unit = unit;
   surface.loose.insert(surface.loose.end(), points.begin(), points.end());
   return surface;
@@ -169,8 +202,9 @@ bool holds_surface(const Mesh& mesh) {
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);
-    SurfaceModel model = triangles != nullptr ? make_surface(problem.surface, *triangles, kept_features)
-                                              : make_from_cad(problem);
+    SurfaceModel model = triangles != nullptr
+                             ? make_surface(problem.surface, *triangles, problem.keep_going, kept_features)
+                             : make_from_cad(problem);
     for (const EmbeddedLine& line : problem.surface.embed)
       model.loose.push_back(loose_line(line, problem.surface.where));
     return model;

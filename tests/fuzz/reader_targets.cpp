@@ -52,6 +52,7 @@ bool try_3mf(std::string_view bytes) {
 Mesh obj(const std::filesystem::path& path) { return read_obj(path); }
 Mesh off(const std::filesystem::path& path) { return read_off(path); }
 Mesh ply(const std::filesystem::path& path) { return read_ply(path); }
+Mesh stl(const std::filesystem::path& path) { return read_stl(path); }
 
 }  // namespace
 
@@ -59,7 +60,7 @@ std::vector<Target> reader_targets() {
   return {{"msh", try_reader<msh>, msh_seeds},
           {"obj", try_reader<obj>, obj_seeds},
           {"off", try_reader<off>, off_seeds},
-          {"stl", try_reader<read_stl>, stl_seeds},
+          {"stl", try_reader<stl>, stl_seeds},
           {"ply", try_reader<ply>, ply_seeds},
           {"3mf", try_3mf, three_mf_seeds},
           {"vtu", try_reader<read_vtu>, vtu_seeds},

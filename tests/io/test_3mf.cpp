@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <zip.h>
 
+#include <map>
 #include <random>
 
 #include "io/mesh_io.h"
@@ -27,10 +28,15 @@ std::string model(const std::string& inside, const std::string& unit = "inch") {
 class ThreeMf : public testing::Test {
  protected:
   std::filesystem::path write(const std::string& text, const char* name = "3D/3dmodel.model") {
+    return write({{name, text}});
+  }
+  std::filesystem::path write(const std::map<std::string, std::string>& files) {
     const std::filesystem::path path = folder_ / "case.3mf";
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
-    zip_source_t* source = zip_source_buffer(archive, text.data(), text.size(), 0);
-    EXPECT_GE(zip_file_add(archive, name, source, ZIP_FL_OVERWRITE), 0);
+    for (const auto& [name, text] : files) {
+      zip_source_t* source = zip_source_buffer(archive, text.data(), text.size(), 0);
+      EXPECT_GE(zip_file_add(archive, name.c_str(), source, ZIP_FL_OVERWRITE), 0);
+    }
     EXPECT_EQ(zip_close(archive), 0);
     return path;
   }
@@ -65,6 +71,48 @@ TEST_F(ThreeMf, ReadsObjectsWherePlaced) {
   EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"tip"});
   EXPECT_EQ(mesh.regions[1].names, (std::vector<std::string>{"tip", "colour #ff8000"}));
   EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 0, 1, 0, 0, 0, 1, 0}));
+}
+
+/// The production extension: the build and components name objects of other files, with the same numbers.
+TEST_F(ThreeMf, ObjectsMayLieInOtherFiles) {
+  const auto part = [&](const char* name, const char* unit = "inch") {
+    return model(
+        "<resources><object id=\"1\" name=\"" + std::string(name) + "\">" + kTetrahedron +
+            "</object><object id=\"2\"><components><component objectid=\"1\" transform=\"1 0 0 0 1 0 0 "
+            "0 1 0 0 5\"/></components></object></resources><build/>",
+        unit);
+  };
+  const std::string main = model(
+      "<resources><object id=\"1\"><components><component p:path=\"/3D/b.model\" objectid=\"1\" "
+      "transform=\"1 0 0 "
+      "0 1 0 0 0 1 10 0 0\"/></components></object></resources><build><item objectid=\"1\" transform=\"2 0 0 "
+      "0 2 0 "
+      "0 0 2 0 0 0\"/><item q:path=\"/3D/Objects/A.model\" objectid=\"2\"/></build>");
+  const std::string main_name = "3D/3dmodel.model";
+  const Mesh mesh =
+      read_mesh(write({{main_name, main}, {"3D/b.model", part("b")}, {"3D/objects/a.model", part("a")}}));
+  ASSERT_EQ(mesh.points.size(), 8u);
+  EXPECT_EQ(mesh.points[0], (Vec3{20, 0, 0}));
+  EXPECT_EQ(mesh.points[3], (Vec3{20, 0, 2}));
+  EXPECT_EQ(mesh.points[7], (Vec3{0, 0, 6}));
+  ASSERT_EQ(mesh.regions.size(), 2u);
+  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"b"});
+  EXPECT_EQ(mesh.regions[1].names, std::vector<std::string>{"a"});
+
+  const auto refuse = [&](const std::map<std::string, std::string>& files,
+                          std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read_mesh(write(files)); }, parts);
+  };
+  refuse({{main_name, main}, {"3D/b.model", part("b")}},
+         {"its model, line 3", "no file '/3D/Objects/A.model'"});
+  refuse({{main_name, main}, {"3D/b.model", model("<build/>")}},
+         {"its model", "objectid 1", "in 3D/b.model"});
+  refuse({{main_name, main}, {"3D/b.model", part("b", "foot")}},
+         {"3D/b.model, line 2: ", "in ft", "one unit"});
+  refuse({{main_name, main},
+          {"3D/b.model", model("<build><item p:path=\"/3D/c.model\" objectid=\"1\"/></build>")}},
+         {"3D/b.model, line 3: ", "main model alone"});
+  refuse({{main_name, main}, {"3D/b.model", model("<mesh>")}}, {"3D/b.model, line ", "mismatched"});
 }
 
 TEST_F(ThreeMf, NamesThePlaceOfWhatIsWrong) {

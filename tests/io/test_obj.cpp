@@ -29,12 +29,30 @@ TEST_F(Obj, ReadsWhatProgramsWrite) {
   EXPECT_TRUE(mesh.curves[0].names.empty());
 }
 
+TEST_F(Obj, ReadsPointsOfThePlane) {
+  const Mesh mesh = read("v 0 0\nv 2 0 # with a comment\nv 2 1\nv 0 1\nf 1 2 3 4 # and here\n");
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.quads.size(), 1u);
+}
+
+TEST_F(Obj, LinesGoOnBehindABackslash) {
+  const Mesh mesh = read(
+      "# no more: \\\nv 0 0 \\\n 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 \\\r\n 2\\\n 3 4\ng a \\\n b\nf 1 2 "
+      "3\n");
+  EXPECT_EQ(mesh.points.size(), 4u);
+  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.regions[1].names, (std::vector<std::string>{"a", "b"}));
+  expect_input_error([&] { read("v 0 0 0\nv 1 0 0\nf 1 \\\n 2 \\\n 9\n"); }, {"case.obj:5: ", "'9'"});
+}
+
 TEST_F(Obj, NamesTheLineOfWhatIsWrong) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   const auto expect_error = [&](const std::string& text, std::initializer_list<const char*> parts) {
     expect_input_error([&] { read(text); }, parts);
   };
-  expect_error("v 0 0\nv 1 0 0\n", {"case.obj:1: ", "three coordinates"});
+  expect_error("v 0 0\nv 1 0 0\n", {"case.obj:2: ", "expected two coordinates"});
+  expect_error("v 0 0 0\nv 1 0\n", {"case.obj:2: ", "expected three coordinates"});
+  expect_error("v 0\n", {"case.obj:1: ", "coordinates"});
   expect_error("v 0 x 0\n", {"case.obj:1: ", "'x'"});
   expect_error("v 0 inf 0\n", {"case.obj:1: ", "finite"});
   expect_error(points + "f 1 2 4\n", {"case.obj:4: ", "from 1 to 3", "'4'"});

@@ -57,7 +57,12 @@ TEST_F(Off, NamesTheLineOfWhatIsWrong) {
   expect_error(points + "3 0 -1 2\n", {"case.off:6: ", "'-1'"});
   expect_error(points + "5 0 1 2 0 1\n", {"case.off:6: ", "face of 5 vertices", "triangle"});
   expect_error(points + "2 0 1    \n", {"case.off:6: ", "face of 2 vertices"});
-  expect_error(points + "3 0 1 2\n3 0 1 2\n", {"case.off:7: ", "end of the file after 1 faces"});
+  expect_error(points + "3 0 1 2\n3 0 1 2\n",
+               {"case.off:7: ", "end of the file after 3 vertices and 1 faces"});
+  expect_error("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n# end\n",
+               {"3 vertices and 2 faces", "but 1 faces"});
+  expect_error("OFF\n2 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {"case.off:5: ", "number of vertices", "(2)"});
+  expect_error("OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {"case.off:2: ", "4 vertices and 1 faces"});
   expect_error("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", {"case.off:", "no faces"});
 }
 

@@ -113,7 +113,16 @@ TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {
   expect_error(with("1 1 0", "1 nan 0"), {"case.ply:13: ", "finite", "'nan'"});
   expect_error(with("3 0 2 3", "3 0 2 4"), {"case.ply:16: ", "from 0 to 3", "found 4"});
   expect_error(with("3 0 2 3", "9000 0 2 3"), {"case.ply:16: ", "9000"});
-  expect_error(with("element face 2", "element face 0"), {"no faces"});
+  expect_error(with("element face 2", "element face 0"), {"'face': 0", "16 bytes follow"});
+  expect_error(with("element face 2", "element face 1"), {"case.ply:16: ", "'face': 1", "8 bytes follow"});
+  expect_error(with("element face 2", "element face 3"), {"case.ply:17: ", "3 elements 'face'", "2 follow"});
+  expect_error(with("element vertex 4", "element vertex 3"),
+               {"case.ply:14: ", "element 1 of 2 'face'", "'vertex': 3"});
+  expect_error(with("element vertex 4", "element vertex 5"),
+               {"case.ply:15: ", "element 5 of 5 'vertex'", "'vertex': 5"});
+  expect_error(binary(false) + std::string("\3\0", 2), {"'face': 2", "2 bytes follow"});
+  EXPECT_TRUE(reads(binary(true) + std::string("\n\0\0", 3)));
+  EXPECT_TRUE(reads(with("1 0 0\n", "# a corner\n1 0 0 # here\n") + "# the end\n"));
   expect_error(with("vertex_indices", "corners"), {"case.ply:15: ", "face of 0 vertices"});
 }
 

@@ -82,6 +82,66 @@ TEST_F(Stl, KeywordsInAnyCaseWithoutANameAndWithNegativeZeros) {
   EXPECT_TRUE(mesh.regions[0].names.empty());
 }
 
+TEST_F(Stl, EndsInTwoWordsCommentsAndByteOrderMarks) {
+  const std::string text =
+      "# by hand\nsolid a # b\n// a facet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 # first\nvertex 1 0 "
+      "0\n"
+      "vertex 0 1 0\nend loop\nEnd Facet\nend solid a\nsolid\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\n"
+      "vertex 1 1 0\nvertex 0 1 0\nendloop\nend facet\nend solid";
+  std::string wide = "\xff\xfe", wide_big = "\xfe\xff";
+  for (const char c : text) {
+    wide += {c, '\0'};
+    wide_big += {'\0', c};
+  }
+  for (const std::string& content : {text, "\xef\xbb\xbf" + text, wide, wide_big}) {
+    const Mesh mesh = read(content);
+    EXPECT_EQ(mesh.points.size(), 4u);
+    EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 1}));
+  }
+  expect_error("solid a\nend facet\n", {"case.stl:2: ", "'endsolid'", "'endfacet'"});
+}
+
+TEST_F(Stl, NamesInOtherEncodingsBecomeUtf8) {
+  const auto name = [&](const std::string& bytes) {
+    return read(text_file(kStlTetrahedron, bytes)).regions.at(0).names.at(0);
+  };
+  EXPECT_EQ(name("Stra\xc3\x9f"
+                 "e"),
+            "Stra\xc3\x9f"
+            "e");
+  EXPECT_EQ(name("Stra\xdf"
+                 "e"),
+            "Stra\xc3\x9f"
+            "e")
+      << "Latin-1";
+  EXPECT_EQ(name("\xc0\xaf\xed\xa0\x80"), "\xc3\x80\xc2\xaf\xc3\xad\xc2\xa0\xc2\x80")
+      << "no UTF-8: overlong, a surrogate";
+}
+
+TEST_F(Stl, PointsThatDwarfTheRestAreRefused) {
+  for (const float far : {1e30f, -3e38f, 6e4f}) {
+    auto facets = kStlTetrahedron;
+    facets.push_back({{{1, 0, 0}, {0, 1, 0}, {0, far, 1}}});
+    facets.push_back({{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    expect_error(text_file(facets), {"case.stl:34: the point (0, ", "times as far out as the others"});
+    expect_error(binary_file(facets), {"case.stl: byte 320: ", "times as far out"});
+    const Mesh kept = read_mesh(folder_ / "case.stl", nullptr, Strays::kKept);
+    EXPECT_EQ(kept.triangles.size(), 6u);
+  }
+  auto facets = kStlTetrahedron;
+  facets.push_back({{{1, 0, 0}, {0, 1, 0}, {0, 5e3f, 1}}});
+  facets.push_back({{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+  EXPECT_TRUE(reads(binary_file(facets))) << "a spike";
+  for (const char* bad : {"nan", "-inf", "1e999"}) {
+    const std::string text =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 " + std::string(bad) +
+        " 0\nendloop\nendfacet\nendsolid a\n";
+    expect_error(text, {"case.stl:6: ", "finite", bad});
+    for (const Vec3& p : read_mesh(folder_ / "case.stl", nullptr, Strays::kKept).points)
+      EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+  }
+}
+
 TEST_F(Stl, EachSolidOfATextIsARegion) {
   const Mesh mesh =
       read(text_file({kStlTetrahedron[0]}, "left wing") + text_file({kStlTetrahedron[3]}, "right"));

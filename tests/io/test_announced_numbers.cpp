@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+/// Where a written file has a number of things that follow: behind which text.
+struct Announced {
+  const char *extension, *before;
+};
+
+std::string changed(const std::string& text, const std::string& before, int by) {
+  const std::size_t at = text.find(before);
+  EXPECT_NE(at, std::string::npos) << before;
+  std::size_t length = 0;
+  const std::size_t begin = at + before.size();
+  const int n = std::stoi(text.substr(begin), &length);
+  return text.substr(0, begin) + std::to_string(n + by) + text.substr(begin + length);
+}
+
+/// What a header says must be there, and no more: else a reader would leave out what follows, or take one
+/// thing for another.
+TEST(AnnouncedNumbers, MustBeThoseThatFollow) {
+  const testing_support::TemporaryFolder folder;
+  const Mesh mesh = testing_support::quad_grid(3, 2);
+  for (const Announced& in : {Announced{".mesh", "Vertices\n"}, Announced{".mesh", "Quadrilaterals\n"},
+                              Announced{".mesh", "Edges\n"}, Announced{".vtu", "NumberOfPoints=\""},
+                              Announced{".vtu", "NumberOfCells=\""}, Announced{".mfem", "elements\n"},
+                              Announced{".mfem", "boundary\n"}, Announced{".mfem", "vertices\n"},
+                              Announced{".msh", "$Nodes\n"}, Announced{".msh", "$Elements\n"}}) {
+    const std::string name = std::string("case") + in.extension;
+    SCOPED_TRACE(name + " " + in.before);
+    const std::filesystem::path path = folder / name;
+    write_mesh(path, mesh);
+    const std::string text = testing_support::read_text(path);
+    EXPECT_EQ(read_mesh(path).quads.size(), mesh.quads.size());
+    for (const int by : {-1, 1})
+      expect_input_error([&] { read_mesh(testing_support::write_text(path, changed(text, in.before, by))); },
+                         {name.c_str()});
+  }
+}
+
+TEST(AnnouncedNumbers, CellsOfUcdToo) {
+  const testing_support::TemporaryFolder folder;
+  const std::string nodes = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n", cell = "1 1 quad 1 2 3 4\n";
+  const auto read = [&](const std::string& text) {
+    return read_mesh(testing_support::write_text(folder / "case.ucd", text));
+  };
+  EXPECT_EQ(read(nodes + cell).quads.size(), 1u);
+  expect_input_error([&] { read(nodes + cell + "2 1 tri 1 2 3\n"); },
+                     {"case.ucd:7: ", "4 nodes and 1 cells", "'2'"});
+  for (const char* header : {"3", "5"})
+    expect_input_error([&] { read(header + nodes.substr(1) + cell); }, {"case.ucd:"});
+  std::string with_values = nodes + cell + "1 1\nstress, Pa\n1 2.5\n";
+  with_values[4] = '1';
+  EXPECT_EQ(read(with_values).quads.size(), 1u);
+}
+
+}  // namespace
+}  // namespace delquad
