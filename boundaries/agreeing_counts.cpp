@@ -129,7 +129,7 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
 }  // namespace
 
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::set<int>& kept,
+                     const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
                      std::vector<int>& counts) {
   std::vector<int> leader(curves.chains.size());
   std::iota(leader.begin(), leader.end(), 0);
@@ -162,7 +162,7 @@ void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveD
   for (AgreeingCurve& curve : agreeing)
     for (const int p : curve.patches)
       if (!closes[p]) curve.weight += kDeviation * kRowsThatFollow + kIrregularPerFreeEdge * price;
-  agree_counts(agreeing, static_cast<int>(curves.maps.size()), sums, counts);
+  agree_counts(agreeing, static_cast<int>(curves.maps.size()), sums, steps, counts);
 }
 
 }  // namespace delquad

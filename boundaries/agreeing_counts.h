@@ -18,7 +18,7 @@ std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDem
 /// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
 /// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::set<int>& kept,
+                     const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
                      std::vector<int>& counts);
 
 }  // namespace delquad

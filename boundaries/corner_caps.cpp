@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/box_tree.h"
 #include "mesh/quad_corners.h"
 
 namespace delquad {
@@ -91,16 +92,24 @@ class CornerCap {
     std::vector<Vec2> outline{loop_[tip_].point};
     for (size_t i = 1; i <= k; ++i) outline.push_back(after(i).point);
     for (size_t i = k; i > 0; --i) outline.push_back(before(i).point);
+    std::vector<Box<Vec2>> boxes;
+    for (size_t i = 0; i < outline.size(); ++i)
+      boxes.push_back(Box<Vec2>::around({outline[i], outline[(i + 1) % outline.size()]}));
+    const BoxTree<Vec2> tree(boxes);
     const auto is_inside = [&](const LoopPoint& p) {
       const Vec2 x = p.point;
-      if (std::ranges::find(outline, x) != outline.end()) return false;
-      bool inside = false;
-      for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-        const Vec2 a = outline[i], b = outline[j];
+      bool inside = false, is_corner = false;
+      // Sides at the height of x, and to its right.
+      const auto gap = [&](const BoxTree<Vec2>::Node& node) {
+        return node.box.low.y <= x.y && x.y <= node.box.high.y && x.x <= node.box.high.x ? 0 : 1;
+      };
+      tree.search(0.0, gap, [&](int i) {
+        const Vec2 a = outline[(static_cast<size_t>(i) + 1) % outline.size()], b = outline[i];
+        is_corner = is_corner || x == a || x == b;
         if ((a.y > x.y) != (b.y > x.y) && x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x))
           inside = !inside;
-      }
-      return inside;
+      });
+      return inside && !is_corner;
     };
     return std::ranges::any_of(loops_,
                                [&](const BoundaryLoop& l) { return std::ranges::any_of(l, is_inside); });

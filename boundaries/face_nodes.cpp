@@ -19,18 +19,21 @@ constexpr double kLeastPull = 0.3, kMostPull = 200;
 /// No edge gets shorter than this part of what it was.
 constexpr double kShortest = 0.4;
 constexpr double kDone = 1e-3;
+/// To look across a patch from a node takes as long as so many steps of agree_counts().
+constexpr long long kStepsPerLook = 10;
 
 class Facing {
  public:
   Facing(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
          const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-         const std::vector<int>& group, const SizeOnLine& size)
+         const std::vector<int>& group, const SizeOnLine& size, Budget& steps)
       : fine_(fine),
         chains_(chains),
         across_(across),
         integrals_(integrals),
         group_(group),
         size_(size),
+        steps_(steps),
         places_(equal_places(counts)) {
     sees_.resize(places_.size());
     for (size_t c = 0; c < places_.size(); ++c) sees_[c].resize(places_[c].size());
@@ -38,7 +41,7 @@ class Facing {
   }
 
   CurvePlaces run() {
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kSweeps && !steps_.is_spent(); ++sweep) {
       look_all();
       if (sweep == 0) keep_narrow();
       if (relax() < kDone) break;
@@ -66,6 +69,8 @@ class Facing {
   }
 
   void look_all() {
+    for (size_t c = 0; c < places_.size(); ++c)
+      if (live_[c]) steps_.spend(kStepsPerLook * static_cast<long long>(places_[c].size()));
     parallel_for(
         places_.size(),
         [&](size_t c) {
@@ -157,6 +162,7 @@ class Facing {
   const std::vector<SizeIntegral>& integrals_;
   const std::vector<int>& group_;
   const SizeOnLine& size_;
+  Budget& steps_;
   CurvePlaces places_;
   std::vector<std::vector<std::vector<Seen>>> sees_;
   std::vector<char> live_;
@@ -166,8 +172,8 @@ class Facing {
 
 CurvePlaces face_nodes(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
                        const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-                       const std::vector<int>& group, const SizeOnLine& size) {
-  return Facing(fine, chains, across, integrals, counts, group, size).run();
+                       const std::vector<int>& group, const SizeOnLine& size, Budget& steps) {
+  return Facing(fine, chains, across, integrals, counts, group, size, steps).run();
 }
 
 }  // namespace delquad

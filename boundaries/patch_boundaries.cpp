@@ -70,7 +70,7 @@ std::vector<int> curves_at_fault(const PatchBoundary& boundary, const std::vecto
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
-                                 const MappedSpec& spec, const Agreement& agreement,
+                                 const MappedSpec& spec, const Agreement& agreement, Budget& steps,
                                  std::vector<MappedFace>& mapped) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
@@ -81,11 +81,11 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
     std::set<int> kept = agreement.kept;
     for (const MappedFace& face : mapped)
       for (const auto& side : face.sides) kept.insert(side.begin(), side.end());
-    agree_on_counts(model.fine, curves, wanted, size, agreement.price, kept, placed.counts);
+    agree_on_counts(model.fine, curves, wanted, size, agreement.price, kept, steps, placed.counts);
   }
   for (const ChainPair& pair : curves.images.pairs) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
-                                  wanted.group, size_on_lines(size));
+                                  wanted.group, size_on_lines(size), steps);
   for (std::size_t c = 0; c < wanted.divided.size(); ++c)
     for (std::size_t k = 0; k < wanted.divided[c].size(); ++k)
       places[c][k] = placed.counts[c] * wanted.integrals[c].part_at(wanted.divided[c][k]);

@@ -3,6 +3,7 @@
 #include <set>
 #include <vector>
 
+#include "base/budget.h"
 #include "boundaries/surface_curves.h"
 #include "boundaries/surface_grids.h"
 #include "matching/matching.h"
@@ -28,11 +29,12 @@ struct Agreement {
   std::set<int> kept = {};  ///< chains that have the numbers that their sizes ask for
 };
 
-/// `mapped`: the patches that are to be grids, as `spec` asks; see grid_counts().
+/// `steps`: what agreement and the search for nodes that face each other may take. `mapped`: the patches that
+/// are to be grids, as `spec` asks; see grid_counts().
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
-                                 const MappedSpec& spec, const Agreement& agreement,
+                                 const MappedSpec& spec, const Agreement& agreement, Budget& steps,
                                  std::vector<MappedFace>& mapped);
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -22,6 +23,12 @@ namespace {
 
 /// So many times curves are refined to keep boundary polygons from crossing.
 constexpr int kRefinements = 8;
+/// And no more once all curves have so many edges, which takes a second for each time.
+constexpr long long kMostEdges = 1'000'000;
+/// So many times curves that keep boundaries from enclosing quads leave agreement.
+constexpr int kMostKept = 10;
+/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
+constexpr long long kMostSteps = 200'000'000;
 
 /// The curves that keep boundaries from enclosing quads do not take part in agreement, then get more edges,
 /// until there are none.
@@ -31,11 +38,12 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
                                        const MappedSpec& spec, double price,
                                        std::vector<MappedFace>& mapped) {
   Agreement agreement{price};
-  for (int attempt = 0;;) {
+  Budget steps(kMostSteps);
+  for (int attempt = 0, kept = 0;;) {
     PatchBoundaries placed =
-        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, mapped);
+        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, steps, mapped);
     const std::size_t n_kept = agreement.kept.size();
-    if (price > 0)
+    if (price > 0 && kept++ < kMostKept)
       for (const std::vector<int>& at_fault : placed.at_fault)
         agreement.kept.insert(at_fault.begin(), at_fault.end());
     if (agreement.kept.size() > n_kept) continue;
@@ -48,7 +56,8 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
           std::ranges::any_of(placed.at_fault[p], [&](int c) { return wanted.demands[c].exact == 0; });
     }
     if (crossing == nullptr) return placed;
-    if (attempt++ == kRefinements || !can_change)
+    const long long edges = std::accumulate(placed.counts.begin(), placed.counts.end(), 0LL);
+    if (attempt++ == kRefinements || !can_change || (attempt > 1 && edges > kMostEdges))
       throw FaceError(crossing->face, fmt::format("{}: its boundary crosses itself in the parameter plane {}",
                                                   face_name(model.fine, *crossing),
                                                   can_change ? "however fine its curves are"

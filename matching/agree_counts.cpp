@@ -31,9 +31,10 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Agreement {
  public:
   Agreement(const std::vector<AgreeingCurve>& curves, int n_patches, const std::vector<ClosureSum>& sums,
-            std::vector<int>& counts)
+            Budget& steps, std::vector<int>& counts)
       : curves_(curves),
         sums_(sums),
+        steps_(steps),
         counts_(counts),
         outside_(n_patches),
         in_sums_(curves.size()),
@@ -62,6 +63,7 @@ class Agreement {
       bool better = false;
       for (std::size_t s = 0; s < sums_.size(); ++s) {
         check_cancelled();
+        if (steps_.is_spent()) return;
         if (values_[s] == 0) continue;
         if (sums_[s].price_of_pair > 0) better |= close(static_cast<int>(s));
         better |= make(approach(static_cast<int>(s)).changes);
@@ -154,11 +156,12 @@ class Agreement {
     double least = kNever;
     int last = -1;
     if (to == kAnywhere) least = cost_at(from, first, {}), last = 0;
-    for (int done = 0; !queue.empty() && done < kMostSteps; ++done) {
+    for (int done = 0; !queue.empty() && done < kMostSteps && !steps_.is_spent(); ++done) {
       const auto [cost, s] = queue.top();
       queue.pop();
       const Step at = steps[s];
       if (cost > best_[label(at)] || at.length >= kMostCurves) continue;
+      steps_.spend(static_cast<long long>(at_patch_[at.patch].size()));
       for (const int b : at_patch_[at.patch])
         for (const int by : {-std::abs(first.by), std::abs(first.by)}) {
           if (b == first.curve || curves_[b].patches.size() > 2) continue;
@@ -275,6 +278,7 @@ class Agreement {
 
   const std::vector<AgreeingCurve>& curves_;
   const std::vector<ClosureSum>& sums_;
+  Budget& steps_;
   std::vector<int>& counts_;
   int outside_;
   std::vector<std::vector<std::pair<int, int>>> in_sums_;  ///< of each curve: sums, and how often
@@ -288,8 +292,8 @@ class Agreement {
 }  // namespace
 
 void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
-                  const std::vector<ClosureSum>& sums, std::vector<int>& counts) {
-  Agreement(curves, n_patches, sums, counts).run();
+                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts) {
+  Agreement(curves, n_patches, sums, steps, counts).run();
 }
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel.h"
@@ -28,6 +29,8 @@ constexpr double kFlat = 1e-3;
 constexpr int kRingPasses = 3;
 /// Changes of quads around what is bad still: in all, quads in all the meshes of these, and of one quad.
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
+/// Places of vertices that are tried in all, see lift_worst_on_surface(): some ten seconds.
+constexpr long long kMostCost = 4'000'000;
 
 /// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
 constexpr int kUnsound = 1000;
@@ -73,7 +76,8 @@ std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
 }
 
 /// Returns how many vertices moved.
-int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, const LiftedBall& ball = {}) {
+int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, Budget& trials,
+             const LiftedBall& ball = {}) {
   const PreparedSurface& surface = *in.prepared.surface;
   std::vector<SurfaceTracks::Patch> lifted;
   for (const std::size_t i : which)
@@ -81,7 +85,7 @@ int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, const 
                       &in.patches[i].inside});
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(lifted));
   std::vector<Vec3> places = tracks.points();
-  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, ball);
+  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, trials, ball);
   if (moved > 0) tracks.store(places);
   return moved;
 }
@@ -101,17 +105,42 @@ LiftedBall ball_around(const std::array<Vec3, 4>& corners) {
   return ball;
 }
 
+/// The places of a patch's vertices in space.
+std::vector<Vec3> places_of(const AllPatches& in, std::size_t patch) {
+  std::vector<Vec3> places;
+  for (const int node : in.prepared.patches[patch].boundary.point_node)
+    places.push_back(in.nodes.points[node]);
+  const std::vector<Vec3>& inside = in.patches[patch].inside;
+  places.insert(places.end(), inside.begin(), inside.end());
+  return places;
+}
+
+/// Of these patches the one, those that reach into the ball, and all that have nodes with these in common:
+/// lifting there touches no others.
+std::vector<std::size_t> patches_near(const AllPatches& in, const std::vector<std::size_t>& which,
+                                      std::size_t one, const LiftedBall& ball) {
+  const auto nodes_of = [&](std::size_t p) -> const std::vector<int>& {
+    return in.prepared.patches[p].boundary.point_node;
+  };
+  const auto reaches_in = [&](const Vec3& x) { return norm(x - ball.centre) < ball.radius; };
+  std::vector<char> near(in.nodes.points.size(), 0);
+  for (const std::size_t p : which)
+    if (p == one || std::ranges::any_of(places_of(in, p), reaches_in))
+      for (const int node : nodes_of(p)) near[node] = 1;
+  std::vector<std::size_t> found;
+  std::ranges::copy_if(which, std::back_inserter(found), [&](std::size_t p) {
+    return std::ranges::any_of(nodes_of(p), [&](int node) { return near[node] != 0; });
+  });
+  return found;
+}
+
 /// The bad quads of a patch, in space.
 std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, std::size_t patch) {
   const QuadPatch& mesh = in.patches[patch].quads;
-  const std::vector<int>& node = in.prepared.patches[patch].boundary.point_node;
-  const auto place = [&](int v) {
-    const auto n = static_cast<int>(node.size());
-    return v < n ? in.nodes.points[node[v]] : in.patches[patch].inside[v - n];
-  };
+  const std::vector<Vec3> place = places_of(in, patch);
   const auto corners = [&](std::size_t q) {
     const auto& [a, b, c, d] = mesh.quads[q];
-    return std::array{place(a), place(b), place(c), place(d)};
+    return std::array{place[a], place[b], place[c], place[d]};
   };
   std::vector<Vec3> around(mesh.points.size());
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
@@ -227,11 +256,22 @@ bool change(QuadTopology& mesh, int quad, int way) {
   return false;
 }
 
+/// The bad quads once those of the patches `changed` are others.
+std::vector<BadQuad> with_changed(std::vector<BadQuad> bad, const std::vector<std::size_t>& changed,
+                                  const std::vector<BadQuad>& now) {
+  std::erase_if(bad, [&](const BadQuad& b) { return std::ranges::binary_search(changed, b.patch); });
+  bad.insert(bad.end(), now.begin(), now.end());
+  std::ranges::sort(bad, {}, [](const BadQuad& b) { return std::tuple(-b.badness, b.patch, b.quad); });
+  return bad;
+}
+
 /// Changes the quads around the first of the bad ones that this helps, and lifts. False where nothing does.
 bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
-              std::vector<BadQuad>& bad, int& trials, LiftingSummary& summary) {
-  const State before(in, which);
-  for (const auto& [badness, p, quad, around] : bad)
+              std::vector<BadQuad>& bad, int& trials, Budget& cost, LiftingSummary& summary) {
+  for (const auto& [badness, p, quad, around] : bad) {
+    if (trials <= 0 || cost.is_spent()) return false;
+    const std::vector<std::size_t> near = patches_near(in, which, p, around);
+    const State before(in, near);
     for (int way = 0; way < kWays && trials > 0; ++way) {
       QuadTopology mesh(in.patches[p].quads);
       QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
@@ -240,8 +280,8 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
       --trials;
       settle(mesh, relocation, first);
       store(in, p, mesh);
-      const int moved = lift_all(in, which, around);
-      std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
+      const int moved = lift_all(in, near, cost, around);
+      std::vector<BadQuad> left = with_changed(bad, near, all_bad_quads(in, badness_of, near));
       if (total(left) < total(bad)) {
         summary.moved += moved;
         ++summary.mended;
@@ -250,6 +290,7 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
       }
       before.restore();
     }
+  }
   return false;
 }
 
@@ -266,7 +307,8 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
         if (patch.inside.empty()) patch.inside = places_inside(in.prepared, which[k], patch, in.nodes.points);
       },
       [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.points.size()); });
-  summary.moved = lift_all(in, which);
+  Budget cost(kMostCost);
+  summary.moved = lift_all(in, which, cost);
 
   const Badness badness_of(in.prepared.surface->model.fine);
   std::vector<BadQuad> bad = all_bad_quads(in, badness_of, which);
@@ -274,7 +316,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
     const State before(in, which);
     const int rings = add_rings(in, bad);
     if (rings == 0) break;
-    const int moved = lift_all(in, which);
+    const int moved = lift_all(in, which, cost);
     std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
     if (total(left) >= total(bad)) {
       before.restore();
@@ -287,7 +329,10 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   std::size_t n_quads = 1;
   for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
   int trials = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
-  while (mend_one(in, badness_of, which, bad, trials, summary)) continue;
+  while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  summary.cost = kMostCost - cost.left();
+  if (cost.is_spent() && !bad.empty())
+    summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;
   return summary;
 }
 

@@ -345,7 +345,9 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   std::vector<FeatureBall> kept_features;
   if (refinement.keep_features)
     for (const SizeSpot& spot : refinement.spots) kept_features.push_back({spot.at, spot.reach});
-  SurfaceModel model = make_surface(problem, kept_features);
+  std::shared_ptr<const SurfaceModel> cad = refinement.cad;
+  SurfaceModel model = cad ? *cad : make_surface(problem, kept_features);
+  if (!cad && model.projector) cad = std::make_shared<SurfaceModel>(model);
   const TimeSpent read = reading.time();
   const SampleDomain domain = {Box<Vec3>::around(model.fine.points), &model.fine};
   std::vector<Warning> warnings;
@@ -360,6 +362,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   size = imprint_named(problem.size.named, std::move(size), model, warnings);
   PreparedProblem p = prepare_surface(
       problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
+  p.cad = std::move(cad);
   p.times.insert(p.times.begin(), {"read", read});
   p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
   return p;

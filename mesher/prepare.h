@@ -102,6 +102,7 @@ struct PreparedProblem {
   std::optional<std::pair<double, double>> dislocations;
   std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
+  std::shared_ptr<const SurfaceModel> cad;         ///< as it was read; null of other models
   std::optional<GivenEntities> given_entities;     ///< of a GivenMesh in space
   std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
   double expected_quads = 0;                       ///< integral of dA/delta^2
@@ -123,6 +124,7 @@ PreparedProblem with_settings_of(const MeshProblem& problem);
 struct Refinement {
   std::vector<SizeSpot> spots = {};
   bool keep_features = false;  ///< of triangulations, in the spots: see TriangulatedOptions::kept_features
+  std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedProblem::cad of before; null: it is read
 };
 
 /// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be

@@ -7,18 +7,22 @@
 #include <utility>
 
 #include "base/box.h"
+#include "base/budget.h"
 #include "delquad/error.h"
 #include "mesher/repair_options.h"
 
 namespace delquad {
 namespace {
 
-/// How often a problem is meshed anew.
-constexpr int kMostRounds = 8;
+/// How often a problem is meshed anew; in a row without fewer places that are not sound.
+constexpr int kMostRounds = 8, kMostIdle = 2;
 /// From this round on sharp edges in the spots become features.
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
+/// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
+/// about as long: at least so many, some 30 seconds; of large meshes so many times those of the first.
+constexpr long long kLeastQuads = 40'000, kMostTimes = 2, kCostPerQuad = 300;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
@@ -77,6 +81,24 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
       prepared.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
 }
 
+long long quads_of(const RunResult& result) {
+  const long long cost = result.log.summaries.has("lift_bad_quads")
+                             ? static_cast<long long>(result.log.summaries.number("lift_bad_quads", "cost"))
+                             : 0;
+  return static_cast<long long>(result.mesh.quads.size()) + cost / kCostPerQuad;
+}
+
+/// Where it is not sound, the first hundred for each reason.
+std::size_t unsound_places(const RunResult& result) { return result.soundness.places.size(); }
+
+Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared, int rounds,
+                       const char* why) {
+  return fmt::format(
+      "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
+      "or more such places are left; a model without slivers and spikes there helps",
+      prepared.name, rounds, why, unsound_places(result));
+}
+
 }  // namespace
 
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
@@ -84,35 +106,49 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   // Lines that were given are kept.
   const bool can_be_finer = (prepared.surface && !prepared.given_entities) || !prepared.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.options).refine_unsound) return;
-  StageLog before;
+  Refinement refinement{.cad = prepared.cad};
+  add_spots(prepared, result.soundness, refinement.spots);
+  if (refinement.spots.empty()) return;
+  Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(result)));
+  quads.spend(quads_of(result));
+  StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
-  std::vector<SizeSpot> spots;
-  add_spots(prepared, result.soundness, spots);
-  add_times(prepared.times, before);
-  add_times(result.log.times, before);
-  for (int round = 1; round <= kMostRounds; ++round) try {
-      const std::size_t n_spots = spots.size();
-      if (n_spots == 0) return;
-      PreparedProblem finer = prepare_anew({spots, round >= kFirstWithFeatures});
+  int rounds = 0, idle = 0;  // in all, and since the best
+  const char* why = "that no longer helped";
+  try {
+    while (!result.soundness.sound()) {
+      if (rounds == kMostRounds || quads.is_spent()) {
+        why = "more would take too long";
+        break;
+      }
+      if (idle == kMostIdle && (refinement.keep_features || prepared.cad)) break;
+      if (idle == kMostIdle) idle = 0, refinement.keep_features = true;
+      if (++rounds >= kFirstWithFeatures) refinement.keep_features = true;
+      const std::vector<SizeSpot> spots = refinement.spots;
+      PreparedProblem finer = prepare_anew(refinement);
       RunResult run = run_word(finer, word);
       seconds += run.seconds;
-      if (!run.soundness.sound()) {
-        add_spots(finer, run.soundness, spots);
-        if (spots.size() == n_spots) return;
-        add_times(finer.times, before);
-        add_times(run.log.times, before);
-        continue;
+      quads.spend(quads_of(run));
+      add_spots(finer, run.soundness, refinement.spots);
+      const bool is_better =
+          run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));
+      idle = is_better ? 0 : idle + 1;
+      if (is_better) {
+        add_summary(run.log, RefinementSummary{rounds, static_cast<int>(spots.size())});
+        run.warnings.push_back(warning_of(finer, spots));
+        std::swap(prepared, finer);
+        std::swap(result, run);
       }
-      add_times(before.times, run.log);
-      add_summary(run.log, RefinementSummary{round, static_cast<int>(n_spots)});
-      run.seconds = seconds;
-      run.warnings.push_back(warning_of(finer, spots));
-      prepared = std::move(finer);
-      result = std::move(run);
-      return;
-    } catch (const InputError&) {
-      return;  // too many elements, or a boundary that cannot be: what there was stays
+      add_times(finer.times, lost);
+      add_times(run.log.times, lost);
+      if (refinement.spots.size() == spots.size()) break;
     }
+  } catch (const InputError&) {
+    // Too many elements, or a boundary that cannot be: what there was stays.
+  }
+  result.seconds = seconds;
+  add_times(lost.times, result.log);
+  if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 
 }  // namespace delquad

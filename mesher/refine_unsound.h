@@ -12,9 +12,10 @@ namespace delquad {
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 
 /// Where the mesh of a surface is not sound, the size is too large for what is there: halves it around these
-/// places and meshes anew, a few times; where that does not help, sharp edges there become features.
-/// `prepared` and `result` become those of a mesh that is sound, with a warning and the time of all tries;
-/// where none is found they stay.
+/// places and meshes anew, as long as there get fewer such places, but no more quads than a budget allows;
+/// where that does not help, sharp edges there become features. `prepared` and `result` become those of the
+/// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
+/// more.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     RunResult& result);
 

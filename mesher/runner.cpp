@@ -256,6 +256,14 @@ void count_bad_quads(const std::string& label, const PreparedProblem& prepared, 
       worst->angle * 180 / std::numbers::pi, worst->eta_bound));
 }
 
+/// Of a step that would have taken too long.
+Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face) {
+  return {"steps that were stopped before their end", 0,
+          fmt::format("{}: {} of face {} was stopped before its end, as it would take too long: quads there "
+                      "may be poor; a model without slivers and spikes there, or a smaller size, helps",
+                      prepared.name, step, face)};
+}
+
 /// `left_out`: by region.
 void lift(const PreparedProblem& prepared, MeshingState& state, const std::vector<char>& left_out,
           StageLog& log) {
@@ -268,6 +276,7 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
   LiftingSummary summary =
       lift_bad_quads({prepared, prepared.options, state.patches, patch_left_out, state.nodes});
   summary.seconds = watch.work_seconds();
+  if (summary.stopped > 0) state.warnings.push_back(stopped_early(prepared, "lifting", summary.stopped));
   add_summary(log, summary);
   log.add_time("lifting", watch.time());
 }
@@ -505,7 +514,13 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
                                                        : static_cast<double>(points_of(patches[i]).size());
       });
-  for (const StageLog& one : logs) state.log.add(one);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (const char* step : {"treatment", "cleanup"})
+      if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
+        state.warnings.push_back(
+            stopped_early(prepared, step, prepared.boundary.regions[prepared.patches[i].region].tag));
+    state.log.add(logs[i]);
+  }
   check_insertion(prepared, state.log);
   std::vector<char> left_out, held;  // what stays when points of quads move: fewer grids
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -546,6 +561,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   RunResult result;
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
   result.mesh = put_together(prepared, left_out, state);
+  result.warnings = std::move(state.warnings);
   result.log = std::move(state.log);
   state.patches.clear();
   const int rings = part_flat_corners(prepared, state.nodes, result.mesh);

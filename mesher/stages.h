@@ -48,9 +48,11 @@ struct Counters<PartingSummary> {
 
 /// What became of quads that were bad in space, at the end.
 struct LiftingSummary {
-  int moved = 0;   ///< vertices
-  int rings = 0;   ///< of quads, put inside those that stayed inverted or folded
-  int mended = 0;  ///< changes of the quads around those
+  int moved = 0;       ///< vertices
+  int rings = 0;       ///< of quads, put inside those that stayed inverted or folded
+  int mended = 0;      ///< changes of the quads around those
+  long long cost = 0;  ///< places of vertices that were tried, those on CAD ten times
+  int stopped = 0;     ///< the tag of the face with the worst quad, where it may not cost more; 0: it ended
   double seconds = 0;
 };
 
@@ -58,8 +60,9 @@ template <>
 struct Counters<LiftingSummary> {
   using S = LiftingSummary;
   static constexpr const char* step = "lift_bad_quads";
-  static constexpr auto all = std::tuple{counter("moved", &S::moved), counter("rings", &S::rings),
-                                         counter("mended", &S::mended), counter("seconds", &S::seconds)};
+  static constexpr auto all = std::tuple{counter("moved", &S::moved),     counter("rings", &S::rings),
+                                         counter("mended", &S::mended),   counter("cost", &S::cost),
+                                         counter("stopped", &S::stopped), counter("seconds", &S::seconds)};
 };
 
 /// What refine_unsound() did.

@@ -64,6 +64,7 @@ CleanupProcess::CleanupProcess(const QuadBlock& block, const ParametricSize& siz
       energy_(mesh_),
       relocation_(mesh_, size),
       options_(options),
+      most_looks_(most_looks(mesh_.element_slots())),
       random_(static_cast<std::uint64_t>(options.seed)),
       queue_(mesh_, energy_) {
   lengthen_short_edges(mesh_, size);
@@ -77,8 +78,9 @@ void CleanupProcess::run() {
   greedy();
   for (int v = 0; v < mesh_.vertex_slots(); ++v)
     if (block_.is_near(v)) list_irregular(v);
-  for (int left = options_.rounds - 1; left >= 0 && !work_.empty(); --left)
+  for (int left = options_.rounds - 1; left >= 0 && !work_.empty() && !is_spent(); --left)
     anneal(options_.tolerance * left / options_.rounds);
+  summary_.stopped = is_spent();
   relocation_.activate_all(block_);
   summary_.relocated += relocation_.relax(kSettledAtLast, 30);
   summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
@@ -125,7 +127,7 @@ void CleanupProcess::greedy() {
 
 void CleanupProcess::drain() {
   while (const auto move = queue_.pop())
-    if (attempt(*move, kGreedyLoss)) accept();
+    if (!is_spent() && attempt(*move, kGreedyLoss)) accept();
 }
 
 void CleanupProcess::list_irregular(int v) {
@@ -141,6 +143,7 @@ void CleanupProcess::anneal(double tolerance) {
   for (const int v : visiting_) listed_[v] = 0;
   for (const int v : visiting_) {
     check_cancelled();
+    if (is_spent()) return;
     if (!mesh_.vertex_alive(v) || energy_.of(v) == 0) continue;
     TreatmentMove move{};
     if (!pick_neutral(v, move)) continue;

@@ -30,6 +30,7 @@ struct CleanupSummary {
   int annealed = 0;         ///< of these, accepted
   long long relocated = 0;  ///< moves of vertices
   long long looks = 0;      ///< QuadRelocation::looks(): at most linear in the number of elements
+  int stopped = 0;          ///< 1: before all edits were tried, after as many looks as the patch may take
   double seconds = 0;
 };
 
@@ -42,7 +43,7 @@ struct Counters<CleanupSummary> {
       counter("rotations", &S::rotations), counter("diamonds", &S::diamonds),
       counter("doublets", &S::doublets), counter("splits", &S::splits), counter("openings", &S::openings),
       counter("tried", &S::tried), counter("annealed", &S::annealed), counter("relocated", &S::relocated),
-      counter("looks", &S::looks), counter("seconds", &S::seconds));
+      counter("looks", &S::looks), counter("stopped", &S::stopped), counter("seconds", &S::seconds));
 };
 
 /// Vertices whose valence is not ideal, see ValenceEnergy.

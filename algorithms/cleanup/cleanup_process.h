@@ -37,6 +37,7 @@ class CleanupProcess {
   void accept();
   void count(const TreatmentMove& move);
   ElementQuality quality(std::span<const int> vertices);
+  bool is_spent() const { return relocation_.looks() > most_looks_; }
   void list_irregular(int v);
   bool has_failed(int v, const TreatmentMove& move) const;
 
@@ -45,6 +46,7 @@ class CleanupProcess {
   ValenceEnergy energy_;
   QuadRelocation relocation_;
   CleanupOptions options_;
+  long long most_looks_;  ///< until then edits are tried
   std::mt19937_64 random_;
   MoveQueue queue_;                   ///< edits that lower the sum
   std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next

@@ -28,12 +28,14 @@ void TreatmentProcess::run(const TreatmentOptions& options) {
   summary_.relocated += relocation_.relax(0.1, 6);
   // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
   // never negative; a rescue, at most one for each element that the round began with, may raise it by a few.
-  for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds; ++summary_.rounds) {
+  for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds && !is_spent();
+       ++summary_.rounds) {
     changes = single_moves();
     changes += paired_moves();
     summary_.relocated += relocation_.relax(0.05, 10);
     changes += rescues();
   }
+  summary_.stopped = is_spent();
   relocation_.keep_convex_corners();
   relocation_.activate_all(block_);
   summary_.relocated += relocation_.relax(kSettled, 30);
@@ -77,7 +79,8 @@ int TreatmentProcess::single_moves() {
 /// Ends: each move that is kept lowers the valence energy and calls for no more others than lie around it.
 int TreatmentProcess::drain() {
   int changes = 0;
-  while (const auto move = queue_.pop()) changes += try_single(*move);
+  while (const auto move = queue_.pop())
+    if (!is_spent()) changes += try_single(*move);
   return changes;
 }
 
@@ -102,7 +105,7 @@ bool TreatmentProcess::try_single(const TreatmentMove& move) {
 int TreatmentProcess::paired_moves() {
   int changes = 0;
   pending_.resize(mesh_.element_slots(), 1);
-  for (int e = 0; e < mesh_.element_slots(); ++e) {
+  for (int e = 0; e < mesh_.element_slots() && !is_spent(); ++e) {
     if (!pending_[e]) continue;
     pending_[e] = 0;
     if (!irregular(e)) continue;

@@ -20,6 +20,7 @@ struct TreatmentSummary {
   int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
   int relocated = 0;         ///< moves of vertices
   long long looks = 0;       ///< QuadRelocation::looks(): at most linear in the number of elements
+  int stopped = 0;           ///< 1: before all moves were tried, after as many looks as the patch may take
   double seconds = 0;
 };
 
@@ -31,7 +32,8 @@ struct Counters<TreatmentSummary> {
       counter("rounds", &S::rounds, Over::kMost), counter("doublets", &S::doublets),
       counter("diamonds", &S::diamonds), counter("swaps", &S::swaps), counter("openings", &S::openings),
       counter("boundary_repairs", &S::boundary_repairs), counter("ring_quads", &S::ring_quads),
-      counter("relocated", &S::relocated), counter("looks", &S::looks), counter("seconds", &S::seconds));
+      counter("relocated", &S::relocated), counter("looks", &S::looks), counter("stopped", &S::stopped),
+      counter("seconds", &S::seconds));
 };
 
 /// The treatment after matching that the paper's tables include [Remacle et al. 2012, section 7; its

@@ -27,6 +27,10 @@ struct TreatmentMove {
   friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
 };
 
+/// How many elements relocation may look at (see QuadRelocation::looks()) while moves are tried on a patch of
+/// n: some hundred for each are usual, but at a vertex of n elements the work grows with the cube of n.
+constexpr long long most_looks(int n) { return 100'000 + 10'000LL * n; }
+
 /// Vertices that a move touches.
 struct TouchedVertices {
   std::array<int, 6> v;
@@ -119,16 +123,19 @@ void for_each_opening(const QuadTopology& mesh, int element, F&& f) {
 }
 
 /// Calls f(move) for the splits of a vertex. Legality is not checked, except that both parts keep a valence
-/// of 3 at least. The treatment does not use them.
+/// of 3 at least. Of vertices with very many edges these are the splits in halves. The treatment does not use
+/// them.
 template <class F>
 void for_each_split(const QuadTopology& mesh, int v, F&& f) {
-  if (mesh.valence(v) < 4) return;
+  constexpr int kMany = 32;
+  const int valence = mesh.valence(v), half = valence > kMany ? valence / 2 : 0;
+  if (valence < 4) return;
   for (int from = mesh.out(v), n = 0; n < mesh.valence(v) - 1; ++n, from = mesh.around(from)) {
     int to = mesh.around(from);
     for (int m = n + 2; m < mesh.valence(v); ++m) {
       to = mesh.around(to);
       const bool whole = !mesh.on_boundary(v) && n + mesh.valence(v) - m < 2;
-      if (!whole) f(TreatmentMove{TreatmentMove::kSplit, from, to});
+      if (!whole && (half == 0 || m - n == half)) f(TreatmentMove{TreatmentMove::kSplit, from, to});
     }
   }
 }

@@ -25,7 +25,8 @@ class TreatmentProcess {
         penalty_(mesh_),
         remeshing_(mesh_, relocation_, penalty_),
         queue_(mesh_, energy_),
-        most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()) {}
+        most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()),
+        most_looks_(most_looks(mesh_.element_slots())) {}
 
   void run(const TreatmentOptions& options);
   QuadPatch result() const { return mesh_.to_patch(); }
@@ -56,6 +57,7 @@ class TreatmentProcess {
   bool settles(double penalty_before);
   void accept();
   void count(const TreatmentMove& move);
+  bool is_spent() const { return relocation_.looks() > most_looks_; }
   bool irregular(int element) const;
   bool is_near(int element) const;
 
@@ -78,6 +80,7 @@ class TreatmentProcess {
   /// Rings of new quads may not outgrow the patch, however poor its quads stay.
   static constexpr int kRingQuadsPerElement = 4;
   int most_ring_quads_;
+  long long most_looks_;  ///< until then moves are tried
   TreatmentSummary summary_;
 };
 

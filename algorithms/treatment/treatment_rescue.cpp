@@ -35,6 +35,7 @@ int TreatmentProcess::rescues() {
 }
 
 bool TreatmentProcess::rescue(int element) {
+  if (is_spent()) return false;
   double best = kLeastRelief;
   TreatmentMove choice{TreatmentMove::kInset, -1};
   for_each_move(mesh_, element, [&](const TreatmentMove& move) {

@@ -30,17 +30,23 @@ constexpr double kTurnedOver = 2;
 /// alone would let nodes run into each other.
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
+/// A trial on CAD costs so many on triangles, as it asks for the nearest point of a face.
+constexpr long long kCostOnCad = 10;
+
 /// Places halfway between two neighbours are tried for so many (each is there twice), as their pairs grow
 /// with the square.
 constexpr std::size_t kMostPaired = 24;
 
 class SurfaceLift {
  public:
-  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, const LiftedBall& ball)
+  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, Budget& trials,
+              const LiftedBall& ball)
       : tracks_(tracks),
         quads_(tracks.quads()),
         places_(places),
         start_(places),
+        trials_(trials),
+        cost_(tracks.is_on_cad() ? kCostOnCad : 1),
         ball_(ball),
         eta_(eta),
         steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
@@ -57,7 +63,7 @@ class SurfaceLift {
       for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
   }
 
-  /// Ends after max_sweeps; each tries every vertex of a bad quad once.
+  /// Ends after max_sweeps; each tries every vertex of a bad quad once. Or once the trials are spent.
   int run(int max_sweeps) {
     outward_ = tracks_.normals();
     bool again = true;
@@ -66,7 +72,7 @@ class SurfaceLift {
       for (const int q : quads_below()) {
         check_cancelled();
         if (quality(q) >= eta_) continue;
-        for (const int v : quads_[q]) again = improve(v) || again;
+        for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
       }
     }
     return static_cast<int>(std::ranges::count_if(moved_, [](int when) { return when > 0; }));
@@ -166,6 +172,10 @@ class SurfaceLift {
   }
   static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
 
+  static bool is_gain(double lack, double before) {
+    return lack < before - std::max(kLeastGain * before, kLeastLack);
+  }
+
   /// Whether v has been tried and nothing around it has moved since.
   bool is_unchanged(int v) const {
     for (int i = first_[v]; i < first_[v + 1]; ++i)
@@ -199,11 +209,14 @@ class SurfaceLift {
     tried_[v] = ++now_;
     const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
     const double before = lack_around(v);
+    if (!is_gain(0, before)) return false;  // whatever would be found
     const double shortest =
         (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest_edge(v, start_);
     SurfaceTracks::Spot at = start;
     double best = before;
     const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
+      if (best == 0) return;
+      trials_.spend(cost_);
       const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
       places_[v] = trial.place;
       if (shortest_edge(v, places_) < shortest) return;
@@ -219,13 +232,13 @@ class SurfaceLift {
     constexpr double kDiagonal = std::numbers::sqrt2 / 2;
     constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                                   {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kSteps && best > 0; ++step) {
       const SurfaceTracks::Spot centre = at;
       const double last = best;
       for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
       if (best == last) along = 0.5 * along, across = 0.5 * across;
     }
-    const bool gained = best < before - std::max(kLeastGain * before, kLeastLack);
+    const bool gained = is_gain(best, before);
     places_[v] = gained ? at.place : start.place;
     if (gained) tracks_.put(v, at), moved_[v] = ++now_;
     return gained;
@@ -235,6 +248,8 @@ class SurfaceLift {
   const std::vector<std::array<int, 4>>& quads_;
   std::vector<Vec3>& places_;
   std::vector<Vec3> start_;
+  Budget& trials_;
+  long long cost_;  ///< of a trial
   const LiftedBall& ball_;
   double eta_;                        ///< that will do
   double steepest2_;                  ///< square of the cotangent of the sharpest angle that will do
@@ -248,8 +263,8 @@ class SurfaceLift {
 }  // namespace
 
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
-                          const LiftedBall& ball) {
-  return SurfaceLift(tracks, places, eta, ball).run(max_sweeps);
+                          Budget& trials, const LiftedBall& ball) {
+  return SurfaceLift(tracks, places, eta, trials, ball).run(max_sweeps);
 }
 
 }  // namespace delquad

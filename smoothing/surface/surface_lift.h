@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/budget.h"
 #include "smoothing/surface/surface_tracks.h"
 
 namespace delquad {
@@ -16,9 +17,10 @@ struct LiftedBall {
 /// the true faces and along the curves to where the worst quad around the vertex is best, also where that is
 /// outside the parameter plane's fine triangles, as happens where a face is narrower than these are exact. No
 /// least eta around a vertex gets lower; no edge at a node on a curve falls below half of the shortest that
-/// was around it. `places` are those of the tracks' vertices, and are updated. Returns how many vertices
+/// was around it. `places` are those of the tracks' vertices, and are updated. Each place that is tried for a
+/// vertex is one of the `trials`, on CAD ten; once these are spent, the rest stays. Returns how many vertices
 /// moved.
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
-                          const LiftedBall& ball = {});
+                          Budget& trials, const LiftedBall& ball = {});
 
 }  // namespace delquad

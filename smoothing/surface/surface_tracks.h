@@ -47,6 +47,7 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   /// outside the fine triangles; its position is then a guess.
   Spot spot_near(int v, const Spot& from, const Vec3& x) const;
   void put(int v, const Spot& spot);
+  bool is_on_cad() const { return model_.projector != nullptr; }
   bool is_on_curve(int v) const { return vertex_patch_[v] < 0; }
   /// Of each quad, the outward normal of the fine triangles around its corners, where these were when the
   /// tracks were made; any length.

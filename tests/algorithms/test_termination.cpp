@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "algorithms/cleanup/cleanup.h"
@@ -129,6 +130,23 @@ TEST(Termination, TangledGrids) {
         testing_support::scrambled(testing_support::grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
     expect_linear_work(mesh, FunctionSize(1), "grid " + std::to_string(seed));
   }
+}
+
+/// A disc of n quads, all around one vertex.
+QuadPatch wheel(int n) {
+  QuadPatch mesh;
+  mesh.n_boundary = 2 * n;
+  for (int i = 0; i < 2 * n; ++i) {
+    const double angle = std::numbers::pi * i / n;
+    mesh.points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  mesh.points.push_back({0, 0});
+  for (int i = 0; i < 2 * n; i += 2) mesh.quads.push_back({2 * n, i, i + 1, (i + 2) % (2 * n)});
+  return mesh;
+}
+
+TEST(Termination, VerticesOfManyQuads) {
+  for (const int n : {40, 200, 1000}) expect_linear_work(wheel(n), FunctionSize(0.3), std::to_string(n));
 }
 
 TEST(Termination, MovesTakeOffWhatTheyPromise) {

@@ -100,9 +100,14 @@ TEST(FaceNodes, NodesAcrossAStripLieOppositeEachOther) {
       most = std::max(most, std::abs(x_of(places, bottom, k) - x_of(places, top, 10 - k)));
     return most;
   };
-  const CurvePlaces faced = face_nodes(
-      strip.model.fine, strip.chains, *strip.across, strip.integrals, counts,
-      group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines), strip.on_lines);
+  const auto face = [&](long long most_steps) {
+    Budget steps(most_steps);
+    return face_nodes(strip.model.fine, strip.chains, *strip.across, strip.integrals, counts,
+                      group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines),
+                      strip.on_lines, steps);
+  };
+  EXPECT_EQ(face(0), equal_places(counts));
+  const CurvePlaces faced = face(1'000'000);
   EXPECT_GT(shear(equal_places(counts)), 0.5);
   EXPECT_LT(shear(faced), 0.05);
   for (const auto& places : faced)

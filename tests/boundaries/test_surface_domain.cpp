@@ -56,7 +56,8 @@ Meshed mesh_surface(SurfaceModel model, double h) {
   SurfaceNodes nodes = domain.nodes;
   SurfaceTracks tracks(model, size, domain, nodes, patches);
   std::vector<Vec3> places = tracks.points();
-  lift_worst_on_surface(tracks, places, 0.3, 20);
+  Budget trials(10'000'000);
+  lift_worst_on_surface(tracks, places, 0.3, 20, trials);
   tracks.store(places);
   Mesh mesh = domain.boundary;
   mesh.points = nodes.points;

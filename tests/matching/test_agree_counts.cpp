@@ -50,7 +50,8 @@ struct Strip {
       for (const int p : curves[c].patches) around[p] += counts[c];
     return std::ranges::all_of(around, [](int n) { return n % 2 == 0; });
   }
-  void agree() { agree_counts(curves, boxes, sums, counts); }
+  Budget steps{1'000'000};
+  void agree() { agree_counts(curves, boxes, sums, steps, counts); }
 };
 
 TEST(AgreeCounts, LeavesWhatAgrees) {
@@ -58,6 +59,16 @@ TEST(AgreeCounts, LeavesWhatAgrees) {
   const std::vector<int> before = strip.counts;
   strip.agree();
   EXPECT_EQ(strip.counts, before);
+}
+
+TEST(AgreeCounts, EndsOnceTheStepsAreSpent) {
+  Strip strip(5, 5, 0.2);
+  strip.counts[2] = 7;
+  const std::vector<int> before = strip.counts;
+  strip.steps.spend(strip.steps.left());
+  strip.agree();
+  EXPECT_EQ(strip.counts, before);
+  EXPECT_EQ(strip.steps.left(), 0);
 }
 
 TEST(AgreeCounts, ClosesAlongAChainOfPatches) {

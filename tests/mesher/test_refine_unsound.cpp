@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "delquad/error.h"
 #include "delquad/mesher.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
+#include "tests/support/shapes.h"
 
 namespace delquad {
 namespace {
@@ -56,6 +58,33 @@ TEST(RefineUnsound, StaysAwayFromTheRest) {
 TEST(RefineUnsound, LeavesSoundMeshesAlone) {
   const MeshResult result = mesh(ridge(0.05), "DB");
   EXPECT_FALSE(result.summaries.has("refine_unsound"));
+}
+
+/// A grid whose points are thrown about: no size makes its mesh sound.
+MeshProblem rubble(int seed) {
+  TriangleModel sheet;
+  sheet.source = "rubble";
+  sheet.mesh = testing_support::triangle_grid(24, 24, 4, 4);
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  for (Vec3& p : sheet.mesh.points) p.z = 1.5 * shapes::uniform(random);
+  MeshProblem problem;
+  problem.name = problem.where = "rubble";
+  problem.model = sheet;
+  problem.size.field = make_constant_size(0.4);
+  problem.allow_unsound = true;
+  return problem;
+}
+
+TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
+  MeshProblem problem = rubble(1);
+  problem.options.set("repair.refine_unsound", false);
+  const MeshResult before = mesh(problem, "DB");
+  ASSERT_FALSE(before.soundness.sound());
+  problem.options.set("repair.refine_unsound", true);
+  const MeshResult after = mesh(problem, "DB");
+  EXPECT_LE(after.soundness.places.size(), before.soundness.places.size());
+  if (!after.soundness.sound()) EXPECT_TRUE(says(after, "smaller sizes around places"));
+  EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.summaries.has("refine_unsound"));
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
     }
   ASSERT_LT(m.worst(), 0.1);
   const auto shortest_before = shortest_edges(m);
-  EXPECT_GT(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20), n / 50);
+  Budget trials(10'000'000);
+  EXPECT_GT(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, trials), n / 50);
   EXPECT_GT(m.worst(), 0.2);
   const auto shortest = shortest_edges(m);
   for (int v = 0; v < n; ++v) EXPECT_GT(shortest[v], 0.19 * *std::ranges::min_element(shortest_before)) << v;
@@ -117,7 +118,8 @@ TEST(SurfaceLift, FoldedQuadsAreUnfolded) {
                    }),
                h);
       before += folded(m);
-      lift_worst_on_surface(*m.tracks, m.places, 0.3, 20);
+      Budget trials(10'000'000);
+      lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, trials);
       after += folded(m);
     }
   EXPECT_GT(before, 10);
@@ -127,8 +129,29 @@ TEST(SurfaceLift, FoldedQuadsAreUnfolded) {
 TEST(SurfaceLift, WhatIsGoodStays) {
   Meshed m(surfaces::polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
   const auto before = m.places;
-  EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20), 0);
+  Budget trials(1000);
+  EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, trials), 0);
   EXPECT_EQ(m.places, before);
+  EXPECT_EQ(trials.left(), 1000);
+}
+
+TEST(SurfaceLift, EndsOnceTheTrialsAreSpent) {
+  Meshed m(
+      surfaces::grid_surface({40, 40},
+                             [](double u, double v) {
+                               const double x = 2 * u - 1;
+                               return Vec3{x + 0.5 * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
+                             }),
+      0.11);
+  const auto before = m.places;
+  Budget none(0), all(10'000'000);
+  EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, none), 0);
+  EXPECT_EQ(m.places, before);
+  const int moved = lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, all);
+  EXPECT_GT(moved, 1);
+  m.places = before;
+  Budget some(1);  // the vertex that is at work finishes
+  EXPECT_LE(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, some), 1);
 }
 
 }  // namespace
