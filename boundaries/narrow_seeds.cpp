@@ -22,13 +22,14 @@ class NarrowSeeds {
  public:
   explicit NarrowSeeds(PatchBoundary& boundary) : boundary_(boundary) {
     const size_t n = boundary.points.size();
-    next_.resize(n), previous_.resize(n), loop_.assign(n, -1);
+    next_.resize(n), previous_.resize(n), loop_.assign(n, -1), place_.resize(n);
     for (const auto& [a, b] : boundary.edges) next_[a] = b, previous_[b] = a;
     for (size_t first = 0; first < n; ++first) {
       if (loop_[first] >= 0) continue;
       auto& points = loops_.emplace_back();
       for (int v = static_cast<int>(first); loop_[v] < 0; v = next_[v]) {
         loop_[v] = static_cast<int>(loops_.size()) - 1;
+        place_[v] = static_cast<int>(points.size());
         points.push_back(v);
       }
     }
@@ -80,12 +81,15 @@ class NarrowSeeds {
 
   /// Whether the boundary on the left of the line from b to a, and that line, are an odd number of edges.
   bool cuts_off_odd(int a, int b) const {
-    int edges = 1;
-    std::vector<Vec2> outline;
-    for (int v = a; v != b; v = next_[v], ++edges) outline.push_back(at(v));
-    outline.push_back(at(b));
-    for (const auto& loop : loops_)
-      if (loop_[loop[0]] != loop_[a] && loop.size() % 2 == 1 && contains(outline, at(loop[0]))) ++edges;
+    const int n = static_cast<int>(loops_[loop_[a]].size());
+    int edges = 1 + (place_[b] - place_[a] + n) % n;
+    std::vector<Vec2> outline;  // where there are loops that may be within
+    for (const auto& loop : loops_) {
+      if (loop_[loop[0]] == loop_[a] || loop.size() % 2 == 0) continue;
+      for (int v = outline.empty() ? a : b; v != b; v = next_[v]) outline.push_back(at(v));
+      if (outline.back() != at(b)) outline.push_back(at(b));
+      if (contains(outline, at(loop[0]))) ++edges;
+    }
     return edges % 2 == 1;
   }
 
@@ -101,6 +105,7 @@ class NarrowSeeds {
 
   PatchBoundary& boundary_;
   std::vector<int> next_, previous_, loop_;
+  std::vector<int> place_;  ///< in its loop
   std::vector<std::vector<int>> loops_;
 };
 

@@ -30,7 +30,7 @@ constexpr int kRingPasses = 3;
 /// Changes of quads around what is bad still: in all, quads in all the meshes of these, and of one quad.
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 /// Places of vertices that are tried in all, see lift_worst_on_surface(): some ten seconds.
-constexpr long long kMostCost = 4'000'000;
+constexpr long long kMostCost = 8'000'000;
 
 /// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
 constexpr int kUnsound = 1000;

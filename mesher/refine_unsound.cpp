@@ -22,7 +22,7 @@ constexpr int kFirstWithFeatures = 4;
 constexpr double kPart = 0.5, kReach = 3;
 /// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
 /// about as long: at least so many, some 30 seconds; of large meshes so many times those of the first.
-constexpr long long kLeastQuads = 40'000, kMostTimes = 2, kCostPerQuad = 300;
+constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 

@@ -234,6 +234,7 @@ ElementQuality CleanupProcess::quality(std::span<const int> vertices) {
     total.add(element_quality(mesh_, relocation_, e));
     ++n;
   });
+  quality_looks_ += n;
   total.value /= std::max(n, 1);
   return total;
 }

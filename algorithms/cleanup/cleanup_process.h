@@ -37,7 +37,7 @@ class CleanupProcess {
   void accept();
   void count(const TreatmentMove& move);
   ElementQuality quality(std::span<const int> vertices);
-  bool is_spent() const { return relocation_.looks() > most_looks_; }
+  bool is_spent() const { return relocation_.looks() + quality_looks_ > most_looks_; }
   void list_irregular(int v);
   bool has_failed(int v, const TreatmentMove& move) const;
 
@@ -46,7 +46,8 @@ class CleanupProcess {
   ValenceEnergy energy_;
   QuadRelocation relocation_;
   CleanupOptions options_;
-  long long most_looks_;  ///< until then edits are tried
+  long long quality_looks_ = 0;  ///< elements whose quality was looked at
+  long long most_looks_;         ///< until then edits are tried
   std::mt19937_64 random_;
   MoveQueue queue_;                   ///< edits that lower the sum
   std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next

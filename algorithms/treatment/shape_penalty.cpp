@@ -18,6 +18,7 @@ double ShapePenalty::around(std::span<const int> vertices) {
   double sum = 0;
   elements_met_.begin(mesh_.element_slots());
   for_each_element_around(mesh_, vertices, elements_met_, [&](int e) {
+    ++looks_;
     double least = 1;
     for (const double sine : corner_sines(mesh_, e)) {
       const double lack = std::max(0.0, 1 - sine / poor);

@@ -22,10 +22,13 @@ class ShapePenalty {
   /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. Each
   /// element of eta 0 counts as much as any number of others.
   double around(std::span<const int> vertices);
+  /// Elements that it has looked at so far.
+  long long looks() const { return looks_; }
 
  private:
   const QuadTopology& mesh_;
   Marks elements_met_;
+  long long looks_ = 0;
 };
 
 }  // namespace delquad

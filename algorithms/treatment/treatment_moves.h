@@ -27,8 +27,9 @@ struct TreatmentMove {
   friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
 };
 
-/// How many elements relocation may look at (see QuadRelocation::looks()) while moves are tried on a patch of
-/// n: some hundred for each are usual, but at a vertex of n elements the work grows with the cube of n.
+/// How many elements may be looked at, by relocation and for the quality around, while moves are tried on a
+/// patch of n: some hundred for each are usual, but at a vertex of n elements the work grows with the cube of
+/// n.
 constexpr long long most_looks(int n) { return 100'000 + 10'000LL * n; }
 
 /// Vertices that a move touches.

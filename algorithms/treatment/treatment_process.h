@@ -57,7 +57,7 @@ class TreatmentProcess {
   bool settles(double penalty_before);
   void accept();
   void count(const TreatmentMove& move);
-  bool is_spent() const { return relocation_.looks() > most_looks_; }
+  bool is_spent() const { return relocation_.looks() + penalty_.looks() > most_looks_; }
   bool irregular(int element) const;
   bool is_near(int element) const;
 
