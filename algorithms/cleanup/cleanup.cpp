@@ -187,7 +187,8 @@ bool CleanupProcess::attempt(const TreatmentMove& move, double loss) {
   for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
     for (const int v : touched_) relocation_.step(v);
     const ElementQuality after = quality(touched_);
-    if (after.least_sine >= least && after.value >= before.value - loss) {
+    if (after.least_sine >= least && after.crowding <= before.crowding &&
+        after.value >= before.value - loss) {
       count(move);
       return true;
     }

@@ -216,7 +216,7 @@ RegularityProcess::Quality RegularityProcess::quality() const {
   ElementQuality total;
   for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
   const int n = static_cast<int>(elements_.size());
-  return {total.value / std::max(n, 1), total.least_sine, total.longest, n};
+  return {total.value / std::max(n, 1), total.least_sine, total.longest, total.crowding, n};
 }
 
 /// Relocates the region; whether the loss of the mean gets as small as allowed.
@@ -232,7 +232,9 @@ bool RegularityProcess::settles(const Quality& before, double allowed, double& l
       for (const int v : region_) relocation_.step(v);
     const Quality after = quality();
     loss = before.mean - after.mean;
-    if (after.least_sine >= least && after.longest <= longest && loss <= allowed) return true;
+    if (after.least_sine >= least && after.longest <= longest && after.crowding <= before.crowding &&
+        loss <= allowed)
+      return true;
     if (loss > hopeless) return false;
     if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
     if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;

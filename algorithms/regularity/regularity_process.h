@@ -44,6 +44,7 @@ class RegularityProcess {
     double mean = 0;  ///< of their values
     double least_sine = 1;
     double longest = 0;  ///< side, over delta'
+    double crowding = 0;
     int n = 0;
   };
   /// What is known of a cavity.

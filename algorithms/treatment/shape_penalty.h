@@ -16,17 +16,21 @@ inline constexpr double kFlatSine = 1e-7;
 /// How bad the shapes of a part of a mesh are, for comparison before and after an edit.
 class ShapePenalty {
  public:
-  explicit ShapePenalty(const QuadTopology& mesh) : mesh_(mesh) {}
+  /// Both outlive this object.
+  ShapePenalty(const QuadTopology& mesh, const QuadRelocation& relocation)
+      : mesh_(mesh), relocation_(relocation) {}
 
   /// Of the corners of the elements around the vertices (dead ones are skipped), the sum of (what the sine
-  /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. Each
-  /// element of eta 0 counts as much as any number of others.
+  /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. To this
+  /// comes how their vertices crowd, see QuadRelocation::crowding(). Each element of eta 0 counts as much as
+  /// any number of others.
   double around(std::span<const int> vertices);
   /// Elements that it has looked at so far.
   long long looks() const { return looks_; }
 
  private:
   const QuadTopology& mesh_;
+  const QuadRelocation& relocation_;
   Marks elements_met_;
   long long looks_ = 0;
 };

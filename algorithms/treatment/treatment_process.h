@@ -22,7 +22,7 @@ class TreatmentProcess {
         mesh_(block.mesh, block.first_held),
         energy_(mesh_),
         relocation_(mesh_, size),
-        penalty_(mesh_),
+        penalty_(mesh_, relocation_),
         remeshing_(mesh_, relocation_, penalty_),
         queue_(mesh_, energy_),
         most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()),

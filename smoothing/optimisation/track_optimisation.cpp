@@ -65,6 +65,8 @@ class TrackOptimisation {
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
   EnergyDescent descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
   bool too_short(std::size_t quad) const;
+  void find_room();
+  double crowding(std::size_t quad) const;
   std::vector<std::vector<int>> quads_around() const;
   std::vector<double> reaches(std::vector<double> delta) const;
   void settle(const std::vector<MovingVertex<Vec>>& moving, const std::vector<double>& x);
@@ -77,7 +79,10 @@ class TrackOptimisation {
   std::vector<double> delta_;                         ///< by vertex
   std::vector<Vec> delta_at_;                         ///< where it was found
   std::vector<std::array<double, 4>> least_lengths_;  ///< of each quad's sides
-  std::vector<double> kept_;  ///< the least sine that each quad must keep in this pass
+  std::vector<double> kept_;      ///< the least sine that each quad must keep in this pass
+  std::vector<char> inside_;      ///< by vertex: on no curve
+  std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to others on curves
+  std::vector<double> crowding_;  ///< of each quad, that it may have
   OptimisationSummary summary_;
 };
 
@@ -249,6 +254,37 @@ bool TrackOptimisation<Vec>::too_short(std::size_t quad) const {
 }
 
 template <class Vec>
+void TrackOptimisation<Vec>::find_room() {
+  inside_.resize(points_.size());
+  for (std::size_t v = 0; v < points_.size(); ++v) inside_[v] = tracks_.axes(static_cast<int>(v))[1] != Vec{};
+  room_ = delta_;
+  for (const auto& quad : quads_)
+    for (int k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      if (inside_[a] || inside_[b]) continue;
+      const double length = norm(points_[b] - points_[a]);
+      room_[a] = std::min(room_[a], length), room_[b] = std::min(room_[b], length);
+    }
+  crowding_.resize(quads_.size());
+  for (std::size_t q = 0; q < quads_.size(); ++q) crowding_[q] = crowding(q);
+}
+
+/// As QuadRelocation's.
+template <class Vec>
+double TrackOptimisation<Vec>::crowding(std::size_t quad) const {
+  const auto& v = quads_[quad];
+  std::array<double, 4> lengths;
+  for (int k = 0; k < 4; ++k) lengths[k] = norm(points_[v[(k + 1) % 4]] - points_[v[k]]);
+  const double longest = std::ranges::max(lengths);
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int a = v[k], b = v[(k + 1) % 4];
+    if (inside_[a] || inside_[b]) sum += delquad::crowding(lengths[k], std::min(room_[a], room_[b]), longest);
+  }
+  return sum;
+}
+
+template <class Vec>
 std::vector<std::vector<int>> TrackOptimisation<Vec>::quads_around() const {
   std::vector<std::vector<int>> around(points_.size());
   for (std::size_t q = 0; q < quads_.size(); ++q)
@@ -256,7 +292,8 @@ std::vector<std::vector<int>> TrackOptimisation<Vec>::quads_around() const {
   return around;
 }
 
-/// Puts the vertices on their tracks, as far as no quad falls below what it must keep.
+/// Puts the vertices on their tracks, as far as no quad falls below what it must keep or gets sides too
+/// short.
 template <class Vec>
 void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving,
                                     const std::vector<double>& x) {
@@ -287,7 +324,7 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
       check_cancelled();
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
-      if (movable_sine(q) >= kept_[q] && !too_short(q)) continue;
+      if (movable_sine(q) >= kept_[q] && !too_short(q) && crowding(q) <= crowding_[q]) continue;
       for (const int v : quad) {
         if (moves[v].part == 0) continue;
         moves[v].part = moves[v].part > kLeastPart ? moves[v].part / 2 : 0;
@@ -314,6 +351,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
         least_lengths_[q][k] = kShortest * std::min({norm(points_[b] - points_[a]), delta_[a], delta_[b]});
       }
   });
+  find_room();
   summary_.worst_before = worst();
   QuadEnergyWeights weights;
   weights.size = options_.size;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -23,9 +24,6 @@ constexpr double kHopeless = 2;
 constexpr double kOverRelaxation = 1.4;
 /// A step is at most this part of the shortest edge.
 constexpr double kLongestStep = 0.4;
-/// No step makes an edge shorter that is, or would be, shorter than this part of delta'. Angles alone do not
-/// prevent it: towards a point where two vertices meet the angles between them may take any value.
-constexpr double kShortest = 0.02;
 /// delta' is evaluated anew after a move of this part of it.
 constexpr double kDeltaReach = 0.15;
 /// Steps of the search that lifts a vertex's worst corner.
@@ -69,8 +67,6 @@ template <class Number>
 Number misfit_of(Number x) {
   return 3 * (x * x - 1) / (x * x + 4 * x + 1);
 }
-
-Vec2 unit(Vec2 v) { return (1 / std::max(norm(v), kTinyLength)) * v; }
 
 /// What corners and edges add up to.
 template <class Number, bool kDerivatives>
@@ -116,6 +112,13 @@ struct Sums {
 
 QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) : mesh_(mesh), size_(size) {
   adopt_new_vertices(0);
+  for (int h = 0; h < 4 * mesh_.element_slots(); ++h) {
+    if (mesh_.origin(h) < 0 || mesh_.twin(h) >= 0) continue;
+    const int a = mesh_.origin(h), b = mesh_.target(h);
+    const double length = norm(mesh_.point(b) - mesh_.point(a));
+    room_.resize(std::max<std::size_t>(room_.size(), std::max(a, b) + 1), std::numeric_limits<double>::max());
+    room_[a] = std::min(room_[a], length), room_[b] = std::min(room_[b], length);
+  }
 }
 
 void QuadRelocation::adopt_new_vertices(int first) {
@@ -180,7 +183,14 @@ void QuadRelocation::gather(int v) {
     spokes_.resize(n);
     rays_.resize(n + 1);
   }
+  gathered_ = v;
   n_spokes_ = n;
+  shortest_far_ = std::numeric_limits<double>::max(), longest_far_ = 0;
+  const auto unit_along = [this](Vec2 side) {
+    const double length = norm(side);
+    shortest_far_ = std::min(shortest_far_, length), longest_far_ = std::max(longest_far_, length);
+    return (1 / std::max(length, kTinyLength)) * side;
+  };
   std::size_t i = 0;
   mesh_.for_each_out(v, [&](int h) {
     const int across = mesh_.next(h), end = mesh_.origin(across), after = mesh_.target(across);
@@ -188,7 +198,7 @@ void QuadRelocation::gather(int v) {
     const Vec2 from = mesh_.point(end), corner = mesh_.point(after);
     const bool is_quad = mesh_.is_quad(QuadTopology::element(h));
     const Vec2 next = is_quad ? mesh_.point(mesh_.target(mesh_.next(across))) : corner;
-    const Vec2 left = unit(corner - from), right = unit((is_quad ? corner : from) - next);
+    const Vec2 left = unit_along(corner - from), right = unit_along((is_quad ? corner : from) - next);
     spokes_.end_x[i] = from.x, spokes_.end_y[i] = from.y;
     spokes_.left_x[i] = left.x, spokes_.left_y[i] = left.y;
     spokes_.right_x[following] = right.x, spokes_.right_y[following] = right.y;
@@ -197,21 +207,24 @@ void QuadRelocation::gather(int v) {
   });
 }
 
-/// Fills the rays; returns the shortest length.
+/// Fills the rays.
 template <class Number>
-double QuadRelocation::look_from(Vec2 at) const {
-  Number shortest = Number{} + 1e300;
+QuadRelocation::Lengths QuadRelocation::look_from(Vec2 at) const {
+  Number shortest = Number{} + 1e300, longest{}, least_part = shortest;
   for (std::size_t i = 0; i < n_spokes_; i += kWidth<Number>) {
     const Number x = load<Number>(&spokes_.end_x[i]) - at.x, y = load<Number>(&spokes_.end_y[i]) - at.y;
     const Number length = larger(square_root(x * x + y * y), Number{} + kTinyLength), inverse = 1 / length;
     store(inverse * x, &rays_.x[i + 1]);
     store(inverse * y, &rays_.y[i + 1]);
     store(inverse, &rays_.inverse[i + 1]);
-    store(misfit_of(length * load<Number>(&spokes_.inverse_delta[i])), &rays_.misfit[i + 1]);
+    const Number part = length * load<Number>(&spokes_.inverse_delta[i]);
+    store(misfit_of(part), &rays_.misfit[i + 1]);
     shortest = smaller(shortest, length);
+    longest = larger(longest, length);
+    least_part = smaller(least_part, part);
   }
   for (auto* values : {&rays_.x, &rays_.y, &rays_.inverse}) (*values)[0] = (*values)[n_spokes_];
-  return least_of(shortest);
+  return {least_of(shortest), -least_of(-longest), least_of(least_part)};
 }
 
 template <class Number, bool kDerivatives>
@@ -243,10 +256,50 @@ QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
 template <bool kDerivatives>
 QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives) const {
   const bool even = n_spokes_ % 2 == 0;
-  const double shortest = even ? look_from<Pair>(at) : look_from<double>(at);
+  const Lengths lengths = even ? look_from<Pair>(at) : look_from<double>(at);
   Value value = even ? add_up<Pair, kDerivatives>(derivatives) : add_up<double, kDerivatives>(derivatives);
-  value.shortest = shortest;
+  value.shortest = lengths.shortest;
+  const double longest = std::max(lengths.longest, longest_far_);
+  value.roomy =
+      lengths.least_part >= kKeptSide && std::min(lengths.shortest, shortest_far_) >= kKeptSide * longest;
   return value;
+}
+
+/// With a vertex at another place.
+double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_there) const {
+  const int n = mesh_.is_quad(element) ? 4 : 3;
+  const auto place = [&](int v) { return v == moved ? to : mesh_.point(v); };
+  const auto room = [&](int v) {
+    if (v == moved) return delta_there;
+    return mesh_.on_boundary(v) ? std::min(room_[v], delta_[v]) : delta_[v];
+  };
+  std::array<double, 4> lengths{};
+  for (int k = 0; k < n; ++k)
+    lengths[k] = norm(place(mesh_.target(4 * element + k)) - place(mesh_.corner(element, k)));
+  const double longest = *std::ranges::max_element(lengths);
+  double sum = 0;
+  for (int k = 0; k < n; ++k) {
+    const int h = 4 * element + k;
+    if (mesh_.twin(h) < 0) continue;
+    sum += delquad::crowding(lengths[k], std::min(room(mesh_.origin(h)), room(mesh_.target(h))), longest);
+  }
+  return sum;
+}
+
+/// Of the gathered vertex, with delta' as it is there.
+double QuadRelocation::crowding_around(Vec2 at) const {
+  int hint = hint_[gathered_];
+  const double delta = size_.at(at, hint);
+  double sum = 0;
+  mesh_.for_each_out(gathered_,
+                     [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
+  return sum;
+}
+
+/// Whether a move brings vertices nearer to each other than they may come. Angles alone do not prevent it:
+/// towards a point where two vertices meet, the angles between them may take any value.
+bool QuadRelocation::crowds(Vec2 from, Vec2 to, const Value& there) const {
+  return !there.roomy && crowding_around(to) > crowding_around(from);
 }
 
 double QuadRelocation::cost(int v) {
@@ -270,10 +323,6 @@ bool QuadRelocation::strays(Vec2 from, Vec2 to) const {
   return distance(to) > (before <= 1 ? 1 : std::max(before, 2.0));
 }
 
-bool QuadRelocation::shrinks(int v, const Value& before, const Value& after) const {
-  return after.shortest < std::min(before.shortest, kShortest * delta_[v]);
-}
-
 double QuadRelocation::step(int v) {
   check_cancelled();
   if (mesh_.on_boundary(v) || !mesh_.vertex_alive(v)) return 0;
@@ -295,7 +344,7 @@ double QuadRelocation::step(int v) {
     if (after.flat > (keep_convex_corners_ ? before.flat : before.flat > 0 ? after.flat : 0)) continue;
     if (after.least_sine < std::min(before.least_sine, kept_sine_)) continue;
     if (before.flat > 0 && strays(at, at + move)) continue;
-    if (shrinks(v, before, after)) continue;
+    if (crowds(at, at + move, after)) continue;
     mesh_.move(v, at + move);
     return norm(move) / before.shortest;
   }
@@ -340,10 +389,12 @@ double QuadRelocation::lift(int v, double enough) {
     const Vec2 centre = place;
     const double sine = best.least_sine;
     for (const Vec2 direction : kCompass) {
-      const Value trial = evaluate<false>(centre + reach * direction, nullptr);
-      if (trial.flat > best.flat || trial.least_sine <= best.least_sine || shrinks(v, best, trial)) continue;
+      const Vec2 there = centre + reach * direction;
+      const Value trial = evaluate<false>(there, nullptr);
+      if (trial.flat > best.flat || trial.least_sine <= best.least_sine || crowds(place, there, trial))
+        continue;
       best = trial;
-      place = centre + reach * direction;
+      place = there;
     }
     if (best.least_sine == sine) reach /= 2;
   }

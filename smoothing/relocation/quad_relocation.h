@@ -55,6 +55,9 @@ class QuadRelocation {
   /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
   /// grew.
   double lift(int v, double enough);
+  /// The sum of crowding() over the inner sides of an element. Sides at the boundary may be as short as the
+  /// boundary's edges there.
+  double crowding(int element) const { return crowding(element, -1, {}, 0); }
   /// The vertex's part of the objective where it is.
   double cost(int v);
   /// Elements looked at so far around vertices, each time that one was visited: the work done.
@@ -81,7 +84,12 @@ class QuadRelocation {
     double cost = 0;
     double least_sine = 1;
     double shortest = 0;  ///< edge
+    bool roomy = true;    ///< no side around, as far as it depends on the place, is too short
     int flat = 0;         ///< corners that do not turn left
+  };
+  /// Lengths of sides.
+  struct Lengths {
+    double shortest, longest, least_part;  ///< `least_part`: over delta'
   };
   struct Derivatives {
     Vec2 gradient;
@@ -92,11 +100,13 @@ class QuadRelocation {
   template <bool kDerivatives>
   Value evaluate(Vec2 at, Derivatives* derivatives) const;
   template <class Number>
-  double look_from(Vec2 at) const;
+  Lengths look_from(Vec2 at) const;
   template <class Number, bool kDerivatives>
   Value add_up(Derivatives* derivatives) const;
   bool strays(Vec2 from, Vec2 to) const;
-  bool shrinks(int v, const Value& before, const Value& after) const;
+  double crowding(int element, int moved, Vec2 to, double delta_there) const;
+  double crowding_around(Vec2 at) const;
+  bool crowds(Vec2 from, Vec2 to, const Value& there) const;
   void refresh_delta(int v);
   void activate_ring(int v);
 
@@ -105,11 +115,14 @@ class QuadRelocation {
   std::vector<double> delta_;
   std::vector<Vec2> delta_at_;  ///< where delta_ was evaluated
   std::vector<int> hint_;
+  std::vector<double> room_;  ///< of boundary vertices: the shorter edge of the boundary
   std::vector<char> active_;
   std::vector<int> queue_, visiting_;
+  int gathered_ = -1;  ///< the vertex that spokes_ is of
   std::size_t n_spokes_ = 0;
-  Spokes spokes_;      ///< at least n_spokes_
-  mutable Rays rays_;  ///< evaluate() fills them
+  double shortest_far_ = 0, longest_far_ = 0;  ///< sides around that the vertex does not touch
+  Spokes spokes_;                              ///< at least n_spokes_
+  mutable Rays rays_;                          ///< evaluate() fills them
   long long looks_ = 0;
   bool keep_convex_corners_ = false;
   double kept_sine_ = -1;
