@@ -84,7 +84,7 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
 }
 
 /// What eta, which is about angles alone, does not see.
-void measure_proportions(const Mesh& mesh, Values& values) {
+void measure_proportions(const Mesh& mesh, const std::vector<char>& in_layers, Values& values) {
   if (mesh.quads.empty()) return;
   std::vector<double> warps(mesh.quads.size()), aspects(mesh.quads.size());
   parallel_ranges(warps.size(), [&](size_t begin, size_t end) {
@@ -99,6 +99,10 @@ void measure_proportions(const Mesh& mesh, Values& values) {
   values["warp_max"] = *std::ranges::max_element(warps) * degrees;
   values["warp_mean"] = std::accumulate(warps.begin(), warps.end(), 0.0) / n * degrees;
   values["aspect_max"] = *std::ranges::max_element(aspects);
+  double n_thin = 0;
+  for (size_t q = 0; q < aspects.size(); ++q)
+    if (aspects[q] > kThin && (in_layers.empty() || !in_layers[q])) ++n_thin;
+  values["n_thin"] = n_thin;
   values["aspect_mean"] = std::accumulate(aspects.begin(), aspects.end(), 0.0) / n;
 }
 
@@ -108,6 +112,7 @@ void measure_lengths(const Mesh& mesh, std::span<const HalfEdge> sides, const Si
   values["tau"] = fit.tau;
   values["edge_min"] = fit.shortest;
   values["edge_max"] = fit.longest;
+  values["n_short"] = fit.n_short;
   values["tau_given"] = given == nullptr ? fit.tau : fit_to_size(mesh, sides, *given).tau;
 }
 
@@ -220,7 +225,7 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   if (n_elements > 0) metrics.values["percent_quads"] = 100 * n_quads / n_elements;
 
   measure_shapes(mesh, metrics);
-  measure_proportions(mesh, metrics.values);
+  measure_proportions(mesh, in_layers, metrics.values);
   measure_topology(mesh, sides, metrics);
   measure_regularity(mesh, sides, metrics);
   if (size != nullptr) {

@@ -51,8 +51,11 @@ std::deque<Metric>& metrics() {
       {"aspect_max", "aspect max", "", kLower, kInfinite,
        "longest over shortest side of a quad [stimpson2007, edge ratio], greatest"},
       {"aspect_mean", "aspect", "", kLower, kInfinite, "the same, mean over quads"},
+      {"n_thin", "thin", "", kLower, kInfinite, "quads of an aspect above 10, layers left out", 0},
       {"edge_min", "edge min", "delta", kHigher, 0, "shortest edge over the size, by equation (5)"},
       {"edge_max", "edge max", "delta", kLower, kInfinite, "longest edge over the size, by equation (5)"},
+      {"n_short", "short", "", kLower, kInfinite,
+       "edges inside, on no line, below a tenth of the size, by equation (5)", 0},
       {"tau_given", "tau given", "%", kHigher, 0,
        "tau against the size as given, before curvature and short curves made it smaller"},
   };

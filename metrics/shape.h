@@ -112,6 +112,9 @@ inline double quad_warp(const std::array<Vec3, 4>& p) {
 /// below 180. Above a right angle by what rounding makes of one: quads around a square tube have just that.
 inline constexpr double kFold = std::numbers::pi / 2 + 1e-6;  // radians
 
+/// A quad of a larger aspect is thin. It is the reciprocal of kShortSide.
+inline constexpr double kThin = 10;
+
 /// Longest over shortest side, at least 1; infinite where a side has no length [stimpson2007, edge ratio].
 inline double quad_aspect(const std::array<Vec3, 4>& p) {
   double shortest = norm(p[0] - p[3]), longest = shortest;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "mesh/quad_corners.h"
 
 namespace delquad {
 
@@ -63,14 +64,18 @@ double adimensional_length(const Vec3& a, const Vec3& b, const SizeField& size) 
 
 SizeFit fit_to_size(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (sides.empty()) return {kNone, kNone, kNone};
+  if (sides.empty()) return {kNone, kNone, kNone, kNone};
   std::vector<double> inverse_size(mesh.points.size());
   parallel_ranges(inverse_size.size(), [&](std::size_t begin, std::size_t end) {
     int hint = -1;
     for (std::size_t i = begin; i < end; ++i) inverse_size[i] = 1 / size.at(mesh.points[i], hint);
   });
   std::vector<std::array<int, 2>> edges;
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) { edges.push_back({edge[0].lo, edge[0].hi}); });
+  std::vector<char> inner;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    edges.push_back({edge[0].lo, edge[0].hi});
+    inner.push_back(edge.size() == 2);
+  });
   std::vector<double> lengths(edges.size());
   parallel_ranges(edges.size(), [&](std::size_t begin, std::size_t end) {
     int hint = -1;
@@ -82,8 +87,15 @@ SizeFit fit_to_size(const Mesh& mesh, std::span<const HalfEdge> sides, const Siz
   });
   double sum = 0;
   for (const double l : lengths) sum += l < 1 ? l - 1 : 1 / l - 1;
+  std::vector<std::array<int, 2>> lines = mesh.lines;
+  for (auto& line : lines) std::ranges::sort(line);
+  std::ranges::sort(lines);
+  int n_short = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    n_short += inner[i] && lengths[i] < kShortSide && !std::ranges::binary_search(lines, edges[i]);
   const auto [shortest, longest] = std::ranges::minmax_element(lengths);
-  return {100 * std::exp(sum / static_cast<double>(edges.size())), *shortest, *longest};
+  return {100 * std::exp(sum / static_cast<double>(edges.size())), *shortest, *longest,
+          static_cast<double>(n_short)};
 }
 
 }  // namespace delquad

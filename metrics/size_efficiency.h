@@ -16,6 +16,7 @@ double adimensional_length(const Vec3& a, const Vec3& b, const SizeField& size);
 struct SizeFit {
   double tau;                ///< efficiency index in percent, equation (6)
   double shortest, longest;  ///< adimensional lengths
+  double n_short;            ///< edges in two elements and on no line that are below kShortSide
 };
 /// Over the edges of sorted half-edges, each once.
 SizeFit fit_to_size(const Mesh& mesh, std::span<const HalfEdge> sides, const SizeField& size);

@@ -65,6 +65,7 @@ bool is_of_quads(const std::string& key) {
                                                   "warp_mean",
                                                   "aspect_max",
                                                   "aspect_mean",
+                                                  "n_thin",
                                                   "scaled_jacobian_min",
                                                   "scaled_jacobian_mean"};
   return std::ranges::find(others, key) != others.end();

@@ -90,6 +90,21 @@ TEST(EdgeLengths, AreOverTheSize) {
   EXPECT_NE(both.at("tau_given"), both.at("tau"));
 }
 
+TEST(ShortEdges, AreCountedInsideOnly) {
+  // Columns of widths 1, .05 and 1, and three rows: of the short edges two lie inside.
+  Mesh mesh = quad_grid(3, 3, 3, 3);
+  for (Vec3& p : mesh.points) p.x = p.x < 0.5 ? 0 : p.x < 1.5 ? 1 : p.x < 2.5 ? 1.05 : 2.05;
+  const UniformSize size(1), small(0.4);
+  const auto values = evaluate_metrics(mesh, &size).values;
+  EXPECT_NEAR(values.at("edge_min"), 0.05, 1e-12);
+  EXPECT_EQ(values.at("n_short"), 2);
+  EXPECT_EQ(values.at("n_thin"), 3);
+  EXPECT_EQ(evaluate_metrics(mesh, &small).values.at("n_short"), 0);
+  const auto& v = mesh.quads[4];  // the middle of all
+  for (int k = 0; k < 4; ++k) mesh.lines.push_back({v[k], v[(k + 1) % 4]});
+  EXPECT_EQ(evaluate_metrics(mesh, &size).values.at("n_short"), 0);
+}
+
 template <std::size_t N>
 void turn_over(std::vector<std::array<int, N>>& elements) {
   for (auto& v : elements) std::ranges::reverse(v);
