@@ -45,11 +45,11 @@ class Badness {
   int operator()(const std::array<Vec3, 4>& corners, const Vec3& around, int face) const {
     constexpr double kAgrees = 0.5;  // a cosine
     const Vec3 area = area_vector(corners);
-    const double eta = eta_of(element_shape(corners, area).angle);
-    if (!(eta > 0) || quad_warp(corners) > kFold) return kUnsound;
+    const ElementShape<4> shape = element_shape(corners, area);
+    if (!is_readable(corners, area, shape) || quad_warp(corners) > kFold) return kUnsound;
     if (dot(area, around) < kAgrees * norm(area) * norm(around) && is_turned(corners, area, face))
       return kUnsound;
-    return eta > kFlat ? 0 : 1;
+    return eta_of(shape.angle) > kFlat ? 0 : 1;
   }
 
  private:

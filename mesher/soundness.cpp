@@ -49,8 +49,10 @@ Place middle(const Mesh& mesh, const std::array<int, N>& v, const std::vector<in
 enum class QuadFlaw : char { kNone, kInverted, kFolded };
 
 QuadFlaw flaw_of(const Mesh& mesh, int q, const ElementSides& sides) {
-  if (!(eta_of(quad_shape(mesh, q, sides).angle) > 0)) return QuadFlaw::kInverted;
-  return quad_warp(corners_of(mesh, mesh.quads[q])) > kFold ? QuadFlaw::kFolded : QuadFlaw::kNone;
+  const auto corners = corners_of(mesh, mesh.quads[q]);
+  const Vec3 side = sides.of_quad(q);
+  if (!is_readable(corners, side, element_shape(corners, side))) return QuadFlaw::kInverted;
+  return quad_warp(corners) > kFold ? QuadFlaw::kFolded : QuadFlaw::kNone;
 }
 
 void check_shapes(const Mesh& mesh, const ElementSides& sides, Soundness& result) {
@@ -64,10 +66,10 @@ void check_shapes(const Mesh& mesh, const ElementSides& sides, Soundness& result
       (flaws[q] == QuadFlaw::kInverted ? inverted : folded)
           .add(middle(mesh, mesh.quads[q], mesh.quad_region, q));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (!(triangle_shape(mesh, static_cast<int>(t), sides).scaled_jacobian > 0))
+    if (const auto corners = corners_of(mesh, mesh.triangles[t]); !is_readable(
+            corners, sides.of_triangle(static_cast<int>(t)), triangle_shape(mesh, static_cast<int>(t), sides)))
       triangles.add(middle(mesh, mesh.triangles[t], mesh.triangle_region, t));
-  add_reason(mesh, inverted, "1 quad is inverted or flat (eta 0)", "quads are inverted or flat (eta 0)",
-             result);
+  add_reason(mesh, inverted, "1 quad is inverted or flat", "quads are inverted or flat", result);
   add_reason(mesh, folded, "1 quad is folded by more than 90 degrees",
              "quads are folded by more than 90 degrees", result);
   add_reason(mesh, triangles, "1 triangle is inverted or flat", "triangles are inverted or flat", result);

@@ -194,7 +194,7 @@ std::filesystem::path flat_quad(const TemporaryFolder& folder) {
                     "mesh = \"flat.msh\"\nsize = 2\nrecombination = { treatment = \"none\" }\n");
 }
 
-const std::string kFlat = "1 quad is inverted or flat (eta 0): face 1 at (1, 0.25, 0)";
+const std::string kFlat = "1 quad is inverted or flat: face 1 at (1, 0.25, 0)";
 
 TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
   const TemporaryFolder folder;

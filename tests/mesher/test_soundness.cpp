@@ -79,7 +79,7 @@ TEST_F(SoundCube, QuadsMustNotBeInverted) {
   const std::string face = lid();
   corner(q, 0) = corner(q, 2) + 0.5 * (corner(q, 2) - corner(q, 0));  // through the opposite corner
   const Soundness soundness = check();
-  EXPECT_TRUE(has(soundness, "inverted or flat (eta 0): " + face + " at (")) << soundness.text();
+  EXPECT_TRUE(has(soundness, "inverted or flat: " + face + " at (")) << soundness.text();
 }
 
 TEST_F(SoundCube, QuadsMustNotBeFolded) {
