@@ -86,7 +86,8 @@ struct MeshArguments {
   int threads = thread_count();
   bool allow_triangles = false;
   bool allow_unsound = false;
-  bool keep_going = false;  ///< leave faces out that cannot be meshed
+  std::optional<double> min_angle, max_aspect;  ///< options limits.min_angle, limits.max_aspect
+  bool keep_going = false;                      ///< leave faces out that cannot be meshed
   MshOptions msh{false, MshCurves::kNamed};
 };
 int mesh_command(const MeshArguments& arguments);

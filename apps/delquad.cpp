@@ -271,6 +271,11 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments, CommonArguments& 
   mesh.add_flag("--keep-numbers", arguments.keep_numbers,
                 "do not number the nodes anew for a small bandwidth");
   mesh.add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
+  mesh.add_option("--min-angle", arguments.min_angle,
+                  "degrees: an element with a smaller angle is an error (exit code 5)");
+  mesh.add_option(
+      "--max-aspect", arguments.max_aspect,
+      "an element whose longest side is longer than this times its shortest is an error, but in layers");
   add_time_limit(mesh, common);
 }
 

@@ -123,6 +123,8 @@ OptionValue value_of(const std::string& text) {
 }
 
 void set_options(const MeshArguments& arguments, Options& options) {
+  if (arguments.min_angle) options.set("limits.min_angle", *arguments.min_angle);
+  if (arguments.max_aspect) options.set("limits.max_aspect", *arguments.max_aspect);
   for (const std::string& text : arguments.set) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -231,10 +233,12 @@ int mesh_command(const MeshArguments& arguments) {
   RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
     progress.step(c.name + " " + word.text + ": " + stage);
   });
+  progress.warn(result.warnings);
   if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
-  std::vector<Warning> warnings = result.warnings;
+  std::vector<Warning> warnings;
   for (const std::string& reason : result.soundness.reasons)
     warnings.push_back("the mesh is not sound: " + reason);
+  for (const std::string& limit : result.soundness.beyond) warnings.push_back("beyond the limits: " + limit);
   if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
     warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
                                    fmt::join(renamed, "; ")));

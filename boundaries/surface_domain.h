@@ -17,8 +17,8 @@
 
 namespace delquad {
 
-/// A quad below this eta is bad.
-inline constexpr double kBadEta = 0.1;
+/// A quad below this eta, with an angle below 10 or above 170 degrees, is bad.
+inline constexpr double kBadEta = 1.0 / 9;
 
 /// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
 struct SurfacePatch {

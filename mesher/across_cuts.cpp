@@ -10,7 +10,9 @@
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "mesh/nearest_triangle.h"
+#include "mesher/keep_better.h"
 #include "mesher/prepare_surface.h"
+#include "mesher/repair_options.h"
 
 namespace delquad {
 namespace {
@@ -157,8 +159,10 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   return again;
 }
 
-UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options& options) {
+/// `is_given`: what there was before the stages is to be kept where it would become worse.
+UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options& options, bool is_given) {
   again.options = options;
+  again.options.set("repair.keep_given", is_given);
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
@@ -192,7 +196,7 @@ bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
   const auto score = [&](const RunResult& run) {
     return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
   };
-  if (is_given) return score(after) > score(before);
+  if (is_given) return score(after) > score(before) && !is_worse(after, before);
   return is_more_regular(after, before) && is_kept("eta_worst", kCleanupFloorEta, after, before);
 }
 
@@ -208,7 +212,8 @@ Options with_dearer(const Options& options, double dearer) {
 RunResult made_across_cuts(const PreparedProblem& prepared, PreparedProblem& again, const Stages& of_quads,
                            const Options& options, const std::vector<char>& regions,
                            const std::vector<char>& left_out, const RunResult& before) {
-  UncutMesh made = run_stages(again, of_quads, options);
+  const bool is_given = prepared.given_entities.has_value() && repair_options(prepared.options).keep_given;
+  UncutMesh made = run_stages(again, of_quads, options, is_given);
   RunResult after;
   after.mesh = made.mesh;
   measure(prepared, left_out, after);
@@ -218,7 +223,7 @@ RunResult made_across_cuts(const PreparedProblem& prepared, PreparedProblem& aga
     return after;
   // Nodes on these cuts could not go anywhere.
   PreparedProblem third = with_other_cuts(prepared, regions, made);
-  made = run_stages(third, moving, options);
+  made = run_stages(third, moving, options, is_given);
   after.mesh = std::move(made.mesh);
   measure(prepared, left_out, after);
   return after;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,6 +16,8 @@
 #include "geometry/surface/triangulated_model.h"
 #include "mesh/drop_unused_points.h"
 #include "mesh/half_edges.h"
+#include "mesh/nearest_triangle.h"
+#include "metrics/shape.h"
 
 namespace delquad {
 namespace {
@@ -135,6 +139,109 @@ void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> 
     warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
 }
 
+/// Below 0 the more a quad is inverted or folded, else its scaled Jacobian.
+double soundness_of(const Mesh& mesh, int q) {
+  const auto corners = corners_of(mesh, mesh.quads[q]);
+  return std::min(element_shape(corners, area_vector(corners)).scaled_jacobian, kFold - quad_warp(corners));
+}
+
+/// Moves nodes of quads that are inverted, folded or without area towards the middle of their neighbours,
+/// over the other elements. Nodes on lines, at named points, between regions, and on edges sharper than the
+/// feature angle stay.
+class BadQuadOpening {
+ public:
+  BadQuadOpening(double feature_angle, Mesh& mesh)
+      : mesh_(mesh), stays_(mesh.points.size(), 0), around_(stays_.size()), quads_at_(stays_.size()) {
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+      if (const int i = static_cast<int>(q); !(soundness_of(mesh, i) > kLeastJacobian)) bad_.push_back(i);
+    if (bad_.empty()) return;
+    find_neighbours();
+    find_facets(feature_angle * std::numbers::pi / 180);
+  }
+
+  void run(const std::string& source, std::vector<Warning>& warnings) {
+    if (bad_.empty()) return;
+    constexpr int kSweeps = 20;
+    const Vec3 first = mesh_.points[mesh_.quads[bad_[0]][0]];
+    bool moves = facets_.has_value();
+    for (int sweep = 0; sweep < kSweeps && moves; ++sweep) {
+      moves = false;
+      for (const int q : bad_)
+        for (const int v : mesh_.quads[q]) moves = (!stays_[v] && improve(v)) || moves;
+    }
+    const auto left =
+        std::ranges::count_if(bad_, [&](int q) { return !(soundness_of(mesh_, q) > kLeastJacobian); });
+    warnings.push_back(fmt::format(
+        "{}: {} quads are inverted, folded or without area, the first at {}: {} of them are no more so once "
+        "their nodes are moved",
+        source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
+  }
+
+ private:
+  void find_neighbours() {
+    const auto region = [&](int element) {
+      const auto t = mesh_.triangles.size(), e = static_cast<std::size_t>(element);
+      return e < t ? mesh_.triangle_region[e] : mesh_.quad_region[e - t];
+    };
+    for_each_edge(sorted_half_edges(mesh_), [&](std::span<const HalfEdge> edge) {
+      const int a = edge[0].lo, b = edge[0].hi;
+      around_[a].push_back(b);
+      around_[b].push_back(a);
+      if (edge.size() != 2 || region(edge[0].element) != region(edge[1].element)) stays_[a] = stays_[b] = 1;
+    });
+    for (const auto& line : mesh_.lines)
+      for (const int v : line) stays_[v] = 1;
+    for (const NamedPoint& named : mesh_.named_points) stays_[named.point] = 1;
+    for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
+      for (const int v : mesh_.quads[q]) quads_at_[v].push_back(static_cast<int>(q));
+  }
+  void find_facets(double feature_angle) {
+    std::vector<std::array<int, 3>> facets = mesh_.triangles;
+    for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
+      if (const auto [a, b, c, d] = mesh_.quads[q]; !std::ranges::binary_search(bad_, static_cast<int>(q)))
+        facets.insert(facets.end(), {{a, b, c}, {a, c, d}});
+    std::vector<std::vector<Vec3>> normals(mesh_.points.size());
+    for (const auto& facet : facets)
+      for (const int v : facet) normals[v].push_back(area_vector(corners_of(mesh_, facet)));
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      for (const Vec3& n : normals[v])
+        // Elements may run either way round.
+        if (std::atan2(norm(cross(n, normals[v][0])), std::abs(dot(n, normals[v][0]))) > feature_angle)
+          stays_[v] = 1;
+    if (!facets.empty()) facets_.emplace(mesh_.points, std::move(facets));
+  }
+  double worst_around(int v) const {
+    double worst = 1;
+    for (const int q : quads_at_[v]) worst = std::min(worst, soundness_of(mesh_, q));
+    return worst;
+  }
+  /// Tries places on the way to the middle of the neighbours.
+  bool improve(int v) {
+    Vec3 middle;
+    for (const int w : around_[v])
+      middle = middle + (1.0 / static_cast<double>(around_[v].size())) * mesh_.points[w];
+    const Vec3 start = mesh_.points[v];
+    Vec3 best = start;
+    double worst = worst_around(v);
+    for (const double part : {1.0, 0.5, 0.25}) {
+      const auto found = facets_->find(start + part * (middle - start));
+      const auto& [a, b, c] = facets_->triangle(found.triangle);
+      mesh_.points[v] =
+          found.weights[0] * at_first_[a] + found.weights[1] * at_first_[b] + found.weights[2] * at_first_[c];
+      if (const double now = worst_around(v); now > worst) worst = now, best = mesh_.points[v];
+    }
+    mesh_.points[v] = best;
+    return norm(best - start) > 0;
+  }
+
+  Mesh& mesh_;
+  const std::vector<Vec3> at_first_ = mesh_.points;
+  std::vector<char> stays_;
+  std::vector<std::vector<int>> around_, quads_at_;
+  std::vector<int> bad_;  ///< quads, ascending
+  std::optional<NearestTriangle> facets_;
+};
+
 /// The elements as triangles, and what these are of them.
 class Triangulation {
  public:
@@ -234,6 +341,7 @@ GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
   refuse_hanging_nodes(given, sides);
   std::vector<Warning> warnings;
   drop_what_no_element_has(given, sides, mesh, warnings);
+  BadQuadOpening(feature_angle, mesh).run(given.source, warnings);
   Triangulation fine(given, mesh);
   fine.turn();
 

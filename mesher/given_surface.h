@@ -27,7 +27,8 @@ bool is_in_space(const Mesh& mesh);
 /// Faces end at lines, edges of one element or of more than two, edges between regions and those sharper than
 /// the feature angle (degrees): all nodes there stay, and so does each named point. Throws InputError, naming
 /// places, for what is not conforming: hanging nodes, elements that are there twice, have a corner twice or
-/// no area; and for surfaces with one side only.
+/// no area; and for surfaces with one side only. Quads that are inverted, folded or without area are mended
+/// first, as far as nodes that do not stay can be moved over the other elements.
 GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 
 /// What a patch holds, its boundary's points first; `inside` receives the places of the others.

@@ -312,6 +312,14 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
 
   const Badness badness_of(in.prepared.surface->model.fine);
   std::vector<BadQuad> bad = all_bad_quads(in, badness_of, which);
+  std::size_t n_quads = 1;
+  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
+  const int most = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
+  int trials = most;
+  // Rings make a mesh less regular: one that was given gets them last.
+  if (in.prepared.given_entities)
+    while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  trials = most;
   for (int pass = 0; pass < kRingPasses && total(bad) >= kUnsound; ++pass) {
     const State before(in, which);
     const int rings = add_rings(in, bad);
@@ -326,9 +334,6 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
     summary.rings += rings;
     bad = std::move(left);
   }
-  std::size_t n_quads = 1;
-  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
-  int trials = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
   while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
   summary.cost = kMostCost - cost.left();
   if (cost.is_spent() && !bad.empty())

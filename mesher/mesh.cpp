@@ -55,9 +55,9 @@ MeshResult mesh(const MeshProblem& problem, const std::string& word, const Conte
   RunResult run = run_word(prepared, stages, [&](const std::string& stage) { steps.begin(stage); });
   refine_unsound([&](const Refinement& r) { return prepare(problem, r); }, stages, prepared, run);
   MeshResult result = result_of(prepared, std::move(run));
-  if (!result.soundness.sound() && !problem.allow_unsound) {
-    const std::string reasons = result.soundness.text();
-    throw UnsoundError(problem.name + " " + word + ": the mesh is not sound: " + reasons,
+  if (!result.soundness.accepted() && !problem.allow_unsound) {
+    const std::string why = result.soundness.complaint();
+    throw UnsoundError(problem.name + " " + word + ": " + why,
                        std::make_shared<const MeshResult>(std::move(result)));
   }
   return result;

@@ -160,17 +160,6 @@ void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFai
     }
 }
 
-std::vector<std::pair<int, Vec3>> images_of_node(const MirroredSurface& mirrored, int face, int node,
-                                                 const Vec3& x) {
-  const Vec3 at = mirrored.planes.put_on_all(mirrored.node_planes[node], x);
-  std::vector<std::pair<int, Vec3>> images;
-  for (int mask = 0; mask < 1 << mirrored.planes.count(); ++mask) {
-    const int moves = mask & ~mirrored.node_planes[node];
-    images.emplace_back(image_face(mirrored, mask, face), mirrored.planes.reflect_all(moves, at));
-  }
-  return images;
-}
-
 Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part) {
   return MeshMirror(mirrored, std::move(part)).run();
 }

@@ -16,11 +16,6 @@ std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char>
 /// Adds the faces that are images of those that failed, for the same reasons.
 void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFailure>& failures);
 
-/// Where a node of the part, at x in a face, has its images (itself among them) in the whole mesh, each with
-/// its face.
-std::vector<std::pair<int, Vec3>> images_of_node(const MirroredSurface& mirrored, int face, int node,
-                                                 const Vec3& x);
-
 /// The mesh of the part, whose first points are the nodes on its curves, completed by its images: nodes on
 /// planes, which are moved onto them to rounding, stand once, and so do elements in them. It has the curves,
 /// faces and named points of the whole.

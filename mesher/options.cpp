@@ -15,6 +15,7 @@
 #include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "mesher/curve_options.h"
+#include "mesher/poor_quads.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
 #include "smoothing/cvt/cvt_options.h"
@@ -26,7 +27,7 @@ namespace {
 std::deque<OptionGroup>& groups() {
   static std::deque<OptionGroup> all = {curve_group(),         insertion_group(), smoothing_group(),
                                         recombination_group(), cleanup_group(),   regularity_group(),
-                                        optimisation_group(),  repair_group()};
+                                        optimisation_group(),  repair_group(),    limit_group()};
   return all;
 }
 

@@ -7,15 +7,18 @@ namespace {
 
 const OptionTable<RepairOptions>& repair_table() {
   static const auto all =
-      OptionTable<RepairOptions>("repair", "of surfaces: what happens beside the stages")
+      OptionTable<RepairOptions>("repair", "what happens beside the stages")
           .add({.name = "part_twins",
-                .help = "whether edges and quads that two faces have in common are parted"},
+                .help = "of surfaces: whether edges and quads that two faces have in common are parted"},
                &RepairOptions::part_twins)
-          .add({.name = "lift_bad_quads", .help = "whether quads that are bad in space are lifted there"},
+          .add({.name = "lift_bad_quads",
+                .help = "of surfaces: whether quads that are bad in space are lifted there"},
                &RepairOptions::lift_bad_quads)
           .add({.name = "refine_unsound",
                 .help = "whether sizes are made smaller where the mesh would not be sound"},
-               &RepairOptions::refine_unsound);
+               &RepairOptions::refine_unsound)
+          .add({.name = "keep_given", .help = "whether given quads stay where they would become worse"},
+               &RepairOptions::keep_given);
   return all;
 }
 

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <map>
 #include <new>
-#include <numbers>
 #include <stdexcept>
-#include <tuple>
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/activity.h"
@@ -25,12 +22,14 @@
 #include "mesher/curved_mesh.h"
 #include "mesher/face_images.h"
 #include "mesher/given_domain.h"
+#include "mesher/keep_better.h"
 #include "mesher/lift_bad_quads.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/mirror_mesh.h"
 #include "mesher/part_twins.h"
 #include "mesher/patch_image.h"
 #include "mesher/planar_layers.h"
+#include "mesher/poor_quads.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
 
@@ -214,48 +213,6 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
   return left_out;
 }
 
-/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge.
-constexpr double kPartOfBound = 0.9;
-
-/// Tells bad quads that sharp corners explain from others, and names the worst corner.
-void count_bad_quads(const std::string& label, const PreparedProblem& prepared, RunResult& result) {
-  if (!(result.metrics.values.at("eta_worst") < kBadEta)) return;
-  const Mesh& mesh = result.mesh;
-  // By face and place: a mesh without the faces that failed numbers its nodes anew.
-  using Corner = std::tuple<int, double, double, double>;
-  const auto corner = [](int face, const Vec3& p) { return Corner{face, p.x, p.y, p.z}; };
-  std::map<Corner, double> bounds;
-  for (const SharpCorner& c : prepared.sharp_corners) {
-    const Vec3 at = prepared.boundary.points[c.node];
-    bounds.emplace(corner(c.face, at), c.eta_bound);
-    if (prepared.surface == nullptr || !prepared.surface->mirrored) continue;
-    const MirroredSurface& mirrored = *prepared.surface->mirrored;
-    for (const auto& [face, image] : images_of_node(mirrored, c.face, c.node, at))
-      bounds.emplace(corner(face, image), c.eta_bound);
-  }
-  const std::vector<double> etas = quad_etas(mesh);
-  for (std::size_t q = 0; q < etas.size(); ++q) {
-    if (etas[q] >= kBadEta) continue;
-    const auto& v = mesh.quads[q];
-    const bool in_corner = std::any_of(v.begin(), v.end(), [&](int i) {
-      const auto found = bounds.find(corner(mesh.quad_region[q], mesh.points[i]));
-      return found != bounds.end() && etas[q] >= kPartOfBound * found->second;
-    });
-    ++(in_corner ? result.bad_in_corners : result.bad_elsewhere);
-  }
-  if (result.bad_in_corners == 0) return;
-  const auto worst =
-      std::min_element(prepared.sharp_corners.begin(), prepared.sharp_corners.end(),
-                       [](const SharpCorner& a, const SharpCorner& b) { return a.eta_bound < b.eta_bound; });
-  const Vec3 at = prepared.boundary.points[worst->node];
-  result.warnings.push_back(fmt::format(
-      "{}: {} quad(s) below eta {} lie in sharp corners of faces, the sharpest in face {} at "
-      "({:.6g}, {:.6g}, {:.6g}) between curves {} and {}: {:.3g} degrees allow at most {:.2g}",
-      label, result.bad_in_corners, kBadEta, mesh.regions[worst->face].tag, at.x, at.y, at.z,
-      prepared.boundary.curves[worst->curves[0]].tag, prepared.boundary.curves[worst->curves[1]].tag,
-      worst->angle * 180 / std::numbers::pi, worst->eta_bound));
-}
-
 /// Of a step that would have taken too long.
 Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face) {
   return {"steps that were stopped before their end", 0,
@@ -284,8 +241,7 @@ void lift(const PreparedProblem& prepared, MeshingState& state, const std::vecto
 }  // namespace
 
 void require_sound(const std::string& label, const RunResult& result) {
-  if (!result.soundness.sound())
-    throw UnsoundError(label + ": the mesh is not sound: " + result.soundness.text());
+  if (!result.soundness.accepted()) throw UnsoundError(label + ": " + result.soundness.complaint());
 }
 
 Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
@@ -408,38 +364,6 @@ void measure_straight_form(const PreparedProblem& prepared, const std::vector<ch
                                  straight.soundness.places.end());
 }
 
-bool is_worse(const RunResult& after, const RunResult& before) {
-  if (before.soundness.sound() != after.soundness.sound()) return before.soundness.sound();
-  bool worse = false;
-  for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
-    constexpr double kRounding = 1e-9;
-    const double change = after.metrics.values.at(key) - before.metrics.values.at(key);
-    if (change > kRounding) return false;
-    worse = worse || change < -kRounding;
-  }
-  return worse;
-}
-
-/// What was given takes the place of what is worse.
-void keep_better(const PreparedProblem& prepared, const std::string& label,
-                 const std::vector<PatchMesh>& given, const std::vector<char>& left_out, RunResult& result) {
-  RunResult before;
-  before.mesh = assemble(prepared, prepared.boundary.points, given, left_out);
-  measure(prepared, left_out, before);
-  if (!is_worse(result, before)) return;
-  const auto text = [](const RunResult& run) {
-    const auto& values = run.metrics.values;
-    return fmt::format("eta mean {:.4g}, worst {:.4g}, d4 {:.4g} %{}", values.at("eta_mean"),
-                       values.at("eta_worst"), values.at("d4"), run.soundness.sound() ? "" : ", not sound");
-  };
-  result.warnings.push_back(fmt::format("{}: the given mesh ({}) is kept: what was made of it is worse ({})",
-                                        label, text(before), text(result)));
-  result.mesh = std::move(before.mesh);
-  result.metrics = std::move(before.metrics);
-  result.soundness = std::move(before.soundness);
-  result.surface = std::move(before.surface);
-}
-
 }  // namespace
 
 void put_back_entities(const GivenEntities& given, Mesh& mesh) {
@@ -537,9 +461,9 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
     state.log.add_time("parting", parting.time());
   }
   if (stage.finish)
-    stage.finish(
-        {prepared, prepared.options, patches, stage.from == PatchForm::kQuads ? held : left_out, state.nodes},
-        state.log);
+    stage.finish({prepared, prepared.options, patches, stage.from == PatchForm::kQuads ? held : left_out,
+                  state.nodes, !state.given.empty()},
+                 state.log);
   for (std::size_t i = 0; i < patches.size(); ++i)
     if (const auto& image = prepared.patches[i].image) {
       patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);
@@ -560,6 +484,8 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   const Stopwatch watch;
   RunResult result;
   const std::vector<char> left_out = collect_failures(prepared, state.reasons, result);
+  const std::vector<PatchMesh> given = std::move(state.given);
+  const std::vector<const Stage*> of_quads = state.of_quads;
   result.mesh = put_together(prepared, left_out, state);
   result.warnings = std::move(state.warnings);
   result.log = std::move(state.log);
@@ -567,12 +493,11 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   const int rings = part_flat_corners(prepared, state.nodes, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
-  if (are_cuts_in_the_way(prepared, state.of_quads))
-    run_across_cuts(prepared, state.of_quads, left_out, result);
-  if (!state.given.empty()) keep_better(prepared, label, state.given, left_out, result);
+  if (are_cuts_in_the_way(prepared, of_quads)) run_across_cuts(prepared, of_quads, left_out, result);
+  if (!given.empty()) keep_better(prepared, label, given, of_quads, left_out, result);
   if (curve_mesh(prepared, state.nodes, rings, result)) measure_straight_form(prepared, left_out, result);
   result.peak_memory = peak_memory();
-  count_bad_quads(label, prepared, result);
+  judge_quads(prepared, label, result);
   if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);
   return result;
 }

@@ -49,12 +49,10 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
 /// The mesh gets the curves and regions that were given, and no other lines.
 void put_back_entities(const GivenEntities& given, Mesh& mesh);
 /// Puts the patches together, measures the mesh and says whether it is sound; what runs across cuts is done
-/// here. `label` names the case and pipeline in warnings. Given quads are kept, with a warning, where what
-/// was made of them is worse: not sound where they were, or none of eta mean, eta worst and d4 better and one
-/// of them worse.
+/// here. `label` names the case and pipeline in warnings. Given quads do not become worse: see keep_better().
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
 
-/// Throws UnsoundError when the mesh is not sound, naming the case and pipeline by `label`.
+/// Throws UnsoundError when the mesh is not accepted, naming the case and pipeline by `label`.
 void require_sound(const std::string& label, const RunResult& result);
 
 /// Meshes every patch stage by stage, puts the patches together, measures the mesh and says whether it is

@@ -18,23 +18,12 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-std::string show(const Mesh& mesh, const Place& place) {
-  const std::string at = fmt::format("({:.6g}, {:.6g}, {:.6g})", place.at.x, place.at.y, place.at.z);
-  const bool known = place.face >= 0 && static_cast<std::size_t>(place.face) < mesh.regions.size();
-  return known ? fmt::format("face {} at {}", mesh.regions[place.face].tag, at) : "at " + at;
-}
-
-/// Counts things and says where the first are; adds nothing when there are none.
-void add_reason(const Mesh& mesh, const Places& places, const char* one, const char* several,
+/// Adds nothing when there are none.
+void add_reason(const Mesh& mesh, const Places& places, const std::string& one, const std::string& several,
                 Soundness& result) {
-  constexpr std::size_t kMostShown = 3;
   if (places.count == 0) return;
   result.places.insert(result.places.end(), places.first.begin(), places.first.end());
-  const std::size_t n_shown = std::min(kMostShown, places.first.size());
-  std::string text = places.count == 1 ? one : fmt::format("{} {}", places.count, several);
-  for (std::size_t i = 0; i < n_shown; ++i) text += (i == 0 ? ": " : ", ") + show(mesh, places.first[i]);
-  if (static_cast<std::size_t>(places.count) > n_shown) text += ", ...";
-  result.reasons.push_back(std::move(text));
+  result.reasons.push_back(describe(mesh, places, one, several));
 }
 
 /// The middle of an element, and its face where it has one.
@@ -48,17 +37,44 @@ Place middle(const Mesh& mesh, const std::array<int, N>& v, const std::vector<in
 
 enum class QuadFlaw : char { kNone, kInverted, kFolded };
 
-QuadFlaw flaw_of(const Mesh& mesh, int q, const ElementSides& sides) {
+/// The edges of a mesh that are lines, sorted.
+std::vector<Edge> line_edges(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  for (const auto& [a, b] : mesh.lines) edges.push_back({std::min(a, b), std::max(a, b)});
+  std::ranges::sort(edges);
+  return edges;
+}
+
+/// Whether a corner between two curves is narrower than elements may be, and the quad no worse than that: the
+/// model asks for it.
+bool is_as_narrow_as_model(const std::array<int, 4>& v, const ElementShape<4>& shape,
+                           const std::vector<Edge>& lines) {
+  constexpr double kRounding = 0.9;
+  const auto is_line = [&](int a, int b) {
+    return std::ranges::binary_search(lines, Edge{std::min(a, b), std::max(a, b)});
+  };
+  for (int k = 0; k < 4; ++k)
+    if (std::sin(shape.angle[k]) <= kLeastJacobian && shape.angle[k] < 1 &&
+        shape.scaled_jacobian >= kRounding * std::sin(shape.angle[k]) && shape.scaled_jacobian > 0 &&
+        is_line(v[(k + 3) % 4], v[k]) && is_line(v[k], v[(k + 1) % 4]))
+      return true;
+  return false;
+}
+
+QuadFlaw flaw_of(const Mesh& mesh, int q, const ElementSides& sides, const std::vector<Edge>& lines) {
   const auto corners = corners_of(mesh, mesh.quads[q]);
   const Vec3 side = sides.of_quad(q);
-  if (!is_readable(corners, side, element_shape(corners, side))) return QuadFlaw::kInverted;
+  const ElementShape<4> shape = element_shape(corners, side);
+  if (!is_readable(corners, side, shape) && !is_as_narrow_as_model(mesh.quads[q], shape, lines))
+    return QuadFlaw::kInverted;
   return quad_warp(corners) > kFold ? QuadFlaw::kFolded : QuadFlaw::kNone;
 }
 
 void check_shapes(const Mesh& mesh, const ElementSides& sides, Soundness& result) {
   std::vector<QuadFlaw> flaws(mesh.quads.size());
+  const std::vector<Edge> lines = line_edges(mesh);
   parallel_ranges(flaws.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) flaws[q] = flaw_of(mesh, static_cast<int>(q), sides);
+    for (std::size_t q = begin; q < end; ++q) flaws[q] = flaw_of(mesh, static_cast<int>(q), sides, lines);
   });
   Places inverted, folded, triangles;
   for (std::size_t q = 0; q < flaws.size(); ++q)
@@ -66,8 +82,9 @@ void check_shapes(const Mesh& mesh, const ElementSides& sides, Soundness& result
       (flaws[q] == QuadFlaw::kInverted ? inverted : folded)
           .add(middle(mesh, mesh.quads[q], mesh.quad_region, q));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (const auto corners = corners_of(mesh, mesh.triangles[t]); !is_readable(
-            corners, sides.of_triangle(static_cast<int>(t)), triangle_shape(mesh, static_cast<int>(t), sides)))
+    if (const auto corners = corners_of(mesh, mesh.triangles[t]);
+        !is_readable(corners, sides.of_triangle(static_cast<int>(t)),
+                     triangle_shape(mesh, static_cast<int>(t), sides)))
       triangles.add(middle(mesh, mesh.triangles[t], mesh.triangle_region, t));
   add_reason(mesh, inverted, "1 quad is inverted or flat", "quads are inverted or flat", result);
   add_reason(mesh, folded, "1 quad is folded by more than 90 degrees",
@@ -171,18 +188,47 @@ void check_surface(const Mesh& mesh, const SurfaceReport& report, Soundness& res
     result.reasons.push_back(fmt::format("it has {} open edges, the model none", report.mesh.free_edges));
   const std::string lost = fmt::format("places of the model are lost, up to {:.3g} sizes from the mesh",
                                        report.surface_to_mesh.max_in_sizes);
-  add_reason(mesh, report.surface_to_mesh.unexplained, ("1 of the " + lost).c_str(), lost.c_str(), result);
+  add_reason(mesh, report.surface_to_mesh.unexplained, "1 of the " + lost, lost, result);
   for (const Distances* d :
        {&report.mesh_to_surface, &report.nodes_in_faces, &report.nodes_on_curves, &report.nodes_at_corners}) {
     const std::string off =
         fmt::format("places of the mesh are off the model, up to {:.3g} sizes", d->max_in_sizes);
-    add_reason(mesh, d->unexplained, ("1 of the " + off).c_str(), off.c_str(), result);
+    add_reason(mesh, d->unexplained, "1 of the " + off, off, result);
   }
 }
 
 }  // namespace
 
 std::string Soundness::text() const { return fmt::format("{}", fmt::join(reasons, "; ")); }
+
+std::string Soundness::complaint() const {
+  std::string text = sound() ? "" : "the mesh is not sound: " + this->text();
+  if (!beyond.empty())
+    text += fmt::format("{}it is beyond the limits that were asked for: {}", text.empty() ? "" : "; ",
+                        fmt::join(beyond, "; "));
+  return text;
+}
+
+Place middle_of_quad(const Mesh& mesh, int quad) {
+  return middle(mesh, mesh.quads[quad], mesh.quad_region, static_cast<std::size_t>(quad));
+}
+
+std::string show_place(const Mesh& mesh, const Place& place) {
+  const std::string at = fmt::format("({:.6g}, {:.6g}, {:.6g})", place.at.x, place.at.y, place.at.z);
+  const bool known = place.face >= 0 && static_cast<std::size_t>(place.face) < mesh.regions.size();
+  return known ? fmt::format("face {} at {}", mesh.regions[place.face].tag, at) : "at " + at;
+}
+
+std::string describe(const Mesh& mesh, const Places& places, const std::string& one,
+                     const std::string& several) {
+  constexpr std::size_t kMostShown = 3;
+  const std::size_t n_shown = std::min(kMostShown, places.first.size());
+  std::string text = places.count == 1 ? one : fmt::format("{} {}", places.count, several);
+  for (std::size_t i = 0; i < n_shown; ++i)
+    text += (i == 0 ? ": " : ", ") + show_place(mesh, places.first[i]);
+  if (static_cast<std::size_t>(places.count) > n_shown) text += ", ...";
+  return text;
+}
 
 bool has_finite_points(const Mesh& mesh) {
   return std::ranges::all_of(mesh.points, [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); });

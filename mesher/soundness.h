@@ -14,6 +14,14 @@ namespace delquad {
 
 bool has_finite_points(const Mesh& mesh);
 
+/// The middle of a quad, and its face.
+Place middle_of_quad(const Mesh& mesh, int quad);
+/// "face 3 at (1, 2, 3)".
+std::string show_place(const Mesh& mesh, const Place& place);
+/// `one`, or the number of places and `several`, and where the first are.
+std::string describe(const Mesh& mesh, const Places& places, const std::string& one,
+                     const std::string& several);
+
 /// The first two of these, which are about single elements. Planar domains are seen from above.
 Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -19,6 +20,9 @@
 #include "delquad/error.h"
 #include "mesher/prepare.h"
 #include "mesher/recombination_options.h"
+#include "mesher/repair_options.h"
+#include "metrics/shape.h"
+#include "metrics/size_efficiency.h"
 #include "smoothing/cvt/cvt_options.h"
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/optimisation/untangle_flat.h"
@@ -170,6 +174,73 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log.add_time("optimisation", watch.time());
 }
 
+/// `z`: of planar meshes.
+Vec3 in_space(const Vec2& p, double z) { return {p.x, p.y, z}; }
+Vec3 in_space(const Vec3& p, double) { return p; }
+
+/// What a quad must not be worse than.
+struct WorstOfQuads {
+  double eta = 1, aspect = 1, side = std::numeric_limits<double>::infinity();  ///< `side`: in sizes
+};
+
+template <class Vec>
+WorstOfQuads worst_of(const PreparedProblem& prepared, const std::vector<Vec>& points,
+                      const std::array<int, 4>& quad) {
+  std::array<Vec3, 4> corners;
+  for (int k = 0; k < 4; ++k) corners[k] = in_space(points[quad[k]], prepared.boundary.points[0].z);
+  const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
+  WorstOfQuads worst{eta_of(element_shape(corners, normal).angle), quad_aspect(corners)};
+  for (int k = 0; k < 4; ++k)
+    worst.side = std::min(worst.side, adimensional_length(corners[k], corners[(k + 1) % 4], *prepared.size));
+  return worst;
+}
+
+/// Vertices of quads that are worse now than any was before go back, by halves of the way at first.
+template <class Vec>
+void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
+                const std::vector<Vec2>& positions, const std::vector<std::array<int, 4>>& quads,
+                VertexTracks<Vec>& tracks, std::vector<Vec>& points) {
+  constexpr double kLeastPart = 1.0 / 64;
+  WorstOfQuads worst;
+  for (const auto& quad : quads) {
+    const WorstOfQuads of = worst_of(prepared, before, quad);
+    worst = {std::min(worst.eta, of.eta), std::max(worst.aspect, of.aspect), std::min(worst.side, of.side)};
+  }
+  std::vector<double> part(points.size(), 1);  // of the way that each vertex went
+  std::vector<Vec2> ways;
+  for (std::size_t v = 0; v < points.size(); ++v)
+    ways.push_back(tracks.position(static_cast<int>(v)) - positions[v]);
+  for (bool again = true; again;) {
+    again = false;
+    for (const auto& quad : quads) {
+      const WorstOfQuads of = worst_of(prepared, points, quad);
+      if (of.eta >= worst.eta && of.aspect <= worst.aspect && of.side >= worst.side) continue;
+      for (const int v : quad) {
+        if (!(norm(points[v] - before[v]) > 0)) continue;
+        again = true;
+        part[v] = part[v] > kLeastPart ? part[v] / 2 : 0;
+        const Vec at = tracks.put(v, positions[v] + part[v] * ways[v]);
+        points[v] = part[v] > 0 ? at : before[v];
+      }
+    }
+  }
+}
+
+/// Optimises, but vertices of given quads that would be worse than the worst were, by eta, aspect or a side's
+/// length in sizes, go back where they were.
+template <class Vec>
+OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
+                             const std::vector<std::array<int, 4>>& quads, VertexTracks<Vec>& tracks) {
+  const bool keep = in.began_from_quads && repair_options(in.options).keep_given;
+  const std::vector<Vec> before = points;
+  std::vector<Vec2> positions;
+  for (std::size_t v = 0; keep && v < points.size(); ++v)
+    positions.push_back(tracks.position(static_cast<int>(v)));
+  const auto summary = optimise_on_tracks(points, quads, tracks, optimisation_options(in.options));
+  if (keep) hold_worst(in.prepared, before, positions, quads, tracks, points);
+  return summary;
+}
+
 OptimisationSummary optimise_surface(const AllPatches& in) {
   const PreparedSurface& surface = *in.prepared.surface;
   std::vector<SurfaceTracks::Patch> patches;
@@ -182,7 +253,7 @@ OptimisationSummary optimise_surface(const AllPatches& in) {
   }
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(patches));
   std::vector<Vec3> points = tracks.points();
-  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, optimisation_options(in.options));
+  const auto summary = optimise<Vec3>(in, points, tracks.quads(), tracks);
   tracks.store(points);
   return summary;
 }
@@ -200,7 +271,7 @@ OptimisationSummary optimise_plane(const AllPatches& in) {
   PlanarTracks tracks(std::move(nodes), in.prepared.curve_places, std::move(patches),
                       *in.prepared.patches[0].size);
   std::vector<Vec2> points = tracks.points();
-  const auto summary = optimise_on_tracks(points, tracks.quads(), tracks, optimisation_options(in.options));
+  const auto summary = optimise<Vec2>(in, points, tracks.quads(), tracks);
   tracks.store(points);
   for (std::size_t i = 0; i < n_nodes; ++i)
     in.nodes.points[i] = {points[i].x, points[i].y, in.nodes.points[i].z};

@@ -99,6 +99,7 @@ struct AllPatches {
   std::vector<PatchMesh>& patches;
   const std::vector<char>& left_out;  ///< by patch
   SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
+  bool began_from_quads = false;      ///< that were given
 };
 
 /// Adds what a step counted to the log.

@@ -115,12 +115,12 @@ inline constexpr double kFold = std::numbers::pi / 2 + 1e-6;  // radians
 /// A quad of a larger aspect is thin. It is the reciprocal of kShortSide.
 inline constexpr double kThin = 10;
 
-/// Elements of this scaled Jacobian and less are not sound. Rounding to single precision, as most solvers read
-/// coordinates, moves a corner by 2^-24 = 6e-8 of its coordinates: that turns the sides of an element which is
-/// kResolved times as large as that, and so a thousandth of its coordinates, by up to so many radians.
+/// Elements of this scaled Jacobian and less are not sound. Rounding to single precision, as many programs
+/// read coordinates, moves a corner by up to 2^-24 = 6e-8 of its coordinates: that turns the sides of an
+/// element a thousandth as large as these, kSingleHolds such steps, by up to so many radians.
 inline constexpr double kLeastJacobian = 1e-4;
-/// What single precision can hold: elements whose shortest side is so many times its rounding.
-inline constexpr double kResolved = 1000;
+/// Elements with shorter sides, in steps of rounding, are more than single precision holds.
+inline constexpr double kSingleHolds = 2e4;
 
 /// The rounding of the largest coordinate to single precision.
 template <size_t N>
@@ -138,8 +138,8 @@ double single_jacobian(std::array<Vec3, N> corners, const Vec3& normal) {
   return element_shape(corners, normal).scaled_jacobian;
 }
 
-/// Whether the element is fit to be computed with: its scaled Jacobian is above kLeastJacobian, also in single
-/// precision where that can hold it.
+/// Whether the element is fit to be computed with: its scaled Jacobian is above kLeastJacobian, also in
+/// single precision where that can hold it.
 template <size_t N>
 bool is_readable(const std::array<Vec3, N>& corners, const Vec3& normal, const ElementShape<N>& shape) {
   constexpr double kDoubtful = 10 * kLeastJacobian;  // more than rounding takes away
@@ -147,7 +147,8 @@ bool is_readable(const std::array<Vec3, N>& corners, const Vec3& normal, const E
   if (!(shape.scaled_jacobian > kLeastJacobian)) return false;
   double shortest = norm(corners[0] - corners[N - 1]);
   for (size_t k = 1; k < N; ++k) shortest = std::min(shortest, norm(corners[k] - corners[k - 1]));
-  return shortest < kResolved * single_rounding(corners) || single_jacobian(corners, normal) > kLeastJacobian;
+  return shortest < kSingleHolds * single_rounding(corners) ||
+         single_jacobian(corners, normal) > kLeastJacobian;
 }
 
 /// Longest over shortest side, at least 1; infinite where a side has no length [stimpson2007, edge ratio].

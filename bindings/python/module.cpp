@@ -160,7 +160,11 @@ void define_result(py::module_& m) {
           "read")
       .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.sound(); })
       .def_property_readonly(
-          "unsound", [](const Result& r) { return r.rest.soundness.reasons; }, "why it is not sound");
+          "unsound", [](const Result& r) { return r.rest.soundness.reasons; }, "why it is not sound")
+      .def_property_readonly(
+          "beyond_limits", [](const Result& r) { return r.rest.soundness.beyond; },
+          "which elements are beyond min_angle and max_aspect")
+      .def("_complaint", [](const Result& r) { return r.rest.soundness.complaint(); });
 }
 
 Compounds compounds_named(const std::string& name) {

@@ -48,7 +48,7 @@ struct MeshProblem {
   int order = 1;               ///< of the elements, 1 to 4: above 1 they are curved, see Mesh::order
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;     ///< leave faces out that cannot be meshed, instead of refusing the model
-  bool allow_unsound = false;  ///< return meshes that are not sound, instead of throwing UnsoundError
+  bool allow_unsound = false;  ///< return meshes that are not accepted, instead of throwing UnsoundError
 };
 
 /// What is being done, for people who wait.
@@ -90,7 +90,7 @@ struct MeshResult {
   double expected_quads = 0;  ///< integral of dA/delta^2
 };
 
-/// A mesh is not sound: see Soundness. The message has the reasons.
+/// A mesh is not sound, or beyond the limits of its elements: see Soundness. The message has the reasons.
 class UnsoundError : public std::runtime_error {
  public:
   explicit UnsoundError(const std::string& message, std::shared_ptr<const MeshResult> made = nullptr)

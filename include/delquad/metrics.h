@@ -158,8 +158,9 @@ struct SurfaceReport {
 
 /// Whether a mesh is one of its model, and fit to be computed with. It is sound when
 /// - every coordinate is a finite number;
-/// - no quad is inverted or flat (eta 0) and none folded (over 90 degrees along a diagonal), no triangle is
-///   without positive area, and no element faces away from its model;
+/// - no element is inverted or flat: all scaled Jacobians are above 1e-4, also where coordinates are rounded to
+///   single precision, as far as that can hold them (metrics/shape.h says why); no quad is folded (over 90
+///   degrees along a diagonal), and no element faces away from its model;
 /// - it is conforming: every edge is in as many elements as the model has faces there, two inside of them,
 ///   and elements side by side run the same way round;
 /// - it hangs together as its model does: the same Euler characteristic, watertight where the model is;
@@ -171,9 +172,15 @@ struct Soundness {
   std::vector<std::string> reasons;
   /// All that are known of these places, the first hundred for each reason.
   std::vector<Place> places = {};
+  /// One for each limit of single elements that was asked for (options "limits") and is not kept, alike.
+  std::vector<std::string> beyond = {};
   bool sound() const { return reasons.empty(); }
-  /// All of them in one line.
+  /// Sound, and within these limits.
+  bool accepted() const { return sound() && beyond.empty(); }
+  /// All reasons in one line.
   std::string text() const;
+  /// Why it is not accepted, in one line.
+  std::string complaint() const;
 };
 
 }  // namespace delquad

@@ -215,6 +215,7 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
   const auto whole = mesh(problem, "DBCO").metrics.values;
   const Mesh start = mesh(problem, "DB").mesh;
   problem.model = GivenMesh{start};
+  problem.options.set("repair.keep_given", false);
   const MeshResult result = mesh(problem, "CO");
   expect_kept(start, result);
   const auto& halves = result.metrics.values;
@@ -228,24 +229,61 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
 }
 
 /// Stages from outside may do anything.
+const bool kShearAdded = [] {
+  add_stage({'y', "shear", PatchForm::kQuads, PatchForm::kQuads,
+             [](const StageInput&, PatchMesh& patch, StageLog&) {
+               QuadPatch& quads = patch.quads;
+               for (std::size_t v = quads.n_boundary; v < quads.points.size(); ++v) quads.points[v].x += 0.02;
+             }});
+  return true;
+}();
+
 TEST(GivenMeshes, AreKeptWhereTheResultWouldBeWorse) {
-  static const bool added = [] {
-    add_stage({'y', "shear", PatchForm::kQuads, PatchForm::kQuads,
-               [](const StageInput&, PatchMesh& patch, StageLog&) {
-                 QuadPatch& quads = patch.quads;
-                 for (std::size_t v = quads.n_boundary; v < quads.points.size(); ++v)
-                   quads.points[v].x += 0.02;
-               }});
-    return true;
-  }();
-  ASSERT_TRUE(added);
+  ASSERT_TRUE(kShearAdded);
   const Mesh grid = given_grid(10);
   const MeshResult result = improve_given(grid, "y");
   expect_kept(grid, result);
   EXPECT_EQ(result.metrics.values.at("eta_worst"), 1);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_NE(result.warnings[0].text.find("given mesh (eta mean 1, worst 1, d4 100 %) is kept"),
+  EXPECT_NE(result.warnings[0].text.find("the given mesh is kept: what was made of the given mesh"),
             std::string::npos);
+}
+
+/// The worst angle, shortest edge and largest aspect, and the number of quads.
+void expect_no_worse(const MeshResult& after, const Mesh& given) {
+  const auto before = improve_given(given, "y").metrics.values;  // sheared, and so kept as it is
+  const auto& now = after.metrics.values;
+  constexpr double kRounding = 1e-6;
+  EXPECT_GE(now.at("eta_worst"), before.at("eta_worst") - kRounding);
+  EXPECT_GE(now.at("edge_min"), before.at("edge_min") - kRounding);
+  EXPECT_LE(now.at("aspect_max"), before.at("aspect_max") + kRounding);
+  EXPECT_NEAR(now.at("n_quads"), before.at("n_quads"), 0.1 * before.at("n_quads"));
+  EXPECT_GE(now.at("eta_mean"), before.at("eta_mean"));
+}
+
+TEST(GivenMeshes, NothingGetsWorse) {
+  for (const double size : {1.0, 0.7})
+    for (const double gap : {0.022, 0.3, 1.5}) {
+      MeshProblem problem;
+      problem.model = polygons({{{0, 0}, {20, 0}, {20, 20}, {0, 20}},
+                                {{5, 8}, {8, 8}, {8, 11}, {5, 11}},
+                                {{8 + gap, 8.5}, {11 + gap, 8.5}, {11 + gap, 11.5}, {8 + gap, 11.5}}});
+      problem.size.field = make_constant_size(size);
+      const Mesh given = mesh(problem, "DB").mesh;
+      for (const char* word : {"CO", "O", "CQO"}) {
+        SCOPED_TRACE(std::to_string(size) + " " + std::to_string(gap) + " " + word);
+        expect_no_worse(improve_given(given, word), given);
+      }
+    }
+}
+
+TEST(GivenMeshes, WhatGetsWorseIsTakenWhereItIsAskedFor) {
+  MeshProblem problem;
+  problem.model = GivenMesh{given_grid(10)};
+  problem.options.set("repair.keep_given", false);
+  const MeshResult result = mesh(problem, "y");
+  EXPECT_LT(result.metrics.values.at("eta_worst"), 1);
+  EXPECT_TRUE(result.warnings.empty());
 }
 
 TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {

@@ -296,6 +296,29 @@ TEST(GivenSurfaces, TrianglesAmongQuadsStay) {
   EXPECT_EQ(result.mesh.triangles.size(), 2u);
 }
 
+/// A quad of the shell that became a line, two nodes in one place, and a node beyond its neighbour.
+TEST(GivenSurfaces, QuadsWithoutAreaAreMended) {
+  const Mesh shell = open_shell();
+  const int corner = 2 * 9 + 3;
+  const auto between = [&](double part) {
+    return shell.points[corner] + part * (shell.points[corner + 1] - shell.points[corner]);
+  };
+  Mesh line = shell, edge = shell, beyond = shell;
+  line.points[corner + 9] = between(0.25);
+  line.points[corner + 10] = between(0.75);
+  edge.points[corner] = edge.points[corner + 1];
+  beyond.points[corner] = between(1.3);
+  for (const Mesh& given : {line, edge, beyond})
+    for (const char* word : {"CO", "O"}) {
+      const MeshResult result = improve_in_space(given, word);
+      EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+      EXPECT_EQ(result.mesh.quads.size(), shell.quads.size());
+      EXPECT_GT(result.metrics.values.at("eta_worst"), 0.5);
+      ASSERT_FALSE(result.warnings.empty());
+      EXPECT_NE(result.warnings[0].text.find("inverted, folded or without area"), std::string::npos);
+    }
+}
+
 TEST(GivenSurfaces, WhatCannotBeUsedIsNamed) {
   const Mesh shell = open_shell();
   Mesh hanging = shell;  // below its first edge two quads, which meet in the middle of that
@@ -316,11 +339,10 @@ TEST(GivenSurfaces, WhatCannotBeUsedIsNamed) {
   flat.quads[0] = {0, 1, 1, 9};
   expect_input_error([&] { improve_in_space(flat, "CO"); }, {"a corner twice"});
 
-  Mesh thin = shell;
-  const int corner = 2 * 9 + 3;  // of a quad that becomes a line
-  thin.points[corner + 9] = 0.75 * thin.points[corner] + 0.25 * thin.points[corner + 1];
-  thin.points[corner + 10] = 0.25 * thin.points[corner] + 0.75 * thin.points[corner + 1];
-  expect_input_error([&] { improve_in_space(thin, "CO"); }, {"no area"});
+  Mesh thin = halved_in_space(shell);
+  thin.points[thin.triangles[9][2]] =
+      0.5 * (thin.points[thin.triangles[9][0]] + thin.points[thin.triangles[9][1]]);
+  expect_input_error([&] { improve_in_space(thin, "BCO"); }, {"no area"});
 
   const int n = 24;
   const Mesh moebius = [&] {

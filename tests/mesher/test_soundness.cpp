@@ -82,6 +82,20 @@ TEST_F(SoundCube, QuadsMustNotBeInverted) {
   EXPECT_TRUE(has(soundness, "inverted or flat: " + face + " at (")) << soundness.text();
 }
 
+/// A corner that is flat but for a millionth would be nothing but rounding.
+TEST_F(SoundCube, CornersOf180DegreesNeedAMargin) {
+  const int q = inner_quad();
+  const Vec3 a = corner(q, 0), b = corner(q, 1), c = corner(q, 2), d = corner(q, 3);
+  const Vec3 middle = 0.5 * (a + c);
+  for (const double part : {1e-15, 1e-9, 1e-6}) {
+    corner(q, 3) = middle + part * (d - b);
+    const Soundness soundness = check();
+    EXPECT_TRUE(has(soundness, "1 quad is inverted or flat: face ")) << part << ": " << soundness.text();
+  }
+  corner(q, 3) = middle + 1e-2 * (d - b);
+  EXPECT_TRUE(check().sound());
+}
+
 TEST_F(SoundCube, QuadsMustNotBeFolded) {
   const int q = inner_quad();
   const std::string face = lid();

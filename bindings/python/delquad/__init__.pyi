@@ -79,6 +79,8 @@ class Result(Mesh):
     @property
     def warnings(self) -> list[str]: ...
     @property
+    def beyond_limits(self) -> list[str]: ...
+    @property
     def failures(self) -> list[tuple[int, str]]: ...
     @property
     def sound(self) -> bool: ...
@@ -203,6 +205,8 @@ def mesh(
     max_elements: int = 50_000_000,
     keep_going: bool = False,
     allow_unsound: bool = False,
+    min_angle: float | None = None,
+    max_aspect: float | None = None,
     threads: int = 0,
     time_limit: float = 0,
     progress: bool | Callable[[str, float], object] | None = None,

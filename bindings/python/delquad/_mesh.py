@@ -168,6 +168,8 @@ def mesh(
     max_elements=_MAX_ELEMENTS,
     keep_going=False,
     allow_unsound=False,
+    min_angle=None,
+    max_aspect=None,
     threads=0,
     time_limit=0,
     progress=None,
@@ -206,6 +208,7 @@ def mesh(
     max_elements: sizes that ask for more are refused. keep_going: faces that cannot be meshed are left out.
     allow_unsound: meshes that are not sound are returned, too.
     order: of the elements, 1 to 4: above 1 they are curved along the model, and arrays hold their corners only.
+    min_angle, max_aspect: degrees, and longest over shortest side (but in layers), beyond which an element is an error.
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
     options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
@@ -245,6 +248,9 @@ def mesh(
     _embed(problem, embed)
     if word is None:
         word = problem.quality(quality or "good")
+    for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):
+        if value is not None:
+            problem.option(limit, float(value))
     for key, value in (options or {}).items():
         problem.option(key, value.item() if hasattr(value, "item") else value)
     if name is not None:
@@ -259,8 +265,8 @@ def mesh(
     result = problem.mesh(word, threads, time_limit)
     if progress is True:
         _bar("done", 1)
-    if not result.sound and not allow_unsound:
-        raise UnsoundError("the mesh is not sound: " + "; ".join(result.unsound), result)
+    if result._complaint() and not allow_unsound:
+        raise UnsoundError(result._complaint(), result)
     return result
 
 

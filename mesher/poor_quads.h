@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "delquad/options.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+
+/// A quad is poor with an angle below 10 or above 170 degrees (eta below kBadEta), with longer sides than
+/// this times the shortest, or with a side below this part of the size there.
+inline constexpr double kPoorAspect = 20, kPoorEdge = 0.1;
+
+/// What no element may be beyond.
+struct LimitOptions {
+  double min_angle = 0;   ///< degrees
+  double max_aspect = 0;  ///< of longest over shortest side; 0: any
+};
+OptionGroup limit_group();
+
+/// Counts the bad quads of a result. Warns in one line of those that are poor, with the worst of them, why
+/// that is as far as it is known, and what helps; and of quads that single precision cannot hold. Says which
+/// elements are beyond the limits that were asked for, see Soundness::beyond. Aspects and sides of layers,
+/// and of grids that were asked for, are as they are on purpose. `label` names the case and pipeline.
+void judge_quads(const PreparedProblem& prepared, const std::string& label, RunResult& result);
+
+}  // namespace delquad

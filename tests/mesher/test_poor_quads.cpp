@@ -1,0 +1,131 @@
+#include "mesher/poor_quads.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/mesher/layered_model.h"
+
+namespace delquad {
+namespace {
+
+using Polygon = std::vector<Vec2>;
+
+MeshProblem problem_of_polygons(const std::vector<Polygon>& loops, double size) {
+  MeshProblem problem;
+  problem.model = polygons(loops);
+  problem.size.field = make_constant_size(size);
+  return problem;
+}
+
+Polygon rectangle(Vec2 low, Vec2 high) { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
+
+/// A coast line: a ragged circle of so many points.
+Polygon coast(int points, double radius) {
+  Polygon line;
+  for (int i = 0; i < points; ++i) {
+    const double a = 2 * std::numbers::pi * i / points;
+    const double r = radius * (1 + 0.15 * std::sin(7 * a) + 0.05 * std::cos(37 * a + 1));
+    line.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return line;
+}
+
+/// Two islands in a square, with so much between them.
+std::vector<Polygon> islands(double gap) {
+  return {rectangle({0, 0}, {20, 20}), rectangle({5, 8}, {8, 11}),
+          rectangle({8 + gap, 8.5}, {11 + gap, 11.5})};
+}
+
+std::string poor_in(const MeshResult& result) {
+  std::string all;
+  for (const Warning& warning : result.warnings)
+    if (warning.text.find(" poor (") != std::string::npos) all += warning.text + "\n";
+  return all;
+}
+
+void expect_told(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
+}
+
+TEST(PoorQuads, OfAnOutlineThatIsFinerThanTheSize) {
+  expect_told(poor_in(mesh(problem_of_polygons({coast(400, 10)}, 1), "DBCO")),
+              {"quads are poor", "a side below a tenth of the size", "where curves are finer than the size",
+               "would help"});
+  // What the message says.
+  EXPECT_EQ(poor_in(mesh(problem_of_polygons({coast(400, 10)}, 0.2), "DBCO")), "");
+}
+
+TEST(PoorQuads, OfAGapNarrowerThanTheSize) {
+  const std::string text = poor_in(mesh(problem_of_polygons(islands(0.022), 1), "DB"));
+  expect_told(text, {"in places narrower than the size", "would help"});
+  EXPECT_EQ(poor_in(mesh(problem_of_polygons(islands(3), 1), "DB")), "");
+}
+
+TEST(PoorQuads, OfACornerOfTheModel) {
+  const MeshResult result = mesh(problem_of_polygons({{{0, 0}, {6, -0.05}, {6, 0.05}}}, 0.1), "DB");
+  expect_told(poor_in(result), {"in sharp corners of the model", "0.955 degrees", "at (0."});
+}
+
+TEST(PoorQuads, LayersAreFlatOnPurpose) {
+  LayeredModel model;
+  model.rectangle({0, 0}, {4, 4}, {"wall", "out", "far", "in"});
+  MeshProblem problem = model.problem(0.2, {layer_on({"wall"}, 1e-4, 20)});
+  problem.options.set("limits.max_aspect", 10.0);
+  const MeshResult result = mesh(problem, "DB");
+  EXPECT_GT(result.metrics.values.at("aspect_max"), 100);
+  EXPECT_EQ(poor_in(result), "");
+  EXPECT_TRUE(result.soundness.accepted()) << result.soundness.complaint();
+}
+
+TEST(PoorQuads, OfAGivenMesh) {
+  MeshProblem problem;
+  problem.model = GivenMesh{mesh(problem_of_polygons(islands(0.022), 1), "DB").mesh};
+  expect_told(poor_in(mesh(problem, "CO")), {"in places narrower than the size"});
+}
+
+TEST(Limits, AreAnErrorWithPlaces) {
+  MeshProblem problem = problem_of_polygons({{{0, 0}, {6, -0.5}, {6, 0.5}}}, 0.2);
+  problem.options.set("limits.min_angle", 20.0);
+  try {
+    mesh(problem, "DB");
+    FAIL() << "a corner of ten degrees passed";
+  } catch (const UnsoundError& error) {
+    const std::string text = error.what();
+    for (const char* part :
+         {"beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
+    ASSERT_TRUE(error.result);
+    EXPECT_TRUE(error.result->soundness.sound());
+  }
+  problem.options.set("limits.min_angle", 5.0);
+  EXPECT_TRUE(mesh(problem, "DB").soundness.accepted());
+  problem.options.set("limits.max_aspect", 1.5);
+  problem.allow_unsound = true;
+  const Soundness beyond = mesh(problem, "DB").soundness;
+  EXPECT_TRUE(beyond.sound());
+  ASSERT_EQ(beyond.beyond.size(), 1u);
+  EXPECT_NE(beyond.beyond[0].find("an aspect above 1.5"), std::string::npos) << beyond.beyond[0];
+}
+
+TEST(SinglePrecision, IsToldOfFarModels) {
+  const auto far_away = [](double x) {
+    return mesh(problem_of_polygons({rectangle({x, x}, {x + 1, x + 1})}, 0.1), "DB").warnings;
+  };
+  EXPECT_TRUE(far_away(0).empty());
+  EXPECT_TRUE(far_away(1e3).empty());
+  const auto warnings = far_away(4e6);  // numbers there are half a unit apart
+  ASSERT_EQ(warnings.size(), 1u);
+  for (const char* part : {"single precision", "inverted or flat", "origin near to (4e+06, 4e+06, 0)"})
+    EXPECT_NE(warnings[0].text.find(part), std::string::npos) << warnings[0].text;
+}
+
+}  // namespace
+}  // namespace delquad
