@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
 #include "cases/case_file.h"
 #include "geometry/surface/triangulated_model.h"
+#include "io/mesh_io.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/runner.h"
 #include "tests/support/temporary_folder.h"
@@ -21,6 +24,25 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 bool has(const Soundness& soundness, const std::string& part) {
   return std::ranges::any_of(
       soundness.reasons, [&](const std::string& reason) { return reason.find(part) != std::string::npos; });
+}
+
+/// Corners of 180 degrees passed here by rounding, with scaled Jacobians of 4e-14.
+TEST(Margin, FlatCornersAreCured) {
+  const char* given = std::getenv("DELQUAD_DATA");
+  const std::filesystem::path file = std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) /
+                                     "hard2/example-ro__gripper_motor_single_collision.STL";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  Case c = read_model_case(file);
+  const Mesh model = read_mesh(file);
+  c.size.base = std::to_string(diagonal(model) / 60);
+  c.size.where = "test";
+  c.cross.text = "size-aware";
+  for (const char* text : {"DB", "DBCO", "DBCQO"}) {
+    PreparedProblem prepared = prepare_case(c);
+    const RunResult result = run_case(c, parse_word(text), prepared);
+    EXPECT_TRUE(result.soundness.sound()) << text << result.soundness.text();
+    EXPECT_GT(result.metrics.values.at("scaled_jacobian_min"), 1e-4) << text;
+  }
 }
 
 /// A cube of side 1, meshed by 4 x 4 quads a side, which can then be spoilt.
