@@ -57,7 +57,7 @@ enum class Strays {
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays strays);
 
 // All readers unpack files that are compressed by gzip, and refuse one that holds another format than its
-// name says.
+// name says, or more or fewer elements than its header.
 
 /// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
 /// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
@@ -67,7 +67,8 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays stray
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
               ReadNotes* notes = nullptr);
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
-/// of more than four vertices are split into triangles.
+/// of more than four vertices are split into triangles. In a file of the plane all points have two
+/// coordinates.
 Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes = nullptr,
               Strays strays = Strays::kRefused);
 /// Reads Object File Format, text or binary, with or without colours and normals, which are ignored. Faces of
@@ -85,8 +86,9 @@ Mesh read_stl(const std::filesystem::path& path, ReadNotes* notes = nullptr,
 /// out. Faces of more than four vertices are split into triangles.
 Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes = nullptr,
               Strays strays = Strays::kRefused);
-/// Reads 3MF: what the model's build holds, in its unit. Each object is a region with its name, or one for
-/// each of its colours, unless there are more than 64. Throws InputError with the line of the model inside.
+/// Reads 3MF: what the model's build holds, from whatever file of the archive, in its unit. Each object is a
+/// region with its name, or one for each of its colours, unless there are more than 64. Throws InputError
+/// with the line of the model inside.
 Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes = nullptr,
               Strays strays = Strays::kRefused);
 
