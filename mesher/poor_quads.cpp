@@ -67,13 +67,13 @@ class CurveEdges {
   std::vector<double> shortest_;
 };
 
-enum Cause { kCorner, kFineCurve, kNarrow, kSharpEdge, kUnknown, kCauses };
+enum Cause { kAtCorner, kAtFineCurve, kAtGap, kAtSharpEdge, kOtherwise, kCauses };
 
 /// A poor quad, and why it is.
 struct PoorQuad {
   int quad;
   double eta, aspect, edge;  ///< `edge`: the shortest in sizes
-  Cause cause = kUnknown;
+  Cause cause = kOtherwise;
   double what = 0;              ///< radians of the corner, or a length
   std::array<int, 2> curves{};  ///< at a corner: their tags
   /// How many times beyond its limit.
@@ -120,7 +120,7 @@ class PoorQuads {
     const auto in_corner = [&](double angle, double bound, std::array<int, 2> curves) {
       if (quad.eta < kPartOfBound * bound) return false;
       quad.curves = curves;
-      found(kCorner, angle);
+      found(kAtCorner, angle);
       return true;
     };
     for (int k = 0; k < 4; ++k) {
@@ -137,9 +137,9 @@ class PoorQuads {
     }
     const int finest = *std::ranges::min_element(v, {}, [&](int i) { return edges_.shortest(i); });
     const double fine = edges_.shortest(finest), narrow = width_between_curves(v);
-    if (narrow < kFine * size && narrow < fine / 2) return found(kNarrow, narrow);
-    if (fine < kFine * size) return found(kFineCurve, fine);
-    if (is_triangulated(prepared_) && edges_.has(finest)) found(kSharpEdge, 0);
+    if (narrow < kFine * size && narrow < fine / 2) return found(kAtGap, narrow);
+    if (fine < kFine * size) return found(kAtFineCurve, fine);
+    if (is_triangulated(prepared_) && edges_.has(finest)) found(kAtSharpEdge, 0);
   }
 
  public:
@@ -150,10 +150,10 @@ class PoorQuads {
  private:
   /// Or an image of it.
   bool is_at(const SharpCorner& corner, const Vec3& x) const {
-    constexpr double kRounding = 1e-9;  // of the coordinates
+    constexpr double kSamePlace = 1e-9;  // of the coordinates
     const auto& mirrored = prepared_.surface->mirrored;
     const Vec3 at = prepared_.boundary.points[corner.node], here = mirrored ? mirrored->planes.fold(x) : x;
-    return norm(here - at) <= kRounding * norm(at);
+    return norm(here - at) <= kSamePlace * norm(at);
   }
   /// From corners on curves to others, and to sides on curves, that do not follow along a curve.
   double width_between_curves(const std::array<int, 4>& v) const {
@@ -187,12 +187,12 @@ bool is_given(const PreparedProblem& prepared) {
 
 /// What helps against a cause, of which `first` is the worst; empty: nothing that is known.
 std::string advice(const PreparedProblem& prepared, const PoorQuad& first, double most) {
-  if (is_given(prepared) || first.cause == kCorner || first.cause == kUnknown) return "";
+  if (is_given(prepared) || first.cause == kAtCorner || first.cause == kOtherwise) return "";
   if (PoorQuads::is_triangulated(prepared))
     return ": a smaller size there would help, and perhaps --feature-angle 180 where such edges are noise";
   if (prepared.surface) return fmt::format(": --ignore-below {:.3g} may help", most);
   return fmt::format(": {}a size of {:.3g} there would help",
-                     first.cause == kNarrow ? "" : "fewer points, or ", first.what);
+                     first.cause == kAtGap ? "" : "fewer points, or ", first.what);
 }
 
 std::string text_of(const PreparedProblem& prepared, const Mesh& mesh, const std::vector<PoorQuad>& quads,
@@ -202,26 +202,26 @@ std::string text_of(const PreparedProblem& prepared, const Mesh& mesh, const std
   int n = 0;
   for (const PoorQuad& quad : quads) {
     if (quad.cause != cause) continue;
-    if (++n == 1 || (cause == kCorner && quad.what < first->what)) first = &quad;
+    if (++n == 1 || (cause == kAtCorner && quad.what < first->what)) first = &quad;
     most = std::max(most, quad.what);
   }
   if (n == 0) return "";
   const std::string at = show_place(mesh, middle_of_quad(mesh, first->quad));
   std::string why;
   switch (cause) {
-    case kCorner:
+    case kAtCorner:
       why = fmt::format(
           "in sharp corners of the model, the sharpest of {:.3g} degrees between curves {} and {} in {}",
           first->what / kDegree, first->curves[0], first->curves[1], at);
       break;
-    case kFineCurve:
+    case kAtFineCurve:
       why =
           fmt::format("where curves are finer than the size, with an edge of {:.3g} in {}", first->what, at);
       break;
-    case kNarrow:
+    case kAtGap:
       why = fmt::format("in places narrower than the size, {:.3g} in {}", first->what, at);
       break;
-    case kSharpEdge:
+    case kAtSharpEdge:
       why = fmt::format("at sharp edges of the triangulation, as in {}", at);
       break;
     default:
@@ -334,7 +334,7 @@ void judge_quads(const PreparedProblem& prepared, const std::string& label, RunR
       values.at("edge_min") < kPoorEdge) {
     const std::vector<PoorQuad> quads = PoorQuads(prepared, mesh, on_purpose).quads;
     for (const PoorQuad& quad : quads)
-      if (quad.eta < kBadEta) ++(quad.cause == kCorner ? result.bad_in_corners : result.bad_elsewhere);
+      if (quad.eta < kBadEta) ++(quad.cause == kAtCorner ? result.bad_in_corners : result.bad_elsewhere);
     warn_of_poor_quads(prepared, label, quads, result);
   }
   warn_of_single_precision(label, mesh, sides, result.warnings);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 /// By rounding to a whole and even number of edges, curves get a little fewer than wanted.
-constexpr double kRounding = 0.9;
+constexpr double kRoundedDown = 0.9;
 /// What would be round only with sizes below this part of the size there is too small to tell of.
 constexpr double kLeastShown = 0.02;
 
@@ -35,7 +35,7 @@ struct CoarseTurns {
   /// `angle`: by which an edge turns; `radius`: of the curvature there; `size`: of the edge.
   void add(int& count, double angle, double radius, double size, const std::string& name) {
     const double per_turn = kTurn / angle;
-    if (!(per_turn < kRounding * kFewPerTurn)) return;
+    if (!(per_turn < kRoundedDown * kFewPerTurn)) return;
     // Tips and slivers: nobody wants these round.
     if (radius * kTurn / kFewPerTurn < kLeastShown * size) return;
     ++count;

@@ -49,13 +49,13 @@ std::vector<Edge> line_edges(const Mesh& mesh) {
 /// model asks for it.
 bool is_as_narrow_as_model(const std::array<int, 4>& v, const ElementShape<4>& shape,
                            const std::vector<Edge>& lines) {
-  constexpr double kRounding = 0.9;
+  constexpr double kNearly = 0.9;
   const auto is_line = [&](int a, int b) {
     return std::ranges::binary_search(lines, Edge{std::min(a, b), std::max(a, b)});
   };
   for (int k = 0; k < 4; ++k)
     if (std::sin(shape.angle[k]) <= kLeastJacobian && shape.angle[k] < 1 &&
-        shape.scaled_jacobian >= kRounding * std::sin(shape.angle[k]) && shape.scaled_jacobian > 0 &&
+        shape.scaled_jacobian >= kNearly * std::sin(shape.angle[k]) && shape.scaled_jacobian > 0 &&
         is_line(v[(k + 3) % 4], v[k]) && is_line(v[k], v[(k + 1) % 4]))
       return true;
   return false;

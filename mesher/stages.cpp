@@ -175,8 +175,8 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
 }
 
 /// `z`: of planar meshes.
-Vec3 in_space(const Vec2& p, double z) { return {p.x, p.y, z}; }
-Vec3 in_space(const Vec3& p, double) { return p; }
+Vec3 as_place(const Vec2& p, double z) { return {p.x, p.y, z}; }
+Vec3 as_place(const Vec3& p, double) { return p; }
 
 /// What a quad must not be worse than.
 struct WorstOfQuads {
@@ -187,7 +187,7 @@ template <class Vec>
 WorstOfQuads worst_of(const PreparedProblem& prepared, const std::vector<Vec>& points,
                       const std::array<int, 4>& quad) {
   std::array<Vec3, 4> corners;
-  for (int k = 0; k < 4; ++k) corners[k] = in_space(points[quad[k]], prepared.boundary.points[0].z);
+  for (int k = 0; k < 4; ++k) corners[k] = as_place(points[quad[k]], prepared.boundary.points[0].z);
   const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
   WorstOfQuads worst{eta_of(element_shape(corners, normal).angle), quad_aspect(corners)};
   for (int k = 0; k < 4; ++k)
