@@ -112,9 +112,8 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
                                        roots - transferred, roots, kind, complaint->why()));
   if (!lost.doubtful.empty())
-    cad.warnings.push_back(fmt::format("{} of the {} file were read with errors: {}",
-                                       counted(std::ssize(lost.doubtful), "part"), kind,
-                                       first_of(lost.doubtful)));
+    cad.warnings.push_back(
+        fmt::format("parts of the {} file were read with errors: {}", kind, first_of(lost.doubtful)));
   if (!lost.unused.empty())
     cad.warnings.push_back(fmt::format("{} faces of the {} file belong to no shape and are left out: {}",
                                        lost.unused.size(), kind, first_of(lost.unused)));
