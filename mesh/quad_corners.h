@@ -60,11 +60,6 @@ inline int ideal_quads(double right_angles) {
 /// only.
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
-/// How near the ends of an inner side come to each other: from 0, where it is long enough, to 1.
-inline double crowding(double length, double delta, double longest) {
-  return std::max(0.0, 1 - length / (kKeptSide * std::max(delta, longest)));
-}
-
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
 /// The least of them.

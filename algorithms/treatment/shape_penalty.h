@@ -22,8 +22,8 @@ class ShapePenalty {
 
   /// Of the corners of the elements around the vertices (dead ones are skipped), the sum of (what the sine
   /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. To this
-  /// comes how their vertices crowd, see QuadRelocation::crowding(). Each element of eta 0 counts as much as
-  /// any number of others.
+  /// comes how their vertices crowd, see QuadRelocation::crowding(), up to 1. Each element of eta 0 counts as
+  /// much as any number of others.
   double around(std::span<const int> vertices);
   /// Elements that it has looked at so far.
   long long looks() const { return looks_; }

@@ -11,6 +11,7 @@
 #include "mesh/quad_corners.h"
 #include "smoothing/optimisation/block_tracks.h"
 #include "smoothing/optimisation/minimise_energy.h"
+#include "smoothing/relocation/crowding.h"
 
 namespace delquad {
 
@@ -279,7 +280,7 @@ double TrackOptimisation<Vec>::crowding(std::size_t quad) const {
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int a = v[k], b = v[(k + 1) % 4];
-    if (inside_[a] || inside_[b]) sum += delquad::crowding(lengths[k], std::min(room_[a], room_[b]), longest);
+    if (inside_[a] || inside_[b]) sum += crowding_of(lengths[k], std::min(room_[a], room_[b]), longest);
   }
   return sum;
 }

@@ -9,6 +9,7 @@
 
 #include "base/box.h"
 #include "base/cancel.h"
+#include "smoothing/relocation/crowding.h"
 
 namespace delquad {
 
@@ -281,7 +282,7 @@ double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_th
   for (int k = 0; k < n; ++k) {
     const int h = 4 * element + k;
     if (mesh_.twin(h) < 0) continue;
-    sum += delquad::crowding(lengths[k], std::min(room(mesh_.origin(h)), room(mesh_.target(h))), longest);
+    sum += crowding_of(lengths[k], std::min(room(mesh_.origin(h)), room(mesh_.target(h))), longest);
   }
   return sum;
 }

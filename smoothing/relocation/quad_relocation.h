@@ -55,7 +55,7 @@ class QuadRelocation {
   /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
   /// grew.
   double lift(int v, double enough);
-  /// The sum of crowding() over the inner sides of an element. Sides at the boundary may be as short as the
+  /// The sum of crowding_of() over the inner sides of an element. Sides at the boundary may be as short as the
   /// boundary's edges there.
   double crowding(int element) const { return crowding(element, -1, {}, 0); }
   /// The vertex's part of the objective where it is.

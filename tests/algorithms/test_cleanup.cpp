@@ -227,6 +227,18 @@ TEST(Cleanup, SeedsDiffer) {
   EXPECT_NE(first.points, second.points);
 }
 
+TEST(Cleanup, NoVerticesNearlyCoincide) {
+  const FunctionSize size(0.15);
+  for (int seed = 0; seed < 10; ++seed) {
+    const PatchBoundary boundary = shapes::rotated(shapes::plate_with_holes(3, 20, 3, 0.3, 13), 0.1 * seed);
+    const FunctionCross cross(0.1 * seed);
+    const QuadPatch raw =
+        recombine(mesh_frontal(boundary, *make_linf_delquad(), cross, size), *make_primal_dual_solver());
+    EXPECT_GT(least_room(cleaned(raw, boundary, size), size), kShortSide) << seed;
+    EXPECT_GT(least_room(cleaned(treat_paper(raw, size), boundary, size), size), kShortSide) << seed;
+  }
+}
+
 TEST(Cleanup, OddBoundaryKeepsItsTriangle) {
   const PatchBoundary boundary = shapes::disk(1, 31);
   const FunctionSize size(0.2);

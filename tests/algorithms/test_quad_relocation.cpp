@@ -111,6 +111,20 @@ TEST(QuadRelocation, LiftImprovesTheWorstAndEnds) {
   }
 }
 
+TEST(QuadRelocation, VerticesKeepApart) {
+  const FunctionSize size(1);
+  for (int seed = 0; seed < 20; ++seed) {
+    const QuadPatch mesh = testing_support::scrambled(grid_patch(12, 12), seed, 40);
+    ASSERT_GT(testing_support::least_room(mesh, size), 0.2);
+    QuadTopology topology(mesh);
+    QuadRelocation relocation(topology, size);
+    relocation.activate_all();
+    relocation.relax(0.02, 30);
+    relocation.lift_worst(0.5, 10);
+    EXPECT_GE(testing_support::least_room(topology.to_patch(), size), kShortSide) << seed;
+  }
+}
+
 TEST(QuadRelocation, KeptSinesAreKept) {
   const double kept = 0.6;
   for (int seed = 0; seed < 10; ++seed) {

@@ -124,6 +124,17 @@ TEST(Treatment, BoundaryMuchFinerThanTheSize) {
   }
 }
 
+TEST(Treatment, NoVerticesNearlyCoincide) {
+  const FunctionSize size(0.15);
+  for (int seed = 0; seed < 10; ++seed) {
+    const PatchBoundary boundary = shapes::rotated(shapes::plate_with_holes(3, 20, 3, 0.3, 13), 0.1 * seed);
+    const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
+    const QuadPatch mesh = meshed(boundary, *placement, FunctionCross(0.1 * seed), size);
+    EXPECT_GT(least_room(mesh, size), kShortSide) << seed;
+    EXPECT_GT(least_room(treated(mesh, boundary, size), size), kShortSide) << seed;
+  }
+}
+
 TEST(Treatment, OddBoundaryKeepsItsTriangle) {
   PatchBoundary boundary = shapes::disk(1, 31);
   const FunctionSize size(0.2);

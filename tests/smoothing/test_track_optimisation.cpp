@@ -6,6 +6,8 @@
 #include <random>
 
 #include "mesh/quad_corners.h"
+#include "tests/support/analytic_fields.h"
+#include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
@@ -115,6 +117,22 @@ TEST(TrackOptimisation, EdgesKeepAFifthOfTheirLength) {
         const int a = quad[k], b = quad[(k + 1) % 4];
         EXPECT_GE(norm(points[b] - points[a]), 0.2 * std::min(norm(before[b] - before[a]), 0.01));
       }
+  }
+}
+
+TEST(TrackOptimisation, ThinQuadsGetNoThinner) {
+  for (int seed = 0; seed < 20; ++seed) {
+    QuadPatch grid = jittered(grid_patch(6, 6), seed, 0.4);
+    for (Vec2& u : grid.points) u.x *= 6;
+    CylinderTracks tracks(grid, 36, 6, 1);
+    std::vector<Vec3> points = tracks.points();
+    const auto least = [&] {
+      QuadPatch now = tracks.grid();
+      return testing_support::least_room(now, testing_support::FunctionSize(1));
+    };
+    const double before = least();
+    optimise_on_tracks(points, grid.quads, tracks, {.size = 5});
+    EXPECT_GE(least(), std::min(before, kShortSide)) << seed;
   }
 }
 

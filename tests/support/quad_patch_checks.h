@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "delquad/mesh.h"
 #include "mesh/quad_corners.h"
 #include "mesh/quad_topology.h"
@@ -94,5 +95,26 @@ inline double worst_sine(const QuadTopology& mesh) {
   return least;
 }
 inline double worst_sine(const QuadPatch& mesh) { return worst_sine(QuadTopology(mesh)); }
+
+/// Of the quads' sides inside, the least length over the longer of the size (the least at the ends) and the
+/// quad's longest side.
+inline double least_room(const QuadPatch& mesh, const ParametricSize& size) {
+  std::set<std::pair<int, int>> sides;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) sides.emplace(q[k], q[(k + 1) % 4]);
+  double least = 1;
+  int hint = -1;
+  for (const auto& q : mesh.quads) {
+    const auto length = [&](int k) { return norm(mesh.points[q[(k + 1) % 4]] - mesh.points[q[k]]); };
+    const double longest = std::max({length(0), length(1), length(2), length(3)});
+    for (int k = 0; k < 4; ++k) {
+      const int a = q[k], b = q[(k + 1) % 4];
+      if (!sides.contains({b, a})) continue;
+      const double delta = std::min(size.at(mesh.points[a], hint), size.at(mesh.points[b], hint));
+      least = std::min(least, length(k) / std::max(delta, longest));
+    }
+  }
+  return least;
+}
 
 }  // namespace delquad::testing_support
