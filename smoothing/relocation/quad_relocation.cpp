@@ -281,8 +281,9 @@ double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_th
   double sum = 0;
   for (int k = 0; k < n; ++k) {
     const int h = 4 * element + k;
-    if (mesh_.twin(h) < 0) continue;
-    sum += crowding_of(lengths[k], std::min(room(mesh_.origin(h)), room(mesh_.target(h))), longest);
+    const int a = mesh_.origin(h), b = mesh_.target(h);
+    if (mesh_.on_boundary(a) && mesh_.on_boundary(b)) continue;  // the model may be as narrow as that
+    sum += crowding_of(lengths[k], std::min(room(a), room(b)), longest);
   }
   return sum;
 }

@@ -55,8 +55,8 @@ class QuadRelocation {
   /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
   /// grew.
   double lift(int v, double enough);
-  /// The sum of crowding_of() over the inner sides of an element. Sides at the boundary may be as short as the
-  /// boundary's edges there.
+  /// The sum of crowding_of() over the sides of an element that have a vertex inside. Those that end on the
+  /// boundary may be as short as its edges there.
   double crowding(int element) const { return crowding(element, -1, {}, 0); }
   /// The vertex's part of the objective where it is.
   double cost(int v);

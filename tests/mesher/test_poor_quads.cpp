@@ -55,11 +55,12 @@ void expect_told(const std::string& text, const std::vector<std::string>& parts)
 }
 
 TEST(PoorQuads, OfAnOutlineThatIsFinerThanTheSize) {
-  expect_told(poor_in(mesh(problem_of_polygons({coast(400, 10)}, 1), "DBCO")),
+  const std::vector<Polygon> outline{coast(800, 5)};
+  expect_told(poor_in(mesh(problem_of_polygons(outline, 1), "DBCO")),
               {"quads are poor", "a side below a tenth of the size", "where curves are finer than the size",
                "would help"});
   // What the message says.
-  EXPECT_EQ(poor_in(mesh(problem_of_polygons({coast(400, 10)}, 0.2), "DBCO")), "");
+  EXPECT_EQ(poor_in(mesh(problem_of_polygons(outline, 0.2), "DBCO")), "");
 }
 
 TEST(PoorQuads, OfAGapNarrowerThanTheSize) {

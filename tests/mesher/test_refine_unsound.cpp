@@ -66,7 +66,7 @@ MeshProblem rubble(int seed) {
   sheet.source = "rubble";
   sheet.mesh = testing_support::triangle_grid(24, 24, 4, 4);
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  for (Vec3& p : sheet.mesh.points) p.z = 1.5 * shapes::uniform(random);
+  for (Vec3& p : sheet.mesh.points) p.z = 4 * shapes::uniform(random);
   MeshProblem problem;
   problem.name = problem.where = "rubble";
   problem.model = sheet;

@@ -85,7 +85,7 @@ TEST(SuiteCommands, AddMeasuresAndRanks) {
   // Meshes of something else: another model, the right area in another place, a file that is none.
   fs::copy(work / "in/gear_1.msh", work / "in/ring_gear_1.msh");
   fs::copy(work / "in/torus_1.obj", work / "in/bracket_1.obj");
-  std::ofstream(work / "in/hood_1.obj") << "v 1 2\n";
+  std::ofstream(work / "in/hood_1.obj") << "v 1 x\n";
   const auto added = work.add();
   ASSERT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(contains(added.out, "theirs: 4 meshes measured, 3 refused, 113 missing")) << added.out;

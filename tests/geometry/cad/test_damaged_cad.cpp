@@ -95,7 +95,7 @@ TEST_F(DamagedCad, NoTriangleIsLeft) {
                                      "hard2" / "damaged_no_face.brep";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   expect_input_error([&] { read_cad(file, {.keep_going = true}); },
-                     {file.c_str(), "nothing is left to mesh"});
+                     {file.c_str(), "the model holds no face"});
 }
 
 }  // namespace

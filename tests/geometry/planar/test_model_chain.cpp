@@ -90,10 +90,6 @@ TEST(ModelChain, NamesWhatIsWrong) {
   open.loops[0].where = "test.toml:9";
   expect_input_error(chain(open), {"test.toml:9: ", "'inlet' (test.toml:7)"});
 
-  auto cross = rectangle_sides(0, 0, 1, 1);
-  for (const auto& side : rectangle_sides(1, 1, 2, 2)) cross.push_back(side);
-  expect_input_error(chain(ModelBuilder().loop(cross).build()), {"4 ends", "(1, 1)"});
-
   auto two = rectangle_sides(0, 0, 1, 1);
   for (const auto& side : rectangle_sides(3, 3, 4, 4)) two.push_back(side);
   expect_input_error(chain(ModelBuilder().loop(two).build()), {"more than one chain", "4 of 8"});
