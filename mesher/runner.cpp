@@ -408,6 +408,21 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
   return state;
 }
 
+namespace {
+
+/// Of each patch; tells what was stopped.
+void add_logs(const PreparedProblem& prepared, const std::vector<StageLog>& logs, MeshingState& state) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (const char* step : {"treatment", "cleanup"})
+      if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
+        state.warnings.push_back(
+            stopped_early(prepared, step, prepared.boundary.regions[prepared.patches[i].region].tag));
+    state.log.add(logs[i]);
+  }
+}
+
+}  // namespace
+
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
   const Stopwatch watch;
   const DoingStage running(stage.name.c_str());
@@ -438,13 +453,7 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
                                                        : static_cast<double>(points_of(patches[i]).size());
       });
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    for (const char* step : {"treatment", "cleanup"})
-      if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
-        state.warnings.push_back(
-            stopped_early(prepared, step, prepared.boundary.regions[prepared.patches[i].region].tag));
-    state.log.add(logs[i]);
-  }
+  add_logs(prepared, logs, state);
   check_insertion(prepared, state.log);
   std::vector<char> left_out, held;  // what stays when points of quads move: fewer grids
   for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -34,7 +34,7 @@ struct MeshingState {
   std::vector<const Stage*> of_quads = {};  ///< stages that began from quads
   std::vector<std::string> reasons;         ///< of each patch, to leave its face out; empty: none
   std::vector<Warning> warnings;
-  SurfaceNodes nodes;                       ///< those on curves
+  SurfaceNodes nodes;  ///< those on curves
   StageLog log;
   double seconds = 0;  ///< on the clock, so far
 };

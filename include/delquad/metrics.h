@@ -158,9 +158,9 @@ struct SurfaceReport {
 
 /// Whether a mesh is one of its model, and fit to be computed with. It is sound when
 /// - every coordinate is a finite number;
-/// - no element is inverted or flat: all scaled Jacobians are above 1e-4, also where coordinates are rounded to
-///   single precision, as far as that can hold them (metrics/shape.h says why); no quad is folded (over 90
-///   degrees along a diagonal), and no element faces away from its model;
+/// - no element is inverted or flat: scaled Jacobians are above 1e-4, also with coordinates in single
+///   precision, as far as that holds them (metrics/shape.h says why); no quad is folded (over 90 degrees
+///   along a diagonal), and no element faces away from its model;
 /// - it is conforming: every edge is in as many elements as the model has faces there, two inside of them,
 ///   and elements side by side run the same way round;
 /// - it hangs together as its model does: the same Euler characteristic, watertight where the model is;

@@ -203,14 +203,16 @@ TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
                                         "--pipeline", "DB",  "--json", folder / "r.json"};
   const ProgramResult refused = delquad(arguments);
   EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_EQ(refused.err, "error: " + model.string() + ": the mesh is not sound: " + kFlat +
-                             ": nothing was written; another size may help (--allow-unsound writes it)\n");
+  EXPECT_TRUE(contains(refused.err,
+                       "\nerror: " + model.string() + ": the mesh is not sound: " + kFlat +
+                           ": nothing was written; another size may help (--allow-unsound writes it)\n"))
+      << refused.err;
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"flat.msh", "flat.toml"}));
 
   arguments.push_back("--allow-unsound");
   const ProgramResult allowed = delquad(arguments);
   EXPECT_EQ(allowed.exit_code, 0);
-  EXPECT_EQ(allowed.err, "warning: the mesh is not sound: " + kFlat + "\n");
+  EXPECT_TRUE(contains(allowed.err, "warning: the mesh is not sound: " + kFlat + "\n")) << allowed.err;
   EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 1u);
   const std::string record = read_text(folder / "r.json");
   EXPECT_TRUE(contains(record, "\"sound\": false")) << record;
