@@ -17,9 +17,9 @@ constexpr int kNearRings = 2, kFarRings = 3, kMostRings = 20;
 /// A region grows by no more rings once it has so many vertices; and at the last attempt.
 constexpr int kLargeRegion = 40, kHugeRegion = 1500;
 
-/// Vertices that may be settled, counting each time, for each element of the mesh; and in any mesh. Patches
-/// whose bad quads are few need a tenth of it.
-constexpr long long kSettlementsPerElement = 200, kLeastSettlements = 20000;
+/// Elements around vertices that may be settled, counting each time, for each element of the mesh; and in any
+/// mesh. Patches whose bad quads are few need a tenth of it.
+constexpr long long kSettledPerElement = 800, kLeastSettled = 80'000;
 
 void sort_unique(std::vector<int>& v) {
   std::sort(v.begin(), v.end());
@@ -32,7 +32,7 @@ LocalRemeshing::LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, S
     : mesh_(mesh),
       relocation_(relocation),
       penalty_(penalty),
-      settlements_(kLeastSettlements + kSettlementsPerElement * mesh.element_slots()) {}
+      settlements_(kLeastSettled + kSettledPerElement * mesh.element_slots()) {}
 
 bool LocalRemeshing::improve(int quad, double least_relief) {
   collect_region(quad, kNearRings, kLargeRegion);
@@ -128,7 +128,7 @@ void LocalRemeshing::perform(const Edit& edit) {
 }
 
 void LocalRemeshing::settle() {
-  settlements_ -= static_cast<long long>(free_.size());
+  for (const int v : free_) settlements_ -= mesh_.valence(v);
   untangle(mesh_, free_);
   for (int sweep = 0; sweep < kRelocationSweeps; ++sweep)
     for (const int v : free_) relocation_.step(v);

@@ -12,8 +12,8 @@ namespace delquad {
 
 /// The last resort for a bad quad: every edit of it and its neighbours is tried, up to a ring of new quads
 /// around the neighbourhood, each followed by untangling of some rings around, and the best is kept. A mesh
-/// of which all is bad cannot be helped so: all attempts together settle a number of vertices that is linear
-/// in its size, and none helps after.
+/// of which all is bad cannot be helped so: all attempts together settle vertices with a number of elements
+/// around that is linear in its size, and none helps after.
 class LocalRemeshing {
  public:
   /// All outlive this object.
@@ -47,7 +47,7 @@ class LocalRemeshing {
   QuadTopology& mesh_;
   QuadRelocation& relocation_;
   ShapePenalty& penalty_;
-  long long settlements_;    ///< of vertices, that are left
+  long long settlements_;    ///< elements around vertices that may still be settled
   std::vector<int> region_;  ///< all vertices whose elements may change
   std::vector<int> free_;
   std::vector<Edit> edits_;
