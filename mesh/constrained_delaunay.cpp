@@ -6,6 +6,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/predicates.h"
@@ -42,7 +44,8 @@ std::vector<Cdt::Vertex_handle> insert_points(Cdt& cdt, const std::vector<Vec2>&
   return handle;
 }
 
-/// Numbers the faces inside the patch, flooding from the left sides of its boundary edges; returns how many.
+/// Numbers the faces inside the patch, flooding from the left sides of its boundary edges; returns these.
+/// Refuses edges, but for slits, that have the inside on their right, too: of loops turned inside out.
 std::vector<Cdt::Face_handle> flood_inside(Cdt& cdt, const PatchBoundary& boundary,
                                            const std::vector<Cdt::Vertex_handle>& handle) {
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = kOutside;
@@ -52,7 +55,9 @@ std::vector<Cdt::Face_handle> flood_inside(Cdt& cdt, const PatchBoundary& bounda
     f->info() = static_cast<int>(inside.size());
     inside.push_back(f);
   };
-  for (const auto& e : boundary.edges) {
+  std::vector<std::pair<Cdt::Face_handle, std::size_t>> right;  // with its edge
+  for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
+    const auto& e = boundary.edges[i];
     Cdt::Face_handle f;
     int side = 0;
     if (!cdt.is_edge(handle[e[0]], handle[e[1]], f, side)) {
@@ -60,12 +65,24 @@ std::vector<Cdt::Face_handle> flood_inside(Cdt& cdt, const PatchBoundary& bounda
                                    boundary.points[e[0]].y));
     }
     // The face to the left of the edge sees its ends in counterclockwise order.
-    enter(f->vertex(Cdt::ccw(side)) == handle[e[0]] ? f : f->neighbor(side));
+    const bool is_left = f->vertex(Cdt::ccw(side)) == handle[e[0]];
+    enter(is_left ? f : f->neighbor(side));
+    right.emplace_back(is_left ? f->neighbor(side) : f, i);
   }
   for (size_t i = 0; i < inside.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       if (!inside[i]->is_constrained(k)) enter(inside[i]->neighbor(k));
     }
+  }
+  for (const auto& [face, i] : right) {
+    if (face->info() == kOutside) continue;
+    const auto [from, to] = boundary.edges[i];
+    if (std::ranges::find(boundary.edges, std::array{to, from}) != boundary.edges.end()) continue;  // a slit
+    const Vec2 a = boundary.points[from], b = boundary.points[to];
+    throw InputError(
+        fmt::format("the boundary is turned inside out at the edge ({}, {}) - ({}, {}): the patch lies on "
+                    "both sides of it",
+                    a.x, a.y, b.x, b.y));
   }
   return inside;
 }

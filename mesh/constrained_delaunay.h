@@ -8,8 +8,8 @@
 namespace delquad {
 
 /// Constrained Delaunay triangulation of a patch: the boundary's points, then `interior` ones; nothing
-/// outside is kept. Throws InputError when boundary edges cross or an interior point lies outside, on the
-/// boundary or on another point.
+/// outside is kept. Throws InputError when boundary edges cross or have the patch on both sides, or an
+/// interior point lies outside, on the boundary or on another point.
 TriPatch constrained_delaunay(const PatchBoundary& boundary, const std::vector<Vec2>& interior = {});
 
 /// What is wrong with the triangulation, one line each: ranges, orientation, neighbours that do not agree.

@@ -502,7 +502,9 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   const int rings = part_flat_corners(prepared, state.nodes, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, left_out, result);
-  if (are_cuts_in_the_way(prepared, of_quads)) run_across_cuts(prepared, of_quads, left_out, result);
+  // A mesh that is not sound is made anew, see refine_unsound(): until then these take time for nothing.
+  if (are_cuts_in_the_way(prepared, of_quads) && (result.soundness.sound() || prepared.given_entities))
+    run_across_cuts(prepared, of_quads, left_out, result);
   if (!given.empty()) keep_better(prepared, label, given, of_quads, left_out, result);
   if (curve_mesh(prepared, state.nodes, rings, result)) measure_straight_form(prepared, left_out, result);
   result.peak_memory = peak_memory();

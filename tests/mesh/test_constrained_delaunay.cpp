@@ -61,6 +61,20 @@ TEST(ConstrainedDelaunay, RefusesWhatIsNotAPatch) {
   EXPECT_THROW(constrained_delaunay(shapes::polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}})), InputError);
 }
 
+TEST(ConstrainedDelaunay, RefusesHolesThatAreTurnedInsideOut) {
+  // Meshed on both sides, its edges would be those of no boundary.
+  const std::vector<Vec2> hole = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
+  for (const bool is_turned : {false, true}) {
+    PatchBoundary boundary = shapes::rectangle(1, 1, 4, 4);
+    shapes::add_polygon(boundary, is_turned ? std::vector<Vec2>(hole.rbegin(), hole.rend()) : hole,
+                        {1, 1, 1, 1});
+    if (is_turned)
+      EXPECT_THROW(constrained_delaunay(boundary), InputError);
+    else
+      EXPECT_NO_THROW(constrained_delaunay(boundary));
+  }
+}
+
 TEST(ConstrainedDelaunay, InvariantsSeeDamage) {
   TriPatch tri = constrained_delaunay(shapes::disk(1, 8));
   std::swap(tri.triangles[0][0], tri.triangles[0][1]);
