@@ -117,16 +117,29 @@ std::vector<int> without_triangles(const CadShape& cad, const TopTools_IndexedMa
   return numbers;
 }
 
-std::string titles(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
-                   const std::vector<int>& numbers) {
-  std::vector<std::string> all;
-  for (const int f : numbers) all.push_back(face_title(f, cad.names.of(faces(f))));
-  return fmt::format("{}", fmt::join(all, ", "));
+/// From the outlines: the faces (numbers) that are wanted; adds those meshed so, and those too coarse.
+/// Returns those that cannot be.
+std::vector<int> triangulate_by_outline(CadShape& cad, const std::vector<int>& wanted,
+                                        const CadOptions& options, TopTools_IndexedMapOfShape& meshed,
+                                        TopTools_IndexedMapOfShape& coarse) {
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
+  const OutlineMeshes result =
+      mesh_by_outline(cad, faces, wanted, options.deflection * cad.diagonal, options.angle);
+  for (const int f : result.meshed) meshed.Add(faces(f));
+  for (const int f : result.coarse) coarse.Add(faces(f));
+  cad.why_not.assign(static_cast<std::size_t>(faces.Extent()), "");
+  std::vector<int> failed;
+  for (const auto& [face, reason] : result.failed) {
+    cad.why_not[static_cast<std::size_t>(face) - 1] = reason;
+    failed.push_back(face);
+  }
+  return failed;
 }
 
 /// By the kernel; what it cannot, from the outlines.
-void triangulate_faces(CadShape& cad, const TopTools_IndexedMapOfShape& faces, const CadOptions& options) {
+void triangulate_faces(CadShape& cad, const CadOptions& options) {
   const double deflection = options.deflection * cad.diagonal;
+  TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   std::vector<int> wanted(static_cast<std::size_t>(faces.Extent()));
   std::iota(wanted.begin(), wanted.end(), 1);
   if (!options.by_outline) {
@@ -134,16 +147,23 @@ void triangulate_faces(CadShape& cad, const TopTools_IndexedMapOfShape& faces, c
     wanted = without_triangles(cad, faces, deflection);
   }
   if (wanted.empty()) return;
-  const OutlineMeshes result = mesh_by_outline(cad, faces, wanted, deflection, options.angle);
-  cad.why_not.resize(static_cast<std::size_t>(faces.Extent()));
-  for (const auto& [face, reason] : result.failed) cad.why_not[static_cast<std::size_t>(face) - 1] = reason;
-  if (!options.by_outline && !result.meshed.empty())
+  TopTools_IndexedMapOfShape meshed, coarse;
+  if (drop_strips(cad, triangulate_by_outline(cad, wanted, options, meshed, coarse))) {
+    faces = parts(cad.shape, TopAbs_FACE);
+    triangulate_by_outline(cad, without_triangles(cad, faces, deflection), options, meshed, coarse);
+  }
+  const auto titles = [&](const TopTools_IndexedMapOfShape& some) {
+    std::vector<std::string> all;
+    for (int f = 1; f <= faces.Extent(); ++f)
+      if (some.Contains(faces(f))) all.push_back(face_title(f, cad.names.of(faces(f))));
+    return fmt::format("{}", fmt::join(all, ", "));
+  };
+  if (const std::string names = titles(meshed); !options.by_outline && !names.empty())
     cad.warnings.push_back(
-        "the CAD kernel could not triangulate all faces; triangulated from their outlines instead: " +
-        titles(cad, faces, result.meshed));
-  if (!result.coarse.empty())
+        "the CAD kernel could not triangulate all faces; triangulated from their outlines instead: " + names);
+  if (const std::string names = titles(coarse); !names.empty())
     cad.warnings.push_back("triangulated more coarsely than asked for, which takes too many points: " +
-                           titles(cad, faces, result.coarse));
+                           names);
 }
 
 CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
@@ -157,7 +177,7 @@ CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
-  triangulate_faces(cad, faces, request.options);
+  triangulate_faces(cad, request.options);
   return cad;
 }
 

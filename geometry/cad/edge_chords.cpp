@@ -54,6 +54,14 @@ std::vector<double> new_parameters(const TopoDS_Edge& edge, double deflection, d
   return parameters;
 }
 
+bool is_at_end(const TopoDS_Edge& edge, double t) {
+  const gp_Pnt at = BRepAdaptor_Curve(edge).Value(t);
+  for (const TopoDS_Vertex& end : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})
+    if (at.Distance(BRep_Tool::Pnt(end)) <= BRep_Tool::Tolerance(end) + BRep_Tool::Tolerance(edge))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 EdgeChords::EdgeChords(const TopoDS_Shape& shape, double deflection, double angle)
@@ -70,6 +78,7 @@ EdgeChords::EdgeChords(const TopoDS_Shape& shape, double deflection, double angl
     }
   }
   parameters_.resize(static_cast<std::size_t>(faces_of_.Extent()));
+  keeps_off_.resize(parameters_.size(), 0);
 }
 
 int EdgeChords::number(const TopoDS_Edge& edge) const { return faces_of_.FindIndex(unplaced(edge)) - 1; }
@@ -90,8 +99,22 @@ bool EdgeChords::halve(const TopoDS_Edge& edge, int k) {
   std::vector<double>& parameters = parameters_[number(edge)];
   const double middle = 0.5 * (parameters[k] + parameters[k + 1]);
   if (!(parameters[k] < middle && middle < parameters[k + 1])) return false;
+  if (keeps_off_[number(edge)] != 0 && is_at_end(edge, middle)) return false;
   parameters.insert(parameters.begin() + k + 1, middle);
   return true;
+}
+
+void EdgeChords::keep_off_ends(const TopoDS_Edge& edge) {
+  if (BRep_Tool::Degenerated(edge)) return;
+  std::vector<double> left = of(edge);
+  const auto is_dropped = [&](double t) {
+    return t != left.front() && t != left.back() && is_at_end(edge, t);
+  };
+  left.erase(std::remove_if(left.begin() + 1, left.end() - 1, is_dropped), left.end() - 1);
+  const bool is_closed = TopExp::FirstVertex(edge).IsSame(TopExp::LastVertex(edge));
+  if (is_closed && std::ssize(left) < kClosedPoints) return;
+  keeps_off_[number(edge)] = 1;
+  parameters_[number(edge)] = std::move(left);
 }
 
 }  // namespace delquad::cad

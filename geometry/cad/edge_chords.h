@@ -19,8 +19,12 @@ class EdgeChords {
 
   /// Ascending, at least two.
   const std::vector<double>& of(const TopoDS_Edge& edge);
-  /// Halves the chord between the parameters k and k + 1. False when nothing lies between them.
+  /// Halves the chord between the parameters k and k + 1. False when nothing lies between them, or there may
+  /// be no point.
   bool halve(const TopoDS_Edge& edge, int k);
+  /// From now on no point between an edge's ends lies within the tolerances of both edge and end: the kernel
+  /// does not tell such points from the end. Small closed edges stay.
+  void keep_off_ends(const TopoDS_Edge& edge);
   /// The faces (not placed) that an edge bounds.
   const TopTools_ListOfShape& faces_of(const TopoDS_Edge& edge) const;
 
@@ -29,6 +33,7 @@ class EdgeChords {
 
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_;  ///< by edge, neither placed
   std::vector<std::vector<double>> parameters_;         ///< empty: not known yet
+  std::vector<char> keeps_off_;                         ///< edges with no points near their ends
   double deflection_, angle_;
 };
 

@@ -6,6 +6,7 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -38,8 +39,8 @@ struct End {
 
 class OutlineBuilder {
  public:
-  OutlineBuilder(const TopoDS_Face& face, EdgeChords& chords)
-      : face_(face), chords_(chords), surface_(BRep_Tool::Surface(face)) {}
+  OutlineBuilder(const TopoDS_Face& face, EdgeChords& chords, bool collapses)
+      : face_(face), chords_(chords), surface_(BRep_Tool::Surface(face)), collapses_(collapses) {}
 
   FaceOutline build() {
     for (TopExp_Explorer edge(face_, TopAbs_EDGE); edge.More(); edge.Next())
@@ -58,6 +59,7 @@ class OutlineBuilder {
     double first, last;
     const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, face_, first, last);
     if (flat.IsNull()) throw InputError("an edge has no curve in its parameters");
+    if (collapses_ && BRep_Tool::Degenerated(edge) && collapse(edge, *flat, first, last)) return;
     double from, to;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
     const std::vector<double>& parameters = chords_.of(edge);
@@ -73,6 +75,23 @@ class OutlineBuilder {
     const bool is_reversed = edge.Orientation() == TopAbs_REVERSED;
     add_end(TopExp::FirstVertex(forward), passage.points.front(), is_boundary(edge), is_reversed);
     add_end(TopExp::LastVertex(forward), passage.points.back(), is_boundary(edge), !is_reversed);
+  }
+
+  gp_Pnt on_surface(Vec2 uv) const { return surface_->Value(uv.x, uv.y); }
+
+  /// Remembers where a degenerate edge leads through its vertex; false at a pole, which is one point.
+  bool collapse(const TopoDS_Edge& edge, const Geom2d_Curve& flat, double first, double last) {
+    constexpr int kSamples = 16;
+    std::vector<Vec2> passed;
+    double length = 0;
+    for (int k = 0; k <= kSamples; ++k) {
+      const gp_Pnt2d uv = flat.Value(first + (last - first) * k / kSamples);
+      passed.push_back({uv.X(), uv.Y()});
+      length = std::max(length, on_surface(passed.back()).Distance(on_surface(passed.front())));
+    }
+    if (length <= Precision::Confusion()) return false;
+    passed_[vertices_.Add(TopExp::FirstVertex(edge))] = std::move(passed);
+    return true;
   }
 
   /// The curve in parameters may run over another range than that in space.
@@ -103,11 +122,21 @@ class OutlineBuilder {
       if (joined_.contains(a) || joined_.contains(b)) continue;
       joined_[a] = joined_[b] = true;
       same_[std::max(a, b)] = std::min(a, b);
+      if (collapses_) outline_.uv[std::min(a, b)] = nearest(vertex, {outline_.uv[a], outline_.uv[b]});
       n_joined += 2;
     }
     if (n_joined == ends.size()) return;
     const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(vertices_(vertex)));
     throw InputError(fmt::format("its boundary is open at ({:g}, {:g}, {:g})", p.X(), p.Y(), p.Z()));
+  }
+
+  /// The parameters whose place is nearest to a vertex, of those given and those that a degenerate edge
+  /// passes.
+  Vec2 nearest(int vertex, std::vector<Vec2> uv) const {
+    if (const auto passed = passed_.find(vertex); passed != passed_.end() && ends_.at(vertex).size() == 2)
+      uv.insert(uv.end(), passed->second.begin(), passed->second.end());
+    const gp_Pnt at = BRep_Tool::Pnt(TopoDS::Vertex(vertices_(vertex)));
+    return *std::ranges::min_element(uv, {}, [&](Vec2 x) { return on_surface(x).SquareDistance(at); });
   }
 
   int root(int i) const {
@@ -143,11 +172,13 @@ class OutlineBuilder {
   TopoDS_Face face_;
   EdgeChords& chords_;
   Handle(Geom_Surface) surface_;
+  bool collapses_;
   FaceOutline outline_;
   TopTools_IndexedMapOfShape vertices_;
-  std::map<int, std::vector<End>> ends_;  ///< by vertex
-  std::map<int, bool> joined_;            ///< points
-  std::vector<int> same_;                 ///< an earlier point that this one is, or itself
+  std::map<int, std::vector<End>> ends_;     ///< by vertex
+  std::map<int, std::vector<Vec2>> passed_;  ///< by vertex, by collapsed edges
+  std::map<int, bool> joined_;               ///< points
+  std::vector<int> same_;                    ///< an earlier point that this one is, or itself
 };
 
 struct Chord {
@@ -183,8 +214,8 @@ bool cross(const Chord& c, const Chord& d) {
 
 }  // namespace
 
-FaceOutline outline_of(const TopoDS_Face& face, EdgeChords& chords) {
-  return OutlineBuilder(face, chords).build();
+FaceOutline outline_of(const TopoDS_Face& face, EdgeChords& chords, bool collapses) {
+  return OutlineBuilder(face, chords, collapses).build();
 }
 
 PatchBoundary boundary_of(const FaceOutline& outline, Vec2 scale) {

@@ -29,9 +29,10 @@ struct OutlineChord {
 };
 
 /// The outline of a face that is not placed and looks forward. Ends of edges that meet are one point: those
-/// of a vertex that are nearest to each other in the parameter plane. Throws InputError where an end finds
+/// of a vertex that are nearest to each other in the parameter plane. `collapses`: without degenerate edges
+/// that are not at a pole, but lead through the tolerance of a vertex. Throws InputError where an end finds
 /// none.
-FaceOutline outline_of(const TopoDS_Face& face, EdgeChords& chords);
+FaceOutline outline_of(const TopoDS_Face& face, EdgeChords& chords, bool collapses);
 
 /// The chords from point to point in the direction of the wires, the face on their left; edges inside the
 /// face in both directions. `scale` multiplies parameters.

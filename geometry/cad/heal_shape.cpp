@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
@@ -16,10 +19,14 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Vertex.hxx>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
@@ -211,6 +218,48 @@ void sew(CadShape& cad, double tolerance) {
                                        before - count_free_edges(cad.shape), before));
 }
 
+/// Of an edge and its ends.
+double tolerance_of(const TopoDS_Edge& edge) {
+  double tolerance = BRep_Tool::Tolerance(edge);
+  for (const TopoDS_Vertex& end : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})
+    if (!end.IsNull()) tolerance = std::max(tolerance, BRep_Tool::Tolerance(end));
+  return tolerance;
+}
+
+bool has_neighbour(const TopoDS_Shape& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
+  for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
+    for (const TopoDS_Shape& other : faces_of.FindFromKey(edge.Current()))
+      if (!other.IsSame(face)) return true;
+  return false;
+}
+
+/// How far apart the edges of a face lie (a length) if each lies everywhere on others.
+std::optional<double> strip_width(const TopoDS_Face& face) {
+  constexpr int kSamples = 8;  // of an edge
+  const TopTools_IndexedMapOfShape edges = parts(face, TopAbs_EDGE);
+  double width = 0;
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const BRepAdaptor_Curve curve(edge);
+    for (int k = 0; k <= kSamples; ++k) {
+      const double part = static_cast<double>(k) / kSamples;
+      const TopoDS_Vertex at = BRepBuilderAPI_MakeVertex(
+          curve.Value((1 - part) * curve.FirstParameter() + part * curve.LastParameter()));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int d = 1; d <= edges.Extent(); ++d) {
+        const TopoDS_Edge other = TopoDS::Edge(edges(d));
+        if (d == e || BRep_Tool::Degenerated(other)) continue;
+        const double distance = BRepExtrema_DistShapeShape(at, other).Value();
+        if (distance <= tolerance_of(edge) + tolerance_of(other)) nearest = std::min(nearest, distance);
+      }
+      if (std::isinf(nearest)) return std::nullopt;
+      width = std::max(width, nearest);
+    }
+  }
+  return width;
+}
+
 }  // namespace
 
 void heal_shape(CadShape& cad, double tolerance) {
@@ -219,6 +268,37 @@ void heal_shape(CadShape& cad, double tolerance) {
   fix(cad);
   sew_bodies(cad, tolerance);
   sew(cad, tolerance);
+}
+
+bool drop_strips(CadShape& cad, const std::vector<int>& faces) {
+  const TopTools_IndexedMapOfShape all = parts(cad.shape, TopAbs_FACE);
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(cad.shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  BRepTools_ReShape without;
+  std::vector<int> strips;
+  double widest = 0;
+  for (const int f : faces) {
+    if (!has_neighbour(all(f), faces_of)) continue;
+    const std::optional<double> width = strip_width(TopoDS::Face(all(f)));
+    if (!width) continue;
+    without.Remove(all(f));
+    strips.push_back(f);
+    widest = std::max(widest, *width);
+  }
+  const TopoDS_Shape rest = without.Apply(cad.shape);
+  if (strips.empty() || rest.IsNull() || parts(rest, TopAbs_FACE).IsEmpty()) return false;
+  CadShape whole = cad;
+  const int before = count_free_edges(cad.shape);
+  replace(cad, rest, [&](const TopoDS_Shape& part) { return without.Apply(part); });
+  sew(cad, 2 * widest);
+  if (count_free_edges(cad.shape) > before) {
+    cad = whole;
+    return false;
+  }
+  cad.warnings = whole.warnings;
+  cad.warnings.push_back(fmt::format("faces whose edges lie on each other were taken out, the edges sewn: {}",
+                                     fmt::join(strips, ", ")));
+  return true;
 }
 
 }  // namespace delquad::cad

@@ -14,6 +14,7 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
@@ -127,8 +128,8 @@ class OutlineMesher {
   }
 
   void mesh_all() {
-    for (int round = 0; round < kMostRounds && separate_chords(); ++round) {
-    }
+    separate();
+    if (snap_crossing()) separate();
     for (int f = 1; f <= waiting_.Extent(); ++f) mesh(TopoDS::Face(waiting_(f)));
   }
 
@@ -158,19 +159,46 @@ class OutlineMesher {
     }
   }
 
+  void separate() {
+    for (int round = 0; round < kMostRounds && separate_chords(); ++round) {
+    }
+  }
+
+  FaceOutline outline(const TopoDS_Face& face) { return outline_of(face, chords_, snapped_.Contains(face)); }
+
+  /// Where halving was of no use: what lies within the tolerances of a vertex becomes the vertex. False: all
+  /// is well.
+  bool snap_crossing() {
+    for (int f = 1; f <= waiting_.Extent(); ++f) {
+      const TopoDS_Face face = TopoDS::Face(waiting_(f));
+      attempt(face, [&] {
+        const FaceOutline crossing = outline(face);
+        if (crossing_chords(crossing, parameter_scale(*BRep_Tool::Surface(face), crossing.uv)).empty())
+          return;
+        for (const EdgePassage& passage : crossing.passages) {
+          chords_.keep_off_ends(passage.edge);
+          for (const TopoDS_Shape& other : chords_.faces_of(passage.edge)) {
+            want(other);
+            snapped_.Add(other);
+          }
+        }
+      });
+    }
+    return !snapped_.IsEmpty();
+  }
+
   /// Halves chords that cross in waiting faces; the faces of their edges wait then, too. False: none crosses.
   bool separate_chords() {
     bool any = false;
     for (int f = 1; f <= waiting_.Extent(); ++f) {
       const TopoDS_Face face = TopoDS::Face(waiting_(f));
       attempt(face, [&] {
-        const FaceOutline outline = outline_of(face, chords_);
-        const Vec2 scale = parameter_scale(*BRep_Tool::Surface(face), outline.uv);
-        std::vector<OutlineChord> crossing = crossing_chords(outline, scale);
+        const FaceOutline own = outline(face);
+        const Vec2 scale = parameter_scale(*BRep_Tool::Surface(face), own.uv);
+        std::vector<OutlineChord> crossing = crossing_chords(own, scale);
         // Backwards: numbers of chords still to be halved stay. Both sides of a seam are one edge.
         std::ranges::sort(crossing, [&](const OutlineChord& c, const OutlineChord& d) { return c.k > d.k; });
-        for (const OutlineChord& chord : crossing)
-          any = halve(outline.passages[chord.passage], chord.k) || any;
+        for (const OutlineChord& chord : crossing) any = halve(own.passages[chord.passage], chord.k) || any;
       });
     }
     return any;
@@ -187,7 +215,7 @@ class OutlineMesher {
     if (reasons_.contains(waiting_.FindIndex(face))) return;
     attempt(face, [&] {
       const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-      const FaceOutline outline = outline_of(face, chords_);
+      const FaceOutline outline = this->outline(face);
       const Vec2 scale = parameter_scale(*surface, outline.uv);
       if (const auto crossing = crossing_chords(outline, scale); !crossing.empty()) {
         const auto& [passage, k] = crossing[0];
@@ -197,7 +225,13 @@ class OutlineMesher {
       const PatchBoundary boundary = boundary_of(outline, scale);
       const TriPatch start = constrained_delaunay(boundary);
       check_sides(boundary, start);
-      const RefinedFace refined = refine_face(*surface, start, outline.points, scale, bounds_);
+      FaceBounds bounds = bounds_;
+      // Vertices may be that far off the surface: points beside them would fold it.
+      if (snapped_.Contains(face))
+        for (TopExp_Explorer vertex(face, TopAbs_VERTEX); vertex.More(); vertex.Next())
+          bounds.deflection =
+              std::max(bounds.deflection, BRep_Tool::Tolerance(TopoDS::Vertex(vertex.Current())));
+      const RefinedFace refined = refine_face(*surface, start, outline.points, scale, bounds);
       check_width(outline, refined);
       store(face, outline, refined, scale, bounds_.deflection, chords_);
       if (!refined.is_complete) coarse_.Add(face);
@@ -207,6 +241,7 @@ class OutlineMesher {
   FaceBounds bounds_;
   EdgeChords chords_;
   TopTools_IndexedMapOfShape waiting_, coarse_;
+  TopTools_IndexedMapOfShape snapped_;  ///< whose outlines end at vertices' tolerances
   std::map<int, std::string> reasons_;  ///< of those waiting that cannot be meshed
   std::map<int, Vec3> crossing_at_;  ///< of those whose boundary crosses itself, a place of the unplaced face
 };
