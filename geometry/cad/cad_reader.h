@@ -42,12 +42,13 @@ struct CadOptions {
 /// them. A region's names are those of its face, solids and products in STEP and IGES and its colour ("colour
 /// #rrggbb"). Normals of a solid point outwards. Edges that stand in faces and join others are embedded.
 /// Invalid shapes are healed and coincident free edges sewn, and a warning says so; so are faces taken out
-/// whose edges lie on each other within their tolerances. Warnings also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the surface is
-/// regular. The kernel works in a worker process (see find_worker()), so that a damaged file cannot bring the
-/// program down; what it prints is lost. Throws Cancelled, and InputError naming the file for files that
-/// cannot be read or hold no face, and naming the faces that are unbounded, have no area, cross their own
-/// boundary or cannot be triangulated, unless options.keep_going leaves them out and others remain (an
-/// unbounded one is refused in any case), or the places that cannot be glued.
+/// whose edges lie on each other within their tolerances. Warnings also tell free and non-manifold curves.
+/// Projected points are accurate to 1e-9 of the diagonal where the surface is regular. The kernel works in a
+/// worker process (see find_worker()), so that a damaged file cannot bring the program down; what it prints
+/// is lost. Throws Cancelled, and InputError naming the file for files that cannot be read or hold no face,
+/// and naming the faces that are unbounded, have no area, cross their own boundary or cannot be triangulated,
+/// unless options.keep_going leaves them out and others remain (an unbounded one is refused in any case), or
+/// the places that cannot be glued.
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 
