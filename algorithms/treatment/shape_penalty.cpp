@@ -26,7 +26,6 @@ double ShapePenalty::around(std::span<const int> vertices) {
       least = std::min(least, sine);
     }
     if (least <= kFlatSine) sum += kFlatWeight;
-    sum += std::min(1.0, relocation_.crowding(e));
   });
   return sum;
 }

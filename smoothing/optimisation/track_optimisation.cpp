@@ -83,6 +83,7 @@ class TrackOptimisation {
   std::vector<double> kept_;      ///< the least sine that each quad must keep in this pass
   std::vector<char> inside_;      ///< by vertex: on no curve
   std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to others on curves
+  std::vector<char> narrow_;      ///< by vertex: on a curve, in a corner or a narrow place
   std::vector<double> crowding_;  ///< of each quad, that it may have
   OptimisationSummary summary_;
 };
@@ -266,6 +267,12 @@ void TrackOptimisation<Vec>::find_room() {
       const double length = norm(points_[b] - points_[a]);
       room_[a] = std::min(room_[a], length), room_[b] = std::min(room_[b], length);
     }
+  narrow_.resize(points_.size(), 0);
+  for (const auto& quad : quads_) {
+    const auto on_curve = [this](int v) { return !inside_[v]; };
+    if (std::ranges::count_if(quad, on_curve) < 3) continue;
+    for (const int v : quad) narrow_[v] = on_curve(v);
+  }
   crowding_.resize(quads_.size());
   for (std::size_t q = 0; q < quads_.size(); ++q) crowding_[q] = crowding(q);
 }
@@ -277,10 +284,15 @@ double TrackOptimisation<Vec>::crowding(std::size_t quad) const {
   std::array<double, 4> lengths;
   for (int k = 0; k < 4; ++k) lengths[k] = norm(points_[v[(k + 1) % 4]] - points_[v[k]]);
   const double longest = std::ranges::max(lengths);
+  const bool narrow = std::ranges::any_of(v, [this](int i) { return narrow_[i] != 0; });
+  const Vec d = points_[v[2]] - points_[v[0]], e = points_[v[3]] - points_[v[1]];
+  const double double_area = std::sqrt(std::max(0.0, dot(d, d) * dot(e, e) - dot(d, e) * dot(d, e)));
+  const double width = double_area / 2 / std::max(longest, kTinyLength);
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int a = v[k], b = v[(k + 1) % 4];
-    if (inside_[a] || inside_[b]) sum += crowding_of(lengths[k], std::min(room_[a], room_[b]), longest);
+    if (inside_[a] || inside_[b])
+      sum += crowding_of(lengths[k], std::min(room_[a], room_[b]), longest, narrow, width);
   }
   return sum;
 }

@@ -120,6 +120,14 @@ QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) :
     room_.resize(std::max<std::size_t>(room_.size(), std::max(a, b) + 1), std::numeric_limits<double>::max());
     room_[a] = std::min(room_[a], length), room_[b] = std::min(room_[b], length);
   }
+  narrow_.resize(room_.size(), 0);
+  for (int e = 0; e < mesh_.element_slots(); ++e) {
+    if (!mesh_.is_quad(e) || mesh_.origin(4 * e) < 0) continue;
+    int n = 0;
+    for (int k = 0; k < 4; ++k) n += mesh_.on_boundary(mesh_.corner(e, k));
+    for (int k = 0; k < 4 && n >= 3; ++k)
+      if (const int v = mesh_.corner(e, k); mesh_.on_boundary(v)) narrow_[v] = 1;
+  }
 }
 
 void QuadRelocation::adopt_new_vertices(int first) {
@@ -266,24 +274,40 @@ QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives
   return value;
 }
 
-/// With a vertex at another place.
-double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_there) const {
+bool QuadRelocation::is_narrow(int element) const {
   const int n = mesh_.is_quad(element) ? 4 : 3;
-  const auto place = [&](int v) { return v == moved ? to : mesh_.point(v); };
+  for (int k = 0; k < n; ++k)
+    if (const int v = mesh_.corner(element, k); mesh_.on_boundary(v) && narrow_[v]) return true;
+  return false;
+}
+
+/// With a vertex at another place.
+double QuadRelocation::crowding(int element, bool narrow, int moved, Vec2 to, double delta_there) const {
+  const int n = mesh_.is_quad(element) ? 4 : 3;
   const auto room = [&](int v) {
     if (v == moved) return delta_there;
     return mesh_.on_boundary(v) ? std::min(room_[v], delta_[v]) : delta_[v];
   };
+  std::array<Vec2, 4> at;
+  for (int k = 0; k < n; ++k) {
+    const int v = mesh_.corner(element, k);
+    at[k] = v == moved ? to : mesh_.point(v);
+  }
   std::array<double, 4> lengths{};
-  for (int k = 0; k < n; ++k)
-    lengths[k] = norm(place(mesh_.target(4 * element + k)) - place(mesh_.corner(element, k)));
+  double double_area = 0;
+  for (int k = 0; k < n; ++k) {
+    const Vec2 next = at[(k + 1) % n];
+    lengths[k] = norm(next - at[k]);
+    double_area += cross(at[k] - at[0], next - at[0]);
+  }
   const double longest = *std::ranges::max_element(lengths);
+  const double width = std::max(0.0, double_area / 2) / std::max(longest, kTinyLength);
   double sum = 0;
   for (int k = 0; k < n; ++k) {
     const int h = 4 * element + k;
-    const int a = mesh_.origin(h), b = mesh_.target(h);
-    if (mesh_.on_boundary(a) && mesh_.on_boundary(b)) continue;  // the model may be as narrow as that
-    sum += crowding_of(lengths[k], std::min(room(a), room(b)), longest);
+    if (mesh_.twin(h) < 0) continue;
+    const double delta = std::min(room(mesh_.origin(h)), room(mesh_.target(h)));
+    sum += crowding_of(lengths[k], delta, longest, narrow, width);
   }
   return sum;
 }
@@ -292,9 +316,11 @@ double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_th
 double QuadRelocation::crowding_around(Vec2 at) const {
   int hint = hint_[gathered_];
   const double delta = size_.at(at, hint);
+  bool narrow = false;
+  mesh_.for_each_out(gathered_, [&](int h) { narrow = narrow || is_narrow(QuadTopology::element(h)); });
   double sum = 0;
   mesh_.for_each_out(gathered_,
-                     [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
+                     [&](int h) { sum += crowding(QuadTopology::element(h), narrow, gathered_, at, delta); });
   return sum;
 }
 

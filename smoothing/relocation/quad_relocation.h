@@ -55,9 +55,9 @@ class QuadRelocation {
   /// Moves v, unless the least sine around it is `enough`, to where that is largest nearby; by how much it
   /// grew.
   double lift(int v, double enough);
-  /// The sum of crowding_of() over the sides of an element that have a vertex inside. Those that end on the
-  /// boundary may be as short as its edges there.
-  double crowding(int element) const { return crowding(element, -1, {}, 0); }
+  /// The sum of crowding_of() over the inner sides of an element. Those that end on the boundary may be as
+  /// short as its edges there. Corners and narrow places are where quads have three vertices on it.
+  double crowding(int element) const { return crowding(element, is_narrow(element), -1, {}, 0); }
   /// The vertex's part of the objective where it is.
   double cost(int v);
   /// Elements looked at so far around vertices, each time that one was visited: the work done.
@@ -104,7 +104,8 @@ class QuadRelocation {
   template <class Number, bool kDerivatives>
   Value add_up(Derivatives* derivatives) const;
   bool strays(Vec2 from, Vec2 to) const;
-  double crowding(int element, int moved, Vec2 to, double delta_there) const;
+  bool is_narrow(int element) const;
+  double crowding(int element, bool narrow, int moved, Vec2 to, double delta_there) const;
   double crowding_around(Vec2 at) const;
   bool crowds(Vec2 from, Vec2 to, const Value& there) const;
   void refresh_delta(int v);
@@ -116,6 +117,7 @@ class QuadRelocation {
   std::vector<Vec2> delta_at_;  ///< where delta_ was evaluated
   std::vector<int> hint_;
   std::vector<double> room_;  ///< of boundary vertices: the shorter edge of the boundary
+  std::vector<char> narrow_;  ///< of boundary vertices: in a narrow place
   std::vector<char> active_;
   std::vector<int> queue_, visiting_;
   int gathered_ = -1;  ///< the vertex that spokes_ is of
