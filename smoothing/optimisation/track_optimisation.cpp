@@ -83,7 +83,7 @@ class TrackOptimisation {
   std::vector<double> kept_;      ///< the least sine that each quad must keep in this pass
   std::vector<char> inside_;      ///< by vertex: on no curve
   std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to others on curves
-  std::vector<char> narrow_;      ///< by vertex: on a curve, in a corner or a narrow place
+  std::vector<char> narrow_;      ///< by vertex: on a curve, in a narrow place
   std::vector<double> crowding_;  ///< of each quad, that it may have
   OptimisationSummary summary_;
 };
@@ -270,7 +270,8 @@ void TrackOptimisation<Vec>::find_room() {
   narrow_.resize(points_.size(), 0);
   for (const auto& quad : quads_) {
     const auto on_curve = [this](int v) { return !inside_[v]; };
-    if (std::ranges::count_if(quad, on_curve) < 3) continue;
+    const bool across = (on_curve(quad[0]) && on_curve(quad[2])) || (on_curve(quad[1]) && on_curve(quad[3]));
+    if (!across || std::ranges::count_if(quad, on_curve) == 3) continue;  // three: in a corner
     for (const int v : quad) narrow_[v] = on_curve(v);
   }
   crowding_.resize(quads_.size());

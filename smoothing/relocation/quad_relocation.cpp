@@ -123,9 +123,13 @@ QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) :
   narrow_.resize(room_.size(), 0);
   for (int e = 0; e < mesh_.element_slots(); ++e) {
     if (!mesh_.is_quad(e) || mesh_.origin(4 * e) < 0) continue;
-    int n = 0;
-    for (int k = 0; k < 4; ++k) n += mesh_.on_boundary(mesh_.corner(e, k));
-    for (int k = 0; k < 4 && n >= 3; ++k)
+    int vertices = 0, sides = 0;
+    for (int k = 0; k < 4; ++k) {
+      vertices += mesh_.on_boundary(mesh_.corner(e, k));
+      sides += mesh_.twin(4 * e + k) < 0;
+    }
+    if (vertices <= sides + 1) continue;
+    for (int k = 0; k < 4; ++k)
       if (const int v = mesh_.corner(e, k); mesh_.on_boundary(v)) narrow_[v] = 1;
   }
 }
@@ -282,7 +286,8 @@ bool QuadRelocation::is_narrow(int element) const {
 }
 
 /// With a vertex at another place.
-double QuadRelocation::crowding(int element, bool narrow, int moved, Vec2 to, double delta_there) const {
+double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_there) const {
+  const bool narrow = is_narrow(element);
   const int n = mesh_.is_quad(element) ? 4 : 3;
   const auto room = [&](int v) {
     if (v == moved) return delta_there;
@@ -316,11 +321,9 @@ double QuadRelocation::crowding(int element, bool narrow, int moved, Vec2 to, do
 double QuadRelocation::crowding_around(Vec2 at) const {
   int hint = hint_[gathered_];
   const double delta = size_.at(at, hint);
-  bool narrow = false;
-  mesh_.for_each_out(gathered_, [&](int h) { narrow = narrow || is_narrow(QuadTopology::element(h)); });
   double sum = 0;
   mesh_.for_each_out(gathered_,
-                     [&](int h) { sum += crowding(QuadTopology::element(h), narrow, gathered_, at, delta); });
+                     [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
   return sum;
 }
 

@@ -56,8 +56,8 @@ class QuadRelocation {
   /// grew.
   double lift(int v, double enough);
   /// The sum of crowding_of() over the inner sides of an element. Those that end on the boundary may be as
-  /// short as its edges there. Corners and narrow places are where quads have three vertices on it.
-  double crowding(int element) const { return crowding(element, is_narrow(element), -1, {}, 0); }
+  /// short as its edges there. Narrow places are where quads reach from one part of it to another.
+  double crowding(int element) const { return crowding(element, -1, {}, 0); }
   /// The vertex's part of the objective where it is.
   double cost(int v);
   /// Elements looked at so far around vertices, each time that one was visited: the work done.
@@ -105,7 +105,7 @@ class QuadRelocation {
   Value add_up(Derivatives* derivatives) const;
   bool strays(Vec2 from, Vec2 to) const;
   bool is_narrow(int element) const;
-  double crowding(int element, bool narrow, int moved, Vec2 to, double delta_there) const;
+  double crowding(int element, int moved, Vec2 to, double delta_there) const;
   double crowding_around(Vec2 at) const;
   bool crowds(Vec2 from, Vec2 to, const Value& there) const;
   void refresh_delta(int v);

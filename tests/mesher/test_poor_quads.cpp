@@ -60,7 +60,7 @@ TEST(PoorQuads, OfAnOutlineThatIsFinerThanTheSize) {
               {"quads are poor", "a side below a tenth of the size", "where curves are finer than the size",
                "would help"});
   // What the message says.
-  EXPECT_EQ(poor_in(mesh(problem_of_polygons(outline, 0.2), "DBCO")), "");
+  EXPECT_EQ(poor_in(mesh(problem_of_polygons(outline, 0.04), "DBCO")), "");
 }
 
 TEST(PoorQuads, OfAGapNarrowerThanTheSize) {

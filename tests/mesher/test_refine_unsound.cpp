@@ -9,6 +9,7 @@
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
@@ -60,17 +61,18 @@ TEST(RefineUnsound, LeavesSoundMeshesAlone) {
   EXPECT_FALSE(result.summaries.has("refine_unsound"));
 }
 
-/// A grid whose points are thrown about: no size makes its mesh sound.
+/// A ball whose points are thrown in and out: at this size quads fold.
 MeshProblem rubble(int seed) {
-  TriangleModel sheet;
-  sheet.source = "rubble";
-  sheet.mesh = testing_support::triangle_grid(24, 24, 4, 4);
+  TriangleModel ball;
+  ball.source = "rubble";
+  ball.mesh = testing_support::round_sphere(5).fine;
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  for (Vec3& p : sheet.mesh.points) p.z = 4 * shapes::uniform(random);
+  for (Vec3& p : ball.mesh.points) p = (1 + 0.5 * (2 * shapes::uniform(random) - 1)) * p;
   MeshProblem problem;
   problem.name = problem.where = "rubble";
-  problem.model = sheet;
-  problem.size.field = make_constant_size(0.4);
+  problem.model = ball;
+  problem.size.field = make_constant_size(0.7);
+  problem.surface.feature_angle = 180;
   problem.allow_unsound = true;
   return problem;
 }

@@ -97,14 +97,29 @@ inline double worst_sine(const QuadTopology& mesh) {
 inline double worst_sine(const QuadPatch& mesh) { return worst_sine(QuadTopology(mesh)); }
 
 /// Of the quads' sides inside, the least length over the longer of the size (the least at the ends) and the
-/// quad's longest side.
+/// quad's longest side. Left out are quads in narrow places: at vertices of quads that reach from one part of
+/// the boundary to another.
 inline double least_room(const QuadPatch& mesh, const ParametricSize& size) {
   std::set<std::pair<int, int>> sides;
   for (const auto& q : mesh.quads)
     for (int k = 0; k < 4; ++k) sides.emplace(q[k], q[(k + 1) % 4]);
+  std::set<int> on_boundary, narrow;
+  for (const auto& [a, b] : sides)
+    if (!sides.contains({b, a})) on_boundary.insert({a, b});
+  for (const auto& q : mesh.quads) {
+    int vertices = 0, outer = 0;
+    for (int k = 0; k < 4; ++k) {
+      vertices += static_cast<int>(on_boundary.count(q[k]));
+      outer += !sides.contains({q[(k + 1) % 4], q[k]});
+    }
+    if (vertices <= outer + 1) continue;
+    for (const int v : q)
+      if (on_boundary.contains(v)) narrow.insert(v);
+  }
   double least = 1;
   int hint = -1;
   for (const auto& q : mesh.quads) {
+    if (std::any_of(q.begin(), q.end(), [&](int v) { return narrow.contains(v); })) continue;
     const auto length = [&](int k) { return norm(mesh.points[q[(k + 1) % 4]] - mesh.points[q[k]]); };
     const double longest = std::max({length(0), length(1), length(2), length(3)});
     for (int k = 0; k < 4; ++k) {
