@@ -144,7 +144,7 @@ def test_many_small_meshes_without_growth():
     some(200)
     # A leaked mesh is some kilobytes, a leaked array of samples over 100: that is in every round, unlike what threads
     # keep for themselves.
-    assert any(growth(800) < 4 << 20 for _ in range(3))
+    assert any(growth(800) < 4 << 20 for _ in range(6))
 
 
 def test_time_limit():
