@@ -178,6 +178,11 @@ void fix(CadShape& cad) {
   cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid);
 }
 
+/// Sewing drops faces that it takes for too small.
+bool keeps_faces(const TopoDS_Shape& sewn, const TopoDS_Shape& before) {
+  return !sewn.IsNull() && parts(sewn, TopAbs_FACE).Extent() == parts(before, TopAbs_FACE).Extent();
+}
+
 bool sew_branches(CadShape& cad, double tolerance) {
   TopoDS_Compound open, all;
   const BRep_Builder builder;
@@ -193,14 +198,15 @@ bool sew_branches(CadShape& cad, double tolerance) {
   sewing.Add(open);
   sewing.Perform();
   const TopoDS_Shape sewn = sewing.SewedShape();
-  if (sewn.IsNull() || parts(sewn, TopAbs_EDGE).Extent() >= parts(open, TopAbs_EDGE).Extent()) return false;
+  if (!keeps_faces(sewn, open) || parts(sewn, TopAbs_EDGE).Extent() >= parts(open, TopAbs_EDGE).Extent())
+    return false;
   builder.Add(all, sewn);
   replace(cad, all, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
   return true;
 }
 
-/// Sews free edges in pairs; where that leaves any, those of what is open once more, all that coincide
-/// together: edges of three faces and more. Parts that are closed stay apart from others.
+/// Sews free edges in pairs, then those of what is open once more, all that coincide together: edges of three
+/// faces and more. Parts that are closed stay apart from others.
 void sew(CadShape& cad, double tolerance) {
   const int before = count_free_edges(cad.shape);
   if (before == 0) return;
@@ -208,7 +214,8 @@ void sew(CadShape& cad, double tolerance) {
   in_pairs.Add(cad.shape);
   in_pairs.Perform();
   bool any = false;
-  if (const TopoDS_Shape sewn = in_pairs.SewedShape(); !sewn.IsNull() && count_free_edges(sewn) < before) {
+  if (const TopoDS_Shape sewn = in_pairs.SewedShape();
+      keeps_faces(sewn, cad.shape) && count_free_edges(sewn) < before) {
     replace(cad, sewn, [&](const TopoDS_Shape& part) { return in_pairs.ModifiedSubShape(part); });
     any = true;
   }

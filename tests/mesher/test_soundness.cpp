@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -13,6 +12,7 @@
 #include "io/mesh_io.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/runner.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -28,10 +28,8 @@ bool has(const Soundness& soundness, const std::string& part) {
 
 /// Corners of 180 degrees passed here by rounding, with scaled Jacobians of 4e-14.
 TEST(Margin, FlatCornersAreCured) {
-  const char* given = std::getenv("DELQUAD_DATA");
-  const std::filesystem::path file = std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) /
-                                     "hard2/example-ro__gripper_motor_single_collision.STL";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto file = testing_support::shared_data("hard2/example-ro__gripper_motor_single_collision.STL");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   Case c = read_model_case(file);
   const Mesh model = read_mesh(file);
   c.size.base = std::to_string(diagonal(model) / 60);

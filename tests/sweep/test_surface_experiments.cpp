@@ -1,25 +1,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <string>
 
 #include "sweep/run_experiment.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  const char* given = std::getenv("DELQUAD_DATA");
-  return given != nullptr ? given : DELQUAD_SHARED_DATA;
-}
+using testing_support::shared_data;
 
 Table run(const char* file, const std::vector<std::string>& words) {
-  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / file, data_folder());
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / file, shared_data());
   e.words = e.find_pipelines(words);
   const testing_support::TemporaryFolder folder;
   return run_experiment(e, folder / "out").table;
@@ -46,7 +42,7 @@ void expect_published(const Table& table, const std::string& word) {
 }
 
 TEST(SurfaceExperiments, HoodReachesThePublishedRows) {
-  if (!fs::exists(data_folder() / "cad/capot.brep")) GTEST_SKIP() << "data not found: " << data_folder();
+  if (!fs::exists(shared_data() / "cad/capot.brep")) GTEST_SKIP() << "data not found: " << shared_data();
   const Table table = run("fig17_hood.toml", {"F", "D", "FB", "DB"});
   constexpr double kPublishedTriangles = 3066, kMostRatio = 0.88, kMostValence = 6;
   const double d = values(table, "D").at("n_triangles"), f = values(table, "F").at("n_triangles");
@@ -61,7 +57,7 @@ TEST(SurfaceExperiments, HoodReachesThePublishedRows) {
 }
 
 TEST(SurfaceExperiments, FalconReachesThePublishedRow) {
-  if (!fs::exists(data_folder() / "falcon_half.msh")) GTEST_SKIP() << "data not found: " << data_folder();
+  if (!fs::exists(shared_data() / "falcon_half.msh")) GTEST_SKIP() << "data not found: " << shared_data();
   const Table table = run("sec82_falcon.toml", {"DB"});
   constexpr double kPublishedQuads = 53297;
   EXPECT_NEAR(values(table, "DB").at("n_quads") / kPublishedQuads, 1, 0.03);

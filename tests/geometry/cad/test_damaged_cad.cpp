@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -11,6 +10,7 @@
 #include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -90,12 +90,10 @@ TEST_F(DamagedCad, WhatIsNoShapeMayBeMissing) {
 }
 
 TEST_F(DamagedCad, NoTriangleIsLeft) {
-  const char* given = std::getenv("DELQUAD_DATA");
-  const std::filesystem::path file = std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) /
-                                     "hard2" / "damaged_no_face.brep";
+  const std::filesystem::path file = shared_data("hard2/damaged_no_face.brep");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   expect_input_error([&] { read_cad(file, {.keep_going = true}); },
-                     {file.c_str(), "the model holds no face"});
+                     {file.c_str(), "nothing is left to mesh"});
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
 #include "geometry/cad/cad_reader.h"
 #include "geometry/surface/compound.h"
 #include "tests/geometry/cad/surface_counts.h"
+#include "tests/support/shared_data.h"
 
 namespace delquad {
 namespace {
@@ -24,10 +24,7 @@ struct Expected {
 
 void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
 
-std::filesystem::path data_folder() {
-  const char* given = std::getenv("DELQUAD_DATA");
-  return std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) / "cad";
-}
+std::filesystem::path data_folder() { return shared_data("cad"); }
 
 class SharedModels : public ::testing::TestWithParam<Expected> {
  protected:

@@ -1,28 +1,24 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "geometry/surface/compound.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/surface_model_checks.h"
 
 namespace delquad {
 namespace {
 
+using testing_support::shared_data;
 using testing_support::violations;
 using testing_support::volume;
 
 const std::vector<std::string> kSoundShared;
 
-std::filesystem::path data(const char* file) {
-  const char* given = std::getenv("DELQUAD_DATA");
-  return std::filesystem::path(given != nullptr ? given : DELQUAD_SHARED_DATA) / file;
-}
-
 TEST(SharedTriangulations, FandiskHasTwelveFaces) {
-  const auto file = data("fandisk.off");
+  const auto file = shared_data("fandisk.off");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   const Mesh mesh = read_mesh(file);
   const SurfaceModel model = make_surface_model(mesh);
@@ -34,7 +30,7 @@ TEST(SharedTriangulations, FandiskHasTwelveFaces) {
 }
 
 TEST(SharedTriangulations, BunnyIsClosedAndFacesOutwards) {
-  const auto file = data("bunny_adaptive.off");
+  const auto file = shared_data("bunny_adaptive.off");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   const Mesh mesh = read_mesh(file);
   const SurfaceModel model = make_surface_model(mesh, {.feature_angle = 90});
@@ -45,7 +41,7 @@ TEST(SharedTriangulations, BunnyIsClosedAndFacesOutwards) {
 }
 
 TEST(SharedTriangulations, FalconHangsTogetherOnceItsGapsAreWelded) {
-  const auto file = data("falcon_half.msh");
+  const auto file = shared_data("falcon_half.msh");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   const Mesh mesh = read_mesh(file);
   const SurfaceModel torn = make_surface_model(mesh);
