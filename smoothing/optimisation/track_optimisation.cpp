@@ -278,22 +278,18 @@ void TrackOptimisation<Vec>::find_room() {
   for (std::size_t q = 0; q < quads_.size(); ++q) crowding_[q] = crowding(q);
 }
 
-/// As QuadRelocation's.
+/// As QuadRelocation's, but in narrow places, which angles and sizes alone shape.
 template <class Vec>
 double TrackOptimisation<Vec>::crowding(std::size_t quad) const {
   const auto& v = quads_[quad];
+  if (std::ranges::any_of(v, [this](int i) { return narrow_[i] != 0; })) return 0;
   std::array<double, 4> lengths;
   for (int k = 0; k < 4; ++k) lengths[k] = norm(points_[v[(k + 1) % 4]] - points_[v[k]]);
   const double longest = std::ranges::max(lengths);
-  const bool narrow = std::ranges::any_of(v, [this](int i) { return narrow_[i] != 0; });
-  const Vec d = points_[v[2]] - points_[v[0]], e = points_[v[3]] - points_[v[1]];
-  const double double_area = std::sqrt(std::max(0.0, dot(d, d) * dot(e, e) - dot(d, e) * dot(d, e)));
-  const double width = double_area / 2 / std::max(longest, kTinyLength);
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int a = v[k], b = v[(k + 1) % 4];
-    if (inside_[a] || inside_[b])
-      sum += crowding_of(lengths[k], std::min(room_[a], room_[b]), longest, narrow, width);
+    if (inside_[a] || inside_[b]) sum += crowding_of(lengths[k], std::min(room_[a], room_[b]), longest);
   }
   return sum;
 }

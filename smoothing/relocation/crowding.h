@@ -11,7 +11,8 @@ namespace delquad {
 /// places elements are thin as a whole: `width` (area over longest side) counts there. 0: the side is as long
 /// as kKeptSide asks for, else by what part more it would have to be longer, 99 at most. It is that steep so
 /// that no side gets shorter for the sake of others.
-inline double crowding_of(double length, double delta, double longest, bool narrow, double width) {
+inline double crowding_of(double length, double delta, double longest, bool narrow = false,
+                          double width = 0) {
   constexpr double kLeastPart = 0.01;
   constexpr double kThin = 4;  // longest side over width: from there on an element is thin
   double reach = std::clamp(delta, longest, 2 * longest);
