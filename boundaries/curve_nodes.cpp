@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/disjoint_sets.h"
 #include "boundaries/divided_chains.h"
 #include "delquad/error.h"
 #include "matching/t_join.h"
@@ -30,15 +31,9 @@ void add(Parities& to, const Parities& other) {
 
 /// Parts of the graph that hang together, by node.
 std::vector<int> components(const WeightedGraph& graph) {
-  std::vector<int> root(graph.n_nodes);
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& e : graph.edges) root[find(e.a)] = find(e.b);
-  for (int v = 0; v < graph.n_nodes; ++v) root[v] = find(v);
-  return root;
+  DisjointSets parts(graph.n_nodes);
+  for (const auto& e : graph.edges) parts.join_to(e.b, e.a);
+  return parts.roots();
 }
 
 /// A curve at which more than two patches meet is no edge of a graph, and a change of it by one changes the

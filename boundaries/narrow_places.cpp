@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "base/disjoint_sets.h"
 
 namespace delquad {
 
@@ -62,12 +63,7 @@ std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveCh
   const std::vector<Gap> gaps = collect_gaps(fine, chains, across, size);
   std::map<std::array<int, 3>, double> along;  // patch, curve, curve that it faces
   for (const Gap& g : gaps) along[{g.patch, g.chain, g.facing}] += g.length;
-  std::vector<int> group(chains.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int c) {
-    while (group[c] != c) c = group[c];
-    return c;
-  };
+  DisjointSets groups(chains.size());
   for (const auto& [key, length] : along) {
     const auto [patch, a, b] = key;
     const auto back = along.find({patch, b, a});
@@ -76,11 +72,9 @@ std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveCh
     if (length < kStripPart * length_a || back->second < kStripPart * length_b ||
         std::max(length_a, length_b) > kStripRatio * std::min(length_a, length_b))
       continue;
-    const auto [first, second] = std::minmax({root(a), root(b)});
-    group[second] = first;
+    groups.join(a, b);
   }
-  for (size_t c = 0; c < chains.size(); ++c) group[c] = root(static_cast<int>(c));
-  return group;
+  return groups.roots();
 }
 
 }  // namespace delquad

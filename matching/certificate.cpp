@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
+
+#include "base/disjoint_sets.h"
 
 namespace delquad {
 
@@ -61,11 +64,6 @@ bool fail(std::string* why, const std::string& what) {
   return false;
 }
 
-int root_of(std::vector<int>& parent, int v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 }  // namespace
 
 bool proves_optimal(const MatchingGraph& graph, const std::vector<int>& mate,
@@ -116,15 +114,14 @@ bool proves_not_perfect(const MatchingGraph& graph, const MatchingCertificate& c
     taken[v] = 1;
     ++n_taken;
   }
-  std::vector<int> parent(graph.n_nodes);
-  for (int v = 0; v < graph.n_nodes; ++v) parent[v] = v;
+  DisjointSets left(graph.n_nodes);
   for (const auto& e : graph.edges) {
-    if (taken[e.a] == 0 && taken[e.b] == 0) parent[root_of(parent, e.a)] = root_of(parent, e.b);
+    if (taken[e.a] == 0 && taken[e.b] == 0) left.join(e.a, e.b);
   }
   std::vector<char> odd(graph.n_nodes, 0);
   long long n_odd = 0;
   for (int v = 0; v < graph.n_nodes; ++v) {
-    if (taken[v] == 0) odd[root_of(parent, v)] ^= 1;
+    if (taken[v] == 0) odd[left.root(v)] ^= 1;
   }
   for (const char o : odd) n_odd += o;
   return n_odd > n_taken;

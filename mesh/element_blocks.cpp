@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 
 namespace delquad {
@@ -122,18 +122,13 @@ Blocks cut(const std::vector<int>& order) {
 
 /// Without cuts: what hangs together is in one block.
 Blocks whole_pieces(const Elements& elements, const std::vector<int>& order, std::size_t n_vertices) {
-  std::vector<int> parent(n_vertices);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets pieces(n_vertices);
   for (const int e : order)
-    for (const int v : elements.corners(e)) parent[root(v)] = root(elements.corners(e)[0]);
+    for (const int v : elements.corners(e)) pieces.join(elements.corners(e)[0], v);
   std::vector<int> block_of(n_vertices, -1);
   Blocks blocks;
   for (const int e : order) {
-    int& block = block_of[root(elements.corners(e)[0])];
+    int& block = block_of[pieces.root(elements.corners(e)[0])];
     if (block < 0) {
       if (blocks.empty() || blocks.back().size() >= ElementBlocks::kBlockElements) blocks.emplace_back();
       block = static_cast<int>(blocks.size()) - 1;

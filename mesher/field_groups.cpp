@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "geometry/surface/compound.h"
 #include "mesher/curve_options.h"
 
@@ -62,24 +62,19 @@ std::vector<FieldGroup> field_groups(const PreparedProblem& prepared,
                                      const std::vector<std::shared_ptr<const BackgroundMesh>>& backgrounds) {
   const std::vector<std::optional<double>> alignment = alignments(prepared);
   std::vector<FieldSeam> seams;
-  std::vector<int> parent(backgrounds.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i];
-    return i;
-  };
+  DisjointSets joined(backgrounds.size());
   for (const auto& [key, edge] : shared_edges(prepared, backgrounds, alignment)) {
     if (edge.sides.size() != 2 || edge.from[0] == edge.from[1]) continue;
     seams.push_back({{edge.sides[0], edge.sides[1]}, *alignment[key[0]]});
-    const auto [low, high] = std::minmax({root(edge.sides[0].patch), root(edge.sides[1].patch)});
-    parent[high] = low;
+    joined.join(edge.sides[0].patch, edge.sides[1].patch);
   }
 
   std::vector<FieldGroup> groups;
-  std::vector<int> group_of(parent.size()), place(parent.size());
-  for (int i = 0; i < static_cast<int>(parent.size()); ++i) {
-    if (parent[i] == i) groups.emplace_back();
-    group_of[i] = parent[i] == i ? static_cast<int>(groups.size()) - 1 : group_of[root(i)];
+  std::vector<int> group_of(joined.size()), place(joined.size());
+  for (int i = 0; i < std::ssize(group_of); ++i) {
+    const int root = joined.root(i);
+    if (root == i) groups.emplace_back();
+    group_of[i] = root == i ? static_cast<int>(groups.size()) - 1 : group_of[root];
     FieldGroup& group = groups[group_of[i]];
     place[i] = static_cast<int>(group.patches.size());
     group.patches.push_back(i);

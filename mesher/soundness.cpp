@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "mesh/check_invariants.h"
 #include "mesh/half_edges.h"
@@ -122,19 +122,9 @@ std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
 
 /// How many pieces the outline of a patch has: loops, or loops that touch.
 int pieces_of(const PatchBoundary& boundary) {
-  std::vector<int> parent(boundary.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  int pieces = static_cast<int>(parent.size());
-  for (const auto& [i, j] : boundary.edges) {
-    const int a = root(i), b = root(j);
-    if (a == b) continue;
-    parent[a] = b;
-    --pieces;
-  }
+  DisjointSets joined(boundary.points.size());
+  int pieces = static_cast<int>(joined.size());
+  for (const auto& [i, j] : boundary.edges) pieces -= joined.join(i, j);
   return pieces;
 }
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 #include "algorithms/recombination/hilbert.h"
 #include "algorithms/recombination/quad_cost.h"
 #include "base/cancel.h"
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/parallel_collect.h"
 #include "mesh/tri_topology.h"
@@ -150,37 +150,24 @@ void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, DualGrap
   }
 }
 
-int first_node_of(std::vector<int>& before, int v) {
-  while (before[v] != v) v = before[v] = before[before[v]];
-  return v;
-}
-
-void join(std::vector<int>& before, const MatchingGraph::Edge& edge) {
-  const int a = first_node_of(before, edge.a), b = first_node_of(before, edge.b);
-  before[std::max(a, b)] = std::min(a, b);
-}
-
 /// The first node of each node's component: within ranges first, and then across.
 std::vector<int> first_nodes(const MatchingGraph& graph, const std::vector<std::size_t>& first_edge) {
-  std::vector<int> before(graph.n_nodes);
+  DisjointSets components(graph.n_nodes);
   std::vector<std::vector<MatchingGraph::Edge>> across(first_edge.size() - 1);
   parallel_for(across.size(), [&](std::size_t range) {
-    const auto begin = static_cast<std::ptrdiff_t>(range * kPerRange);
-    const int end = static_cast<int>(std::min(before.size(), (range + 1) * kPerRange));
-    std::iota(before.begin() + begin, before.begin() + end, static_cast<int>(begin));
+    const int end = static_cast<int>(std::min(components.size(), (range + 1) * kPerRange));
     for (std::size_t e = first_edge[range]; e < first_edge[range + 1]; ++e) {
       if (graph.edges[e].b >= end) {
         across[range].push_back(graph.edges[e]);
       } else {
-        join(before, graph.edges[e]);
+        components.join(graph.edges[e].a, graph.edges[e].b);
       }
     }
   });
   for (const auto& edges : across) {
-    for (const auto& edge : edges) join(before, edge);
+    for (const auto& edge : edges) components.join(edge.a, edge.b);
   }
-  for (int& v : before) v = before[v];  // that of a lower node, which has its own already
-  return before;
+  return components.roots();
 }
 
 /// Components go by their first nodes.

@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/predicates.h"
 #include "delquad/error.h"
 
@@ -46,8 +46,7 @@ class OutlineBuilder {
     for (TopExp_Explorer edge(face_, TopAbs_EDGE); edge.More(); edge.Next())
       if (edge.Current().Orientation() != TopAbs_EXTERNAL) add(TopoDS::Edge(edge.Current()));
     if (outline_.passages.empty()) throw InputError("has no boundary");
-    same_.resize(outline_.uv.size());
-    std::iota(same_.begin(), same_.end(), 0);
+    same_ = DisjointSets(outline_.uv.size());
     for (auto& [vertex, ends] : ends_) join(vertex, ends);
     join_equal_points();
     renumber();
@@ -121,7 +120,7 @@ class OutlineBuilder {
       const auto [a, b] = pair;
       if (joined_.contains(a) || joined_.contains(b)) continue;
       joined_[a] = joined_[b] = true;
-      same_[std::max(a, b)] = std::min(a, b);
+      same_.join(a, b);
       if (collapses_) outline_.uv[std::min(a, b)] = nearest(vertex, {outline_.uv[a], outline_.uv[b]});
       n_joined += 2;
     }
@@ -139,26 +138,20 @@ class OutlineBuilder {
     return *std::ranges::min_element(uv, {}, [&](Vec2 x) { return on_surface(x).SquareDistance(at); });
   }
 
-  int root(int i) const {
-    while (same_[i] != i) i = same_[i];
-    return i;
-  }
-
   /// Points with the same parameters are one: where wires touch, and both sides of a slit.
   void join_equal_points() {
     std::map<std::pair<double, double>, int> at;
-    for (int i = 0; i < std::ssize(same_); ++i) {
-      const int own = root(i);
-      const auto [known, is_new] = at.try_emplace({outline_.uv[own].x, outline_.uv[own].y}, own);
-      if (!is_new && known->second != own) same_[std::max(own, known->second)] = std::min(own, known->second);
+    for (int i = 0; i < std::ssize(outline_.uv); ++i) {
+      const Vec2 own = outline_.uv[same_.root(i)];
+      same_.join(at.try_emplace({own.x, own.y}, i).first->second, i);
     }
   }
 
   void renumber() {
     std::vector<int> number(same_.size(), -1);
     int n = 0;
-    for (int i = 0; i < std::ssize(same_); ++i) {
-      if (root(i) != i) continue;
+    for (int i = 0; i < std::ssize(outline_.uv); ++i) {
+      if (same_.root(i) != i) continue;
       number[i] = n;
       outline_.uv[n] = outline_.uv[i];
       outline_.points[n++] = outline_.points[i];
@@ -166,7 +159,7 @@ class OutlineBuilder {
     outline_.uv.resize(static_cast<std::size_t>(n));
     outline_.points.resize(static_cast<std::size_t>(n));
     for (EdgePassage& passage : outline_.passages)
-      for (int& point : passage.points) point = number[root(point)];
+      for (int& point : passage.points) point = number[same_.root(point)];
   }
 
   TopoDS_Face face_;
@@ -178,7 +171,7 @@ class OutlineBuilder {
   std::map<int, std::vector<End>> ends_;     ///< by vertex
   std::map<int, std::vector<Vec2>> passed_;  ///< by vertex, by collapsed edges
   std::map<int, bool> joined_;               ///< points
-  std::vector<int> same_;                    ///< an earlier point that this one is, or itself
+  DisjointSets same_;                        ///< points that are one
 };
 
 struct Chord {

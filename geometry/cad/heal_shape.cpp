@@ -25,10 +25,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "geometry/cad/glue_shape.h"
 #include "geometry/cad/sub_shapes.h"
@@ -89,28 +89,23 @@ std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
 /// faces of a body one after the other.
 void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, bool in_order,
                  std::vector<int>& body) {
-  std::vector<int> part(body.size());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](int f) {
-    while (part[f] != f) f = part[f] = part[part[f]];
-    return f;
-  };
+  DisjointSets joined(body.size());
   std::vector<std::vector<int>> free(faces_at_edges.size());  // faces at the edge that are in no body
   for (std::size_t e = 0; e < free.size(); ++e) {
     for (const auto& [f, n] : faces_at_edges[e])
       if (body[f] == 0 && n == 1) free[e].push_back(f);
     if (free[e].size() == 2 || (in_order && free[e].size() % 2 == 0))
-      for (std::size_t k = 0; k < free[e].size(); k += 2) part[root(free[e][k + 1])] = root(free[e][k]);
+      for (std::size_t k = 0; k < free[e].size(); k += 2) joined.join_to(free[e][k], free[e][k + 1]);
   }
   std::vector<char> is_open(body.size(), 0);
   for (const std::vector<int>& faces : free) {
     std::map<int, int> n_of_part;
-    for (const int f : faces) ++n_of_part[root(f)];
+    for (const int f : faces) ++n_of_part[joined.root(f)];
     for (const auto& [p, n] : n_of_part)
       if (n != 2) is_open[p] = 1;
   }
   for (std::size_t f = 1; f < body.size(); ++f)
-    if (const int p = root(static_cast<int>(f)); body[f] == 0 && !is_open[p]) body[f] = p;
+    if (const int p = joined.root(static_cast<int>(f)); body[f] == 0 && !is_open[p]) body[f] = p;
 }
 
 /// Where edges of more than two faces coincide, the closed bodies are sewn by themselves: those that touch

@@ -4,13 +4,13 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "base/box.h"
 #include "base/box_tree.h"
 #include "base/cancel.h"
+#include "base/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "mesh/nearest_triangle.h"
 
@@ -122,19 +122,11 @@ class JointFinder {
   }
 
   void find_parts() {
-    std::vector<int> parent(faces_.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int f) {
-      while (parent[f] != f) f = parent[f] = parent[parent[f]];
-      return f;
-    };
+    DisjointSets parts(faces_.size());
     for_each_edge(sides_, [&](std::span<const HalfEdge> edge) {
-      for (const HalfEdge& side : edge) {
-        const int f = root(face_of(edge[0].element)), g = root(face_of(side.element));
-        parent[std::max(f, g)] = std::min(f, g);
-      }
+      for (const HalfEdge& side : edge) parts.join(face_of(edge[0].element), face_of(side.element));
     });
-    for (int f = 0; f < std::ssize(faces_); ++f) faces_[f].part = root(f);
+    for (int f = 0; f < std::ssize(faces_); ++f) faces_[f].part = parts.root(f);
     is_open_.assign(faces_.size(), 0);
     for_each_edge(sides_, [&](std::span<const HalfEdge> edge) {
       if (edge.size() == 1) is_open_[faces_[face_of(edge[0].element)].part] = 1;

@@ -13,6 +13,7 @@
 #include <array>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/cad/part_twin_sides.h"
 #include "geometry/cad/repair_face.h"
@@ -21,27 +22,6 @@
 namespace delquad::cad {
 
 namespace {
-
-/// Sets of nodes; a set goes by its smallest member.
-class NodeSets {
- public:
-  int add() {
-    parent_.push_back(static_cast<int>(parent_.size()));
-    return parent_.back();
-  }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int i, int j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 Handle(Poly_PolygonOnTriangulation) polygon_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   TopLoc_Location place;
@@ -129,7 +109,7 @@ class Welder {
     for (int k = 0; k < n; ++k) {
       int& node = node_of[local(k)];
       if (node < 0) node = use.nodes[k];
-      sets_.unite(node, use.nodes[k]);
+      sets_.join(node, use.nodes[k]);
     }
     // The face lies on the left of a forward edge.
     const bool reversed = edge.Orientation() == TopAbs_REVERSED;
@@ -165,13 +145,13 @@ class Welder {
     }
     std::vector<std::array<int, 2>> boundary;
     for (const auto& [a, b] : boundary_[f]) {
-      const std::array<int, 2> side{sets_.find(a), sets_.find(b)};
+      const std::array<int, 2> side{sets_.root(a), sets_.root(b)};
       if (side[0] != side[1]) boundary.push_back(side);
     }
     if (repair_face(points_, boundary, triangles) > gap_ || !is_manifold(triangles)) bad_faces_.push_back(f);
     return triangles;
   }
-  int find(int f, int local) { return sets_.find(node_of_[f][local]); }
+  int find(int f, int local) { return sets_.root(node_of_[f][local]); }
 
   void add_triangles(Mesh& mesh) {
     for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
@@ -206,7 +186,7 @@ class Welder {
           boundary_[f].push_back({use.nodes[k], use.nodes[k + 1]});
     for (std::size_t f = 0; f < boundary_.size(); ++f) {
       for (const auto& [a, b] : boundary_[f]) {
-        const int p = number_[sets_.find(a)], q = number_[sets_.find(b)];
+        const int p = number_[sets_.root(a)], q = number_[sets_.root(b)];
         sides[f].push_back({std::min(p, q), std::max(p, q)});
       }
       std::ranges::sort(sides[f]);
@@ -220,7 +200,7 @@ class Welder {
     CurveMesh curve{TopoDS::Edge(edges_(e + 1)), {}};
     std::vector<int> chain;
     for (std::size_t k = 0; k < use.nodes.size(); ++k) {
-      const int point = number_[sets_.find(use.nodes[k])];
+      const int point = number_[sets_.root(use.nodes[k])];
       if (point < 0 || (!chain.empty() && chain.back() == point)) continue;
       chain.push_back(point);
       curve.parameters.push_back(use.parameters[k]);
@@ -268,7 +248,7 @@ class Welder {
   TopTools_IndexedMapOfShape vertices_;
   std::vector<int> vertex_nodes_;
   std::vector<Vec3> points_;  ///< of each node
-  NodeSets sets_;
+  DisjointSets sets_;
   std::vector<std::vector<int>> node_of_;  ///< of each point of each face
   std::vector<int> bad_faces_;
   std::vector<std::array<int, 2>> sides_;  ///< of triangles between points, sorted

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/disjoint_sets.h"
 #include "base/predicates.h"
 
 namespace delquad {
@@ -224,18 +225,14 @@ class Arranger {
 
   /// The face around a component is on the left of its contour, on the other side of which its faces begin.
   void set_around(Arrangement& result) const {
-    std::vector<int> component(points_.size());
-    std::iota(component.begin(), component.end(), 0);
-    const auto root = [&](int v) {
-      while (component[v] != v) v = component[v] = component[component[v]];
-      return v;
-    };
-    for (const auto& [a, b] : lines_) component[root(a)] = root(b);
+    DisjointSets components(points_.size());
+    for (const auto& [a, b] : lines_) components.join(a, b);
     std::vector<int> around(points_.size(), -1);
     for (const Cycle& cycle : cycles_)
-      if (cycle.is_contour) around[root(fans_.start(cycle.sides[0]))] = result.face_of[cycle.sides[0]];
+      if (cycle.is_contour)
+        around[components.root(fans_.start(cycle.sides[0]))] = result.face_of[cycle.sides[0]];
     for (Arrangement::Face& face : result.faces) {
-      face.component = root(fans_.start(face.cycles[0][0]));
+      face.component = components.root(fans_.start(face.cycles[0][0]));
       face.around = around[face.component];
     }
   }

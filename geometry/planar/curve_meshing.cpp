@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/curve_span.h"
@@ -276,16 +277,8 @@ class CurveMesher {
 
   /// All edges, each with the connected curves that it is of.
   std::vector<LoopEdge> loop_edges() const {
-    std::vector<int> joined(chain_.nodes.size());
-    std::iota(joined.begin(), joined.end(), 0);
-    const auto root = [&](int v) {
-      while (joined[v] != v) v = joined[v] = joined[joined[v]];
-      return v;
-    };
-    for (const CurvePiece& piece : pieces_) {
-      const int a = root(piece.ends[0]), b = root(piece.ends[1]);
-      joined[std::max(a, b)] = std::min(a, b);
-    }
+    DisjointSets joined(chain_.nodes.size());
+    for (const CurvePiece& piece : pieces_) joined.join(piece.ends[0], piece.ends[1]);
     std::vector<LoopEdge> edges;
     for (const CurvePiece& piece : pieces_) {
       if (piece.curve < 0) continue;
@@ -295,7 +288,7 @@ class CurveMesher {
         const bool is_last = i == piece.interior.size();
         const double next = is_last ? piece.to : piece.interior[i];
         const Vec2 q = is_last ? chain_.nodes[piece.ends[1]] : piece.shape->point(next);
-        edges.push_back({piece.shape.get(), t, next, p, q, root(piece.ends[0]), piece.curve});
+        edges.push_back({piece.shape.get(), t, next, p, q, joined.root(piece.ends[0]), piece.curve});
         t = next;
         p = q;
       }

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "mesh/renumber_nodes.h"
 
@@ -114,19 +115,12 @@ class DomainBuilder {
   }
   bool is_crack(int line, const std::vector<char>& cracks) const { return cracks[mesh().line_curve[line]]; }
 
-  int root(int corner) const {
-    while (joined_[corner] != corner) corner = joined_[corner];
-    return corner;
-  }
-
   /// Corners of regions that meet along a line share its node, unless that is a crack.
   void join_corners(const std::vector<int>& next, const std::vector<char>& cracks) {
-    for (int s = 0; s < n_sides(); ++s) joined_.push_back(s);
-    for (int s = 0; s < n_sides(); ++s) {
-      if (is_crack(s / 2, cracks) || region_at(s) < 0 || region_at(s ^ 1) < 0) continue;
-      const int a = root(next[s]), b = root(s ^ 1);
-      joined_[std::max(a, b)] = std::min(a, b);
-    }
+    joined_ = DisjointSets(n_sides());
+    for (int s = 0; s < n_sides(); ++s)
+      if (!is_crack(s / 2, cracks) && region_at(s) >= 0 && region_at(s ^ 1) >= 0)
+        joined_.join(next[s], s ^ 1);
   }
 
   void double_nodes(const std::vector<char>& cracks) {
@@ -138,7 +132,7 @@ class DomainBuilder {
     std::vector<int> owner(mesh.points.size(), -1);  // the joined corners that keep the node
     std::vector<int> node(n_sides(), -1);            // of joined corners, by root
     for (int s = 0; s < n_sides(); ++s) {
-      const int v = start(s), corner = root(s);
+      const int v = start(s), corner = joined_.root(s);
       if (!on_crack[v] || region_at(s) < 0) continue;
       if (owner[v] < 0) {
         owner[v] = corner;
@@ -223,7 +217,7 @@ class DomainBuilder {
   PlanarDomain domain_;
   std::vector<std::array<int, 2>> lines_;  ///< as the arrangement knows them
   std::vector<int> node_;                  ///< of each corner
-  std::vector<int> joined_;                ///< of each corner one that has the same node, or itself
+  DisjointSets joined_;                    ///< corners that have the same node
   std::vector<int> other_lip_;             ///< of each line: its side that has a line of its own; -1: none
   std::map<int, int> lip_curves_;          ///< of cracks: the curve of those lines
 };

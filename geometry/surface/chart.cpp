@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "mesh/half_edges.h"
 
@@ -15,17 +15,6 @@ namespace delquad {
 namespace {
 
 using Side = std::pair<int, int>;  ///< triangle, and which vertex it is opposite to
-
-int find_root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-void join(std::vector<int>& parent, int i, int j) {
-  i = find_root(parent, i);
-  j = find_root(parent, j);
-  parent[std::max(i, j)] = std::min(i, j);
-}
 
 /// Finds which triangles continue each other and which corners of theirs are one vertex.
 class Gluing {
@@ -36,8 +25,6 @@ class Gluing {
         across_(3 * fine.triangles.size(), -1),
         chart_(fine.triangles.size()),
         vertex_(3 * fine.triangles.size()) {
-    std::iota(chart_.begin(), chart_.end(), 0);
-    std::iota(vertex_.begin(), vertex_.end(), 0);
     std::vector<std::pair<int, int>> lines, open_lines;
     for (std::size_t l = 0; l < fine.lines.size(); ++l)
       (open.empty() || !open[l] ? lines : open_lines)
@@ -57,8 +44,8 @@ class Gluing {
   }
 
   int across(int corner) const { return across_[corner]; }
-  int chart_of(int triangle) { return find_root(chart_, triangle); }
-  int vertex_of(int corner) { return find_root(vertex_, corner); }
+  int chart_of(int triangle) { return chart_.root(triangle); }
+  int vertex_of(int corner) { return vertex_.root(corner); }
 
  private:
   int corner(int triangle, int node) const {
@@ -90,11 +77,11 @@ class Gluing {
                       fine_.regions[face].tag, e.lo + 1, e.hi + 1));
     }
     const int t = e.element, s = edge[1].element;
-    join(chart_, t, s);
+    chart_.join(t, s);
     int inner[2] = {3, 3};
     for (int node : {e.lo, e.hi}) {
       const int ct = corner(t, node), cs = corner(s, node);
-      join(vertex_, ct, cs);
+      vertex_.join(ct, cs);
       inner[0] -= ct % 3;
       inner[1] -= cs % 3;
     }
@@ -104,7 +91,8 @@ class Gluing {
 
   const Mesh& fine_;
   const std::vector<char>& wanted_;
-  std::vector<int> across_, chart_, vertex_;
+  std::vector<int> across_;
+  DisjointSets chart_, vertex_;
 };
 
 double length(const Mesh& fine, const std::vector<Side>& loop) {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/tidy_model.h"
 #include "mesh/half_edges.h"
@@ -27,20 +27,6 @@ struct Loop {
   double length = 0;
   std::vector<std::array<int, 2>> sides;  ///< as they run around the face
   bool simple = true;                     ///< every point has one side that comes and one that goes
-};
-
-/// Sets of numbers that grow together.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<int> parent_;
 };
 
 /// The loops of all faces, by face.
@@ -68,11 +54,11 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
     std::map<int, int> number;  // of points
     for (const HoleSide& side : of_face[face])
       for (const int p : side.ends) number.try_emplace(p, static_cast<int>(number.size()));
-    Sets sets(number.size());
-    for (const HoleSide& side : of_face[face]) sets.join(number.at(side.ends[0]), number.at(side.ends[1]));
+    DisjointSets sets(number.size());
+    for (const HoleSide& side : of_face[face]) sets.join_to(number.at(side.ends[1]), number.at(side.ends[0]));
     std::map<int, Loop> by_set;
     for (const HoleSide& side : of_face[face]) {
-      Loop& loop = by_set[sets.find(number.at(side.ends[0]))];
+      Loop& loop = by_set[sets.root(number.at(side.ends[0]))];
       if (loop.face >= 0 && loop.other != side.other) loop.other = -2;
       if (loop.face < 0) loop.other = side.other;
       loop.face = static_cast<int>(face);
@@ -166,14 +152,14 @@ class SmallHoles {
 
   /// Numbers the tubes from 1 in `tube_`.
   void find_tubes() {
-    Sets sets(loops_.size());
+    DisjointSets sets(loops_.size());
     for (const auto& loops : loops_)
       for (const Loop& loop : loops)
         if (loop.other >= 0 && all_short(loop.face) && all_short(loop.other))
           sets.join(loop.face, loop.other);
     std::map<int, std::set<int>> groups;
     for (int face = 0; face < static_cast<int>(loops_.size()); ++face)
-      if (all_short(face)) groups[sets.find(face)].insert(face);
+      if (all_short(face)) groups[sets.root(face)].insert(face);
     int n = 0;
     for (const auto& [first, faces] : groups) {
       bool has_end = false;

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
@@ -21,23 +21,6 @@ namespace {
 using Groups = EntityGroups;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// Sets of faces that grow together; each is known by its least face.
-class FaceSets {
- public:
-  explicit FaceSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int face) {
-    while (parent_[face] != face) face = parent_[face] = parent_[parent_[face]];
-    return face;
-  }
-  void join(int a, int b) {
-    const std::pair<int, int> ends = std::minmax({find(a), find(b)});
-    parent_[ends.second] = ends.first;
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// For each line the faces of its two triangles; -1, -1 where it has not two.
 std::vector<std::array<int, 2>> faces_of_lines(const Mesh& mesh) {
@@ -68,13 +51,13 @@ std::vector<int> check_groups(const SurfaceModel& model, const Groups& groups) {
       group_of[face] = static_cast<int>(g);
     }
   }
-  FaceSets sets(group_of.size());
+  DisjointSets sets(group_of.size());
   for (const auto& [f, g] : faces_of_lines(mesh)) {
     if (f >= 0 && group_of[f] >= 0 && group_of[f] == group_of[g]) sets.join(f, g);
   }
   for (size_t g = 0; g < groups.size(); ++g) {
     for (const int face : groups[g]) {
-      if (sets.find(face) == sets.find(groups[g][0])) continue;
+      if (sets.root(face) == sets.root(groups[g][0])) continue;
       throw InputError(
           fmt::format("{}: compound {}: face {} does not reach face {} along the curves between its "
                       "faces: expected faces that hang together",
@@ -256,13 +239,13 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
   const Mesh& mesh = model.fine;
   const std::vector<char> smooth = tangent_curves(model, angle);
   const auto faces = faces_of_lines(mesh);
-  FaceSets sets(mesh.regions.size());
+  DisjointSets sets(mesh.regions.size());
   for (size_t i = 0; i < faces.size(); ++i) {
     if (smooth[mesh.line_curve[i]]) sets.join(faces[i][0], faces[i][1]);
   }
   std::map<int, std::vector<int>> of_first;
   for (int face = 0; face < static_cast<int>(mesh.regions.size()); ++face)
-    of_first[sets.find(face)].push_back(face);
+    of_first[sets.root(face)].push_back(face);
   Groups groups;
   for (auto& [first, members] : of_first) {
     if (members.size() > 1) groups.push_back(std::move(members));

@@ -11,6 +11,7 @@
 
 #include "base/box.h"
 #include "base/box_tree.h"
+#include "base/disjoint_sets.h"
 #include "geometry/surface/chart.h"
 #include "geometry/surface/surface_messages.h"
 #include "mesh/half_edges.h"
@@ -191,20 +192,12 @@ class Reporter {
 
   void find_shells() {
     const int n_faces = static_cast<int>(mesh_.regions.size());
-    std::vector<int> parent(n_faces);
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int f) {
-      while (parent[f] != f) f = parent[f] = parent[parent[f]];
-      return f;
-    };
+    DisjointSets joined(n_faces);
     for (const CurveReport& curve : report_.curves)
-      for (std::size_t k = 1; k < curve.faces.size(); ++k) {
-        const int a = root(curve.faces[0]), b = root(curve.faces[k]);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
+      for (const int f : curve.faces) joined.join(curve.faces[0], f);
     std::vector<int> shell_of(n_faces, -1);
     for (int f = 0; f < n_faces; ++f) {
-      int& shell = shell_of[root(f)];
+      int& shell = shell_of[joined.root(f)];
       if (shell < 0) {
         shell = static_cast<int>(report_.shells.size());
         report_.shells.push_back({{}, 0, 0, true});

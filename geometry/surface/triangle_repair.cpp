@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/surface/flat_triangles.h"
 #include "geometry/surface/orient_triangles.h"
@@ -122,25 +123,17 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
 /// Corners of triangles (3 t + k: that at the start of side 3 t + k) that share an edge at their vertex
 /// belong to one fan, also where more than two triangles share it. Returns one corner of each fan, by corner.
 std::vector<int> fans(const Mesh& mesh) {
-  std::vector<int> root(3 * mesh.triangles.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int c) {
-    while (root[c] != c) c = root[c] = root[root[c]];
-    return c;
-  };
+  DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_at = [&](int side, int v) {
     return side_start(mesh, side) == v ? side : next_side(side);
   };
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
     const int first = side_number(mesh, edge[0]);
     for (const HalfEdge& half : edge.subspan(1))
-      for (const int v : {half.lo, half.hi}) {
-        const int a = find(corner_at(first, v)), b = find(corner_at(side_number(mesh, half), v));
-        root[std::max(a, b)] = std::min(a, b);
-      }
+      for (const int v : {half.lo, half.hi})
+        corners.join(corner_at(first, v), corner_at(side_number(mesh, half), v));
   });
-  for (int c = 0; c < static_cast<int>(root.size()); ++c) root[c] = find(c);
-  return root;
+  return corners.roots();
 }
 
 /// Gives each fan at a vertex a vertex of its own.

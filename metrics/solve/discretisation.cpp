@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
+#include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "mesh/half_edges.h"
 #include "metrics/shape.h"
@@ -28,18 +28,11 @@ void check_elements(const Mesh& mesh) {
 
 /// For each point one of its part of the mesh, the same for all of that part.
 std::vector<int> parts_of(const Mesh& mesh) {
-  std::vector<int> above(mesh.points.size());
-  std::iota(above.begin(), above.end(), 0);
-  const auto root = [&](int i) {
-    while (above[i] != i) i = above[i] = above[above[i]];
-    return i;
-  };
+  DisjointSets parts(mesh.points.size());
   for_each_element(mesh, [&](int, const auto& v) {
-    for (const int i : v) above[std::max(root(i), root(v[0]))] = std::min(root(i), root(v[0]));
+    for (const int i : v) parts.join(v[0], i);
   });
-  std::vector<int> parts(above.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = root(static_cast<int>(i));
-  return parts;
+  return parts.roots();
 }
 
 }  // namespace
