@@ -12,9 +12,9 @@
 #include "algorithms/recombination/dual_graph.h"
 #include "algorithms/recombination/hilbert.h"
 #include "base/context.h"
+#include "base/matching/matching.h"
 #include "benchmarks/square_case.h"
-#include "matching/matching.h"
-#include "tests/matching/graph_kinds.h"
+#include "tests/base/matching/graph_kinds.h"
 
 // Matching alone, by our solver on one thread and on two, and by LEMON's, the baseline: graphs of the meshes
 // of F and D, random cubic planar graphs, and the exact equilateral lattice. Each result of ours is proven by

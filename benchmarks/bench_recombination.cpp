@@ -6,8 +6,8 @@
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/context.h"
+#include "base/matching/matching.h"
 #include "benchmarks/square_case.h"
-#include "matching/matching.h"
 
 // Recombination and treatment of the meshes of F and D, with the insertion of the same mesh as the yardstick.
 // Recombination says what its dual graph, the matching and merging take, and has a row with LEMON's matching.

@@ -12,8 +12,8 @@
 #include "cases/model_file.h"
 #include "cases/problem.h"
 #include "cases/surface_spec.h"
+#include "features/layers/layer_heights.h"
 #include "geometry/cad/example_models.h"
-#include "geometry/planar/layers/layer_heights.h"
 #include "io/mesh_io.h"
 #include "mesher/check_problem.h"
 

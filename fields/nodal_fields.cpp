@@ -6,8 +6,8 @@
 #include "delquad/error.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
-#include "mesh/check_mesh.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 

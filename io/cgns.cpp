@@ -2,10 +2,10 @@
 #include <array>
 #include <limits>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/library_file.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
-#include "mesh/element_nodes.h"
 
 #ifdef DELQUAD_HAS_CGNS
 #include <cgnslib.h>

@@ -4,12 +4,12 @@
 #include <set>
 #include <vector>
 
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 #include "io/inp_output.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

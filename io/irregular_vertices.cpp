@@ -1,6 +1,6 @@
 #include "io/irregular_vertices.h"
 
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/regularity.h"
 
 namespace delquad {

@@ -2,10 +2,10 @@
 
 #include <climits>
 
+#include "geometry/mesh/drop_unused_points.h"
 #include "io/mesh_io.h"
 #include "io/numbered_entities.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
 
 namespace delquad {
 

@@ -10,11 +10,11 @@
 
 #include "base/utf8.h"
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "io/hex_writers.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "mesh/drop_unused_points.h"
 #include "metrics/metrics.h"
 
 namespace delquad {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "delquad/error.h"
-#include "mesh/element_nodes.h"
+#include "geometry/mesh/element_nodes.h"
 
 namespace delquad {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

@@ -47,7 +47,7 @@ std::string kind_of_file(const std::filesystem::path& path);
 bool fits_msh(std::string_view name);
 
 /// What readers of triangles do with numbers that can hardly be coordinates: those that are not finite, and
-/// stray points (mesh/stray_points.h).
+/// stray points (geometry/mesh/stray_points.h).
 enum class Strays {
   kRefused,  ///< InputError with their place
   kKept,     ///< for a caller who leaves them out; the greatest number stands for one that is not finite

@@ -1,9 +1,9 @@
 #include <climits>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
 #include "io/msh_raw.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

@@ -5,11 +5,11 @@
 #include <set>
 #include <tuple>
 
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/msh_output.h"
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

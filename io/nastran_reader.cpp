@@ -6,11 +6,11 @@
 #include <map>
 #include <unordered_map>
 
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
 #include "io/numbered_entities.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

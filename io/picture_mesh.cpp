@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/irregular_vertices.h"
 #include "io/picture.h"
 #include "io/svg.h"
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 
 namespace delquad {

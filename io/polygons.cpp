@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/split_polygon.h"
+#include "geometry/mesh/stray_points.h"
 #include "io/mesh_io.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/split_polygon.h"
-#include "mesh/stray_points.h"
 
 namespace delquad {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "delquad/error.h"
+#include "geometry/mesh/check_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
-#include "mesh/check_mesh.h"
 
 namespace delquad {
 

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/weld.h"
 #include "io/mesh_io.h"
 #include "io/polygons.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/weld.h"
 
 namespace delquad {
 

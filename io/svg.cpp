@@ -7,10 +7,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "io/xml.h"
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
 
 namespace delquad::svg {
 

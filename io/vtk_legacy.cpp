@@ -2,11 +2,11 @@
 
 #include <array>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "io/vtu_output.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

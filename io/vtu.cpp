@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
 #include "io/vtu_output.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

@@ -16,11 +16,11 @@
 #include <sstream>
 
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
 #include "io/nodal_values.h"
 #include "io/text_scanner.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/element_nodes.h"
 
 namespace delquad {
 

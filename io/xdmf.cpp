@@ -1,11 +1,11 @@
 #include <utility>
 
+#include "geometry/mesh/element_nodes.h"
 #include "io/library_file.h"
 #include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "io/xml.h"
-#include "mesh/element_nodes.h"
 
 #ifdef DELQUAD_HAS_HDF5
 #include <hdf5.h>

@@ -9,7 +9,7 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "mesher/keep_better.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/repair_options.h"

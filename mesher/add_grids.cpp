@@ -7,8 +7,8 @@
 
 #include "base/parallel.h"
 #include "delquad/error.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/grid_sides.h"
-#include "mesh/nearest_triangle.h"
 #include "mesher/mapped_grid.h"
 #include "mesher/stages.h"
 #include "metrics/shape.h"

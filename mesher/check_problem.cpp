@@ -6,8 +6,8 @@
 
 #include "base/length_unit.h"
 #include "base/located.h"
-#include "geometry/planar/layers/layer_heights.h"
-#include "mesh/check_mesh.h"
+#include "features/layers/layer_heights.h"
+#include "geometry/mesh/check_mesh.h"
 
 namespace delquad {
 namespace {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "boundaries/divided_chains.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/curve_search.h"
-#include "mesh/nearest_triangle.h"
+#include "patches/divided_chains.h"
 
 namespace delquad {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "curved/model_geometry.h"
+#include "features/curved/model_geometry.h"
 #include "mesher/prepare.h"
 #include "mesher/stages.h"
 

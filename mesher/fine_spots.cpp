@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/box_tree.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/box_tree.h"
 #include "base/predicates.h"
-#include "geometry/planar/layers/curve_layers.h"
+#include "features/layers/curve_layers.h"
 
 namespace delquad {
 namespace {

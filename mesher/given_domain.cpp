@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/predicates.h"
-#include "boundaries/patch_boundaries.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
-#include "mesh/half_edges.h"
+#include "patches/patch_boundaries.h"
 
 namespace delquad {
 namespace {

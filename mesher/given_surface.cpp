@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/triangulated_model.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/half_edges.h"
-#include "mesh/nearest_triangle.h"
 #include "metrics/shape.h"
 
 namespace delquad {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "boundaries/surface_domain.h"
 #include "delquad/extend.h"
 #include "geometry/surface/surface_model.h"
+#include "patches/surface_domain.h"
 
 namespace delquad {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/predicates.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/relocation/untangling.h"
 

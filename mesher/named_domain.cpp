@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/whiskers.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "base/activity.h"
 #include "base/warning.h"
-#include "boundaries/surface_domain.h"
 #include "delquad/mesher.h"
+#include "features/layers/add_layers.h"
 #include "fields/fields.h"
-#include "geometry/planar/layers/add_layers.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/symmetric_half.h"
+#include "patches/surface_domain.h"
 
 namespace delquad {
 

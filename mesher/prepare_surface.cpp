@@ -9,8 +9,6 @@
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "boundaries/divided_chains.h"
-#include "boundaries/surface_domain.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
@@ -25,6 +23,8 @@
 #include "mesher/size_aware.h"
 #include "mesher/size_warnings.h"
 #include "mesher/symmetric_size.h"
+#include "patches/divided_chains.h"
+#include "patches/surface_domain.h"
 
 namespace delquad {
 namespace {

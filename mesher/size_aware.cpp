@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "delquad/extend.h"
 #include "fields/size_aware_cross_field.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "mesher/field_groups.h"
 
 namespace delquad {

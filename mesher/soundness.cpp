@@ -9,8 +9,8 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "mesh/check_invariants.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"
 
 namespace delquad {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delquad/mesher.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 #include "mesher/prepare.h"
 #include "metrics/surface/surface_report.h"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/counters.h"
-#include "boundaries/curve_nodes.h"
 #include "delquad/extend.h"
 #include "delquad/model.h"
-#include "geometry/planar/layers/add_layers.h"
+#include "features/layers/add_layers.h"
+#include "patches/curve_nodes.h"
 
 namespace delquad {
 

@@ -10,13 +10,13 @@
 #include "delquad/error.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/mesh/split_polygon.h"
+#include "geometry/mesh/stray_points.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
 #include "geometry/surface/mirror.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangulated_model.h"
-#include "mesh/split_polygon.h"
-#include "mesh/stray_points.h"
 
 namespace delquad {
 namespace {

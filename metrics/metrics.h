@@ -5,7 +5,7 @@
 #include <span>
 
 #include "delquad/metrics.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad {
 

@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "base/cancel.h"
-#include "mesh/open_quads.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/open_quads.h"
+#include "geometry/mesh/quad_corners.h"
 #include "metrics/shape.h"
 
 namespace delquad {

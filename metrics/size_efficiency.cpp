@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -4,7 +4,7 @@
 
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad {
 

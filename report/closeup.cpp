@@ -6,8 +6,8 @@
 #include <numeric>
 #include <set>
 
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/metrics.h"
 
 namespace delquad {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "base/box.h"
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/irregular_vertices.h"
-#include "mesh/element_nodes.h"
-#include "mesh/half_edges.h"
 #include "metrics/metrics.h"
 #include "report/packed_text.h"
 

@@ -5,12 +5,12 @@
 #include <map>
 #include <set>
 
+#include "experiments/sweep/experiment.h"
+#include "experiments/sweep/statistics.h"
 #include "io/svg.h"
 #include "mesher/stages.h"
 #include "metrics/metrics.h"
 #include "report/packed_text.h"
-#include "sweep/experiment.h"
-#include "sweep/statistics.h"
 
 namespace delquad {
 namespace {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "sweep/result_records.h"
-#include "sweep/table.h"
+#include "experiments/sweep/result_records.h"
+#include "experiments/sweep/table.h"
 
 namespace delquad {
 

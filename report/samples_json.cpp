@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "sweep/samples.h"
-#include "sweep/statistics.h"
+#include "experiments/sweep/samples.h"
+#include "experiments/sweep/statistics.h"
 
 namespace delquad {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sweep/result_records.h"
-#include "sweep/table.h"
+#include "experiments/sweep/result_records.h"
+#include "experiments/sweep/table.h"
 
 namespace delquad {
 

@@ -11,6 +11,10 @@
 #include <ostream>
 
 #include "delquad/error.h"
+#include "experiments/sweep/json_problem.h"
+#include "experiments/sweep/record.h"
+#include "experiments/sweep/samples.h"
+#include "experiments/sweep/tables.h"
 #include "io/mesh_io.h"
 #include "report/drawings.h"
 #include "report/packed_mesh.h"
@@ -19,10 +23,6 @@
 #include "report/page_text.h"
 #include "report/samples_json.h"
 #include "report/sheet_json.h"
-#include "sweep/json_problem.h"
-#include "sweep/record.h"
-#include "sweep/samples.h"
-#include "sweep/tables.h"
 
 namespace delquad {
 namespace {

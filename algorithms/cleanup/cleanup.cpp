@@ -9,7 +9,7 @@
 #include "algorithms/cleanup/cleanup_process.h"
 #include "algorithms/cleanup/edit_in_blocks.h"
 #include "base/cancel.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/short_edges.h"
 
 namespace delquad {

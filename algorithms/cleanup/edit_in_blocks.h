@@ -2,7 +2,7 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "base/stopwatch.h"
-#include "mesh/quad_blocks.h"
+#include "geometry/mesh/quad_blocks.h"
 
 namespace delquad {
 

@@ -8,8 +8,8 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "mesh/constrained_delaunay.h"
-#include "mesh/delaunay_kernel.h"
+#include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/delaunay_kernel.h"
 
 namespace delquad {
 

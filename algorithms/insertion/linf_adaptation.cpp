@@ -9,7 +9,7 @@
 #include "base/cancel.h"
 #include "base/predicates.h"
 #include "base/stopwatch.h"
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
 namespace {

@@ -8,8 +8,8 @@
 #include "algorithms/insertion/vertex_fields.h"
 #include "base/cancel.h"
 #include "base/stopwatch.h"
-#include "mesh/constrained_delaunay.h"
-#include "mesh/delaunay_kernel.h"
+#include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/delaunay_kernel.h"
 
 namespace delquad {
 

@@ -11,7 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/parallel_collect.h"
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
 

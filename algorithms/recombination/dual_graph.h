@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "base/matching/matching.h"
 #include "delquad/mesh.h"
-#include "matching/matching.h"
 
 namespace delquad {
 

@@ -6,7 +6,7 @@
 
 #include "algorithms/recombination/quad_cost.h"
 #include "base/stopwatch.h"
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
 namespace {

@@ -10,7 +10,7 @@
 #include "algorithms/recombination/dual_graph.h"
 #include "algorithms/recombination/spanning_sides.h"
 #include "base/parallel_collect.h"
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/counters.h"
+#include "base/matching/matching.h"
 #include "delquad/mesh.h"
-#include "matching/matching.h"
 
 namespace delquad {
 

@@ -1,6 +1,6 @@
 #include "algorithms/recombination/spanning_sides.h"
 
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algorithms/treatment/treatment_moves.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 
 namespace delquad {
 

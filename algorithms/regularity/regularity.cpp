@@ -8,7 +8,7 @@
 #include "algorithms/cleanup/edit_in_blocks.h"
 #include "algorithms/regularity/regularity_process.h"
 #include "base/cancel.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

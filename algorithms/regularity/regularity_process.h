@@ -11,7 +11,7 @@
 #include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/regularity.h"
 #include "base/marks.h"
-#include "mesh/quad_blocks.h"
+#include "geometry/mesh/quad_blocks.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 

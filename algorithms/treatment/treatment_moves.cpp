@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

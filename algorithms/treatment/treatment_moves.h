@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {

@@ -8,7 +8,7 @@
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"
-#include "mesh/quad_blocks.h"
+#include "geometry/mesh/quad_blocks.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {

@@ -10,8 +10,8 @@
 #include "cases/case_file.h"
 #include "cases/problem.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/mesh/check_mesh.h"
 #include "geometry/planar/sampled_curve.h"
-#include "mesh/check_mesh.h"
 
 namespace delquad::python {
 

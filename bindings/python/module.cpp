@@ -8,7 +8,7 @@
 #include "bindings/python/problem.h"
 #include "cases/formulas.h"
 #include "cases/size_file.h"
-#include "mesh/check_mesh.h"
+#include "geometry/mesh/check_mesh.h"
 
 namespace delquad::python {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "delquad/fields.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/model_curvature.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
 

@@ -11,8 +11,8 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
-#include "mesh/half_edges.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad::cad {
 

@@ -25,7 +25,7 @@
 #include "geometry/cad/edge_chords.h"
 #include "geometry/cad/face_outline.h"
 #include "geometry/cad/refine_face.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 
 namespace delquad::cad {
 

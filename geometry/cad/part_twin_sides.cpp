@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
 

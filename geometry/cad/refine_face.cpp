@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/cancel.h"
-#include "mesh/delaunay_kernel.h"
+#include "geometry/mesh/delaunay_kernel.h"
 
 namespace delquad::cad {
 

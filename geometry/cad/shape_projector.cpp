@@ -21,7 +21,7 @@
 
 #include "base/cancel.h"
 #include "geometry/cad/nearest_point.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad::cad {
 

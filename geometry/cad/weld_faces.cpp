@@ -17,7 +17,7 @@
 #include "delquad/error.h"
 #include "geometry/cad/part_twin_sides.h"
 #include "geometry/cad/repair_face.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <set>
 
+#include "base/matching/t_join.h"
 #include "delquad/error.h"
 #include "geometry/planar/curve_pieces.h"
-#include "matching/t_join.h"
 
 namespace delquad {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
-#include "mesh/renumber_nodes.h"
+#include "geometry/mesh/renumber_nodes.h"
 
 namespace delquad {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/matching/side_counts.h"
 #include "delquad/model.h"
-#include "matching/side_counts.h"
 
 namespace delquad {
 

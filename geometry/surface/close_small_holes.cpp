@@ -10,9 +10,9 @@
 
 #include "base/box.h"
 #include "base/disjoint_sets.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/tidy_model.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 

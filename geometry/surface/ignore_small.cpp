@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "delquad/error.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/close_small_holes.h"
 #include "geometry/surface/surface_editor.h"
 #include "geometry/surface/tidy_model.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

@@ -12,11 +12,11 @@
 
 #include "base/cancel.h"
 #include "delquad/error.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/point_whiskers.h"
 #include "geometry/surface/section_path.h"
 #include "geometry/surface/surface_messages.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "delquad/error.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/surface_messages.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

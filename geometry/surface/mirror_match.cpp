@@ -14,10 +14,10 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 namespace {

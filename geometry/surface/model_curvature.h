@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 

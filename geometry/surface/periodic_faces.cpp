@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "delquad/error.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/periodic_lines.h"
-#include "mesh/nearest_triangle.h"
 
 namespace delquad {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/surface_messages.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

@@ -10,11 +10,11 @@
 
 #include "base/cancel.h"
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_editor.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/drop_unused_points.h"
 
 namespace delquad {
 namespace {

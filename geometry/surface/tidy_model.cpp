@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "mesh/drop_unused_points.h"
+#include "geometry/mesh/drop_unused_points.h"
 
 namespace delquad {
 

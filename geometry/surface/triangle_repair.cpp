@@ -8,13 +8,13 @@
 #include "base/box.h"
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/stray_points.h"
+#include "geometry/mesh/weld.h"
 #include "geometry/surface/flat_triangles.h"
 #include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
-#include "mesh/drop_unused_points.h"
-#include "mesh/stray_points.h"
-#include "mesh/weld.h"
 
 namespace delquad {
 

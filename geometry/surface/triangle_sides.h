@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 
 /// Sides of triangles by number: side 3 t + k of triangle t runs from its vertex k to the next.
 namespace delquad {

@@ -7,7 +7,7 @@
 
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"
 
 namespace delquad {

@@ -4,7 +4,7 @@
 
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/half_edges.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "mesh/half_edges.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "metrics/surface/face_normals.h"
 #include "metrics/surface/near_cuts.h"
 #include "metrics/surface/nearest_element.h"

@@ -6,9 +6,9 @@
 
 #include "delquad/fields.h"
 #include "delquad/metrics.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/half_edges.h"
 
 namespace delquad {
 

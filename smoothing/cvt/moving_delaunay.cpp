@@ -9,8 +9,8 @@
 #include "base/cancel.h"
 #include "base/predicates.h"
 #include "delquad/error.h"
-#include "mesh/constrained_delaunay.h"
-#include "mesh/tri_topology.h"
+#include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/tri_topology.h"
 #include "smoothing/cvt/blocks.h"
 
 namespace delquad {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/element_blocks.h"
+#include "geometry/mesh/element_blocks.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
 namespace delquad {

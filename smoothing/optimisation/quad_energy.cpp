@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -7,8 +7,8 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
-#include "mesh/element_blocks.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/element_blocks.h"
+#include "geometry/mesh/quad_corners.h"
 #include "smoothing/optimisation/block_tracks.h"
 #include "smoothing/optimisation/minimise_energy.h"
 #include "smoothing/relocation/crowding.h"

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "base/parallel.h"
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/relocation/short_edges.h"
 #include "smoothing/relocation/untangling.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {

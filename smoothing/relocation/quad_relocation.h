@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "delquad/fields.h"
-#include "mesh/quad_blocks.h"
-#include "mesh/quad_corners.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_blocks.h"
+#include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/quad_topology.h"
 
 namespace delquad {
 

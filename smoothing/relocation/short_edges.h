@@ -1,7 +1,7 @@
 #pragma once
 
 #include "delquad/fields.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 
 namespace delquad {
 

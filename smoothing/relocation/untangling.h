@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 
 namespace delquad {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "boundaries/surface_domain.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
+#include "patches/surface_domain.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
 namespace delquad {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 
 namespace delquad::testing_support {
 

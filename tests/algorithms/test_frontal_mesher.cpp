@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/context.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "tests/algorithms/expect_resolved.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/shapes.h"

@@ -9,7 +9,7 @@
 #include "algorithms/recombination/quad_cost.h"
 #include "algorithms/treatment/degree_treatment.h"
 #include "delquad/extend.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"

@@ -10,7 +10,7 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "delquad/extend.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/shapes.h"
 

@@ -7,7 +7,7 @@
 
 #include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/polygon_sides.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/shapes.h"
 

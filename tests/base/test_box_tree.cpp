@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/box_tree.h"
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
 namespace {

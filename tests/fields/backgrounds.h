@@ -8,7 +8,7 @@
 
 #include "delquad/mesh.h"
 #include "fields/background_mesh.h"
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

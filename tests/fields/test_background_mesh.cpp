@@ -11,8 +11,8 @@
 
 #include "base/predicates.h"
 #include "delquad/error.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/planar/planar_model.h"
-#include "mesh/constrained_delaunay.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

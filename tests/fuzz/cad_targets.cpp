@@ -8,7 +8,7 @@
 
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
-#include "mesh/check_mesh.h"
+#include "geometry/mesh/check_mesh.h"
 #include "tests/fuzz/draw.h"
 #include "tests/fuzz/target.h"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <functional>
 
+#include "geometry/mesh/check_mesh.h"
 #include "io/mesh_io.h"
-#include "mesh/check_mesh.h"
 #include "metrics/metrics.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/reader_seeds.h"

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sweep/experiment.h"
-#include "sweep/result_records.h"
-#include "sweep/tables.h"
+#include "experiments/sweep/experiment.h"
+#include "experiments/sweep/result_records.h"
+#include "experiments/sweep/tables.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "geometry/mesh/check_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "mesh/check_mesh.h"
 #include "tests/support/curved_grid.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"

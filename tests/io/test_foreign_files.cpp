@@ -6,8 +6,8 @@
 #include <set>
 
 #include "delquad/error.h"
+#include "geometry/mesh/split_polygon.h"
 #include "io/mesh_io.h"
-#include "mesh/split_polygon.h"
 #include "tests/io/msh_files.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"

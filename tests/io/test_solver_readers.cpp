@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "geometry/mesh/check_mesh.h"
 #include "io/mesh_io.h"
-#include "mesh/check_mesh.h"
 #include "tests/io/reader_test.h"
 #include "tests/support/curved_grid.h"
 

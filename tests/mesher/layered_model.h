@@ -12,7 +12,7 @@
 
 #include "base/predicates.h"
 #include "delquad/mesher.h"
-#include "geometry/planar/layers/layer_heights.h"
+#include "features/layers/layer_heights.h"
 
 namespace delquad {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "base/warning.h"
-#include "curved/untangle_curved.h"
 #include "delquad/mesher.h"
-#include "mesh/element_nodes.h"
+#include "features/curved/untangle_curved.h"
+#include "geometry/mesh/element_nodes.h"
 
 namespace delquad {
 namespace {

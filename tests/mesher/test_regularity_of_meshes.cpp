@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "delquad/mesher.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/regularity.h"
 
 namespace delquad {

@@ -2,7 +2,7 @@
 
 #include "delquad/mesher.h"
 #include "fields/fields.h"
-#include "mesh/stray_points.h"
+#include "geometry/mesh/stray_points.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/triangulated_shapes.h"
 

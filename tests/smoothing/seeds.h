@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/lp_energy.h"
 #include "smoothing/cvt/moving_delaunay.h"

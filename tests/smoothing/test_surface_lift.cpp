@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "boundaries/places_inside.h"
 #include "metrics/metrics.h"
 #include "metrics/shape.h"
+#include "patches/places_inside.h"
 #include "tests/smoothing/meshed_surface.h"
 #include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"

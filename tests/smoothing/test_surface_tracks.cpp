@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "metrics/metrics.h"
 #include "tests/smoothing/meshed_surface.h"
 #include "tests/support/polygon_face.h"

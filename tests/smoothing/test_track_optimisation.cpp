@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "mesh/quad_corners.h"
+#include "geometry/mesh/quad_corners.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"

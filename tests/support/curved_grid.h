@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesh/element_nodes.h"
+#include "geometry/mesh/element_nodes.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad::testing_support {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/flatten.h"
-#include "mesh/constrained_delaunay.h"
 
 namespace delquad::testing_support {
 

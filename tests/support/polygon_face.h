@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/constrained_delaunay.h"
+#include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad::testing_support {

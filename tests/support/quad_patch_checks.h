@@ -11,8 +11,8 @@
 
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
-#include "mesh/quad_corners.h"
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/quad_topology.h"
 
 /// What must hold for any quad mesh of a patch, whatever its geometry.
 namespace delquad::testing_support {

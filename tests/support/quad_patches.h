@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "mesh/quad_topology.h"
+#include "geometry/mesh/quad_topology.h"
 #include "tests/support/shapes.h"
 
 /// Quad meshes of patches made in code.

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/check_invariants.h"
-#include "mesh/half_edges.h"
 
 namespace delquad::testing_support {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/half_edges.h"
 
 /// Surfaces made in code.
 namespace delquad::testing_support {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/surface_model.h"
-#include "mesh/half_edges.h"
 
 namespace delquad::testing_support {
 

@@ -6,7 +6,7 @@
 
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/part_twin_sides.h"
-#include "mesh/check_invariants.h"
+#include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/surface_counts.h"
 #include "tests/support/temporary_folder.h"

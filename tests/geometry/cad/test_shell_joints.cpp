@@ -10,7 +10,7 @@
 
 #include "delquad/mesher.h"
 #include "geometry/cad/cad_reader.h"
-#include "mesh/half_edges.h"
+#include "geometry/mesh/half_edges.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/shell_joints.h"
 #include "tests/geometry/cad/surface_counts.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "geometry/cad/cad_reader.h"
-#include "mesh/check_invariants.h"
+#include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/surface_counts.h"
 #include "tests/support/temporary_folder.h"

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "geometry/mesh/check_invariants.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/triangulated_model.h"
-#include "mesh/check_invariants.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/flat_patch_checks.h"
 #include "tests/support/grid_mesh.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/triangulated_model.h"
-#include "mesh/half_edges.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/surface_model_checks.h"
 

@@ -1,0 +1,299 @@
+#include "base/matching/agree_counts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "base/cancel.h"
+
+namespace delquad {
+namespace {
+
+/// Large deviations cost more than many small ones.
+constexpr double kUneven = 8;
+/// What counts as cheaper.
+constexpr double kCheaper = 1e-9;
+/// Passes over all sums and curves, at most.
+constexpr int kMostAgreements = 50;
+/// Curves of a chain, and steps of the search for one.
+constexpr int kMostCurves = 24, kMostSteps = 2000;
+/// What a chain may cost on the way beyond what its end can gain.
+constexpr double kAdvance = 2;
+/// The price of a sum that is to become zero.
+constexpr double kForced = 1000;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+class Agreement {
+ public:
+  Agreement(const std::vector<AgreeingCurve>& curves, int n_patches, const std::vector<ClosureSum>& sums,
+            Budget& steps, std::vector<int>& counts)
+      : curves_(curves),
+        sums_(sums),
+        steps_(steps),
+        counts_(counts),
+        outside_(n_patches),
+        in_sums_(curves.size()),
+        at_patch_(n_patches + 1),
+        closes_(n_patches + 1, 0) {
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      if (!curves[c].is_free || curves[c].patches.empty()) continue;
+      std::vector<int> patches = curves[c].patches;
+      if (patches.size() == 1) patches.push_back(outside_);
+      if (patches[0] == patches.back()) patches.pop_back();
+      for (const int p : patches) at_patch_[p].push_back(static_cast<int>(c));
+    }
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      closes_[sums[s].patch] = 1;
+      int value = 0;
+      for (const auto& [curve, times] : sums[s].terms) {
+        in_sums_[curve].emplace_back(static_cast<int>(s), times);
+        value += times * counts[curve];
+      }
+      values_.push_back(value);
+    }
+  }
+
+  void run() {
+    for (int pass = 0; pass < kMostAgreements; ++pass) {
+      bool better = false;
+      for (std::size_t s = 0; s < sums_.size(); ++s) {
+        check_cancelled();
+        if (steps_.is_spent()) return;
+        if (values_[s] == 0) continue;
+        if (sums_[s].price_of_pair > 0) better |= close(static_cast<int>(s));
+        better |= make(approach(static_cast<int>(s)).changes);
+      }
+      for (std::size_t c = 0; c < curves_.size(); ++c)
+        if (curves_[c].is_free && !curves_[c].patches.empty()) better |= restore(static_cast<int>(c));
+      if (!better) return;
+    }
+  }
+
+ private:
+  struct Change {
+    int curve = -1, by = 0;
+  };
+  using Changes = std::vector<Change>;
+  /// A curve of a chain; `patch`, beyond it, is the next one to set right.
+  struct Step {
+    double cost;
+    int patch;
+    Change change;
+    int before, length;
+  };
+  struct Best {
+    double gain = kCheaper;
+    Changes changes = {};
+  };
+
+  /// All the way to zero, or not at all.
+  bool close(int sum) {
+    std::map<int, int> by;  // of each curve that changes
+    forced_ = sum;
+    while (values_[sum] != 0) {
+      const Best best = approach(sum);
+      if (!make(best.changes)) break;
+      for (const Change& c : best.changes) by[c.curve] += c.by;
+    }
+    forced_ = -1;
+    const bool is_closed = values_[sum] == 0;
+    Changes all, back;
+    for (const auto& [curve, change] : by)
+      if (change != 0) all.push_back({curve, change}), back.push_back({curve, -change});
+    make(back);
+    return is_closed && gain_of(all) > kCheaper && make(all);
+  }
+
+  /// The best change that brings a sum nearer to zero.
+  Best approach(int sum) {
+    const double most = price(sum, values_[sum]) + kAdvance;
+    Best best;
+    for (const auto& [curve, times] : sums_[sum].terms)
+      if (curves_[curve].is_free) try_change(curve, values_[sum] * times > 0 ? -1 : 1, most, best);
+    return best;
+  }
+
+  /// The best change that brings a curve nearer to what it wants.
+  bool restore(int curve) {
+    Best best;
+    try_change(curve, counts_[curve] > curves_[curve].want ? -1 : 1, misfit(curve, counts_[curve]) + kAdvance,
+               best);
+    return make(best.changes);
+  }
+
+  /// By one and by two. `most`: what the rest of a chain may cost.
+  void try_change(int curve, int by, double most, Best& best) {
+    const auto& patches = curves_[curve].patches;
+    const auto compare = [&](Changes changes) {
+      const double gain = gain_of(changes);
+      if (gain > best.gain) best = {gain, std::move(changes)};
+    };
+    if (patches.size() <= 2) {
+      const Change one{curve, by};
+      const int to = beyond(curve, patches[0]);
+      compare(to == patches[0] ? Changes{one} : chain(patches[0], one, to, most));
+    }
+    const Change two{curve, 2 * by};
+    Changes changes{two};
+    for (const int p : patches)
+      for (const Change& c : chain(p, two, kAnywhere, most))
+        if (std::ranges::find(changes, c.curve, &Change::curve) == changes.end()) changes.push_back(c);
+    compare(std::move(changes));
+  }
+
+  /// The cheapest changes that follow the first one at `from`, until `to` is reached; none: it is not.
+  Changes chain(int from, Change first, int to, double most) {
+    std::vector<Step> steps{{0, from, first, -1, 0}};
+    best_.resize(4 * curves_.size() + at_patch_.size(), kNever);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    queue.push({0, 0});
+    double least = kNever;
+    int last = -1;
+    if (to == kAnywhere) least = cost_at(from, first, {}), last = 0;
+    for (int done = 0; !queue.empty() && done < kMostSteps && !steps_.is_spent(); ++done) {
+      const auto [cost, s] = queue.top();
+      queue.pop();
+      const Step at = steps[s];
+      if (cost > best_[label(at)] || at.length >= kMostCurves) continue;
+      steps_.spend(static_cast<long long>(at_patch_[at.patch].size()));
+      for (const int b : at_patch_[at.patch])
+        for (const int by : {-std::abs(first.by), std::abs(first.by)}) {
+          if (b == first.curve || curves_[b].patches.size() > 2) continue;
+          const Change next{b, by};
+          const Step step{at.cost + cost_of(next) + cost_at(at.patch, at.change, next), beyond(b, at.patch),
+                          next, s, at.length + 1};
+          if (!(step.cost < most)) continue;
+          const bool arrives = step.patch == to;
+          const double total = arrives           ? step.cost + cost_at(to, next, first)
+                               : to == kAnywhere ? step.cost + cost_at(step.patch, next, {})
+                                                 : kNever;
+          const bool ends = total < least - kCheaper;
+          const bool goes_on = !arrives && step.cost < best_[label(step)] - kCheaper;
+          if ((!ends && !goes_on) || is_used(steps, s, b)) continue;
+          steps.push_back(step);
+          const int added = static_cast<int>(steps.size()) - 1;
+          if (ends) least = total, last = added;
+          if (!goes_on) continue;
+          best_[label(step)] = step.cost;
+          queue.push({step.cost, added});
+        }
+    }
+    for (const Step& step : steps) best_[label(step)] = kNever;
+    Changes changes;
+    for (int s = last; s >= 0; s = steps[s].before) changes.push_back(steps[s].change);
+    return changes;
+  }
+
+  /// Where a patch has sums, it matters by which change it was reached.
+  std::size_t label(const Step& step) const {
+    if (!closes_[step.patch]) return 4 * curves_.size() + step.patch;
+    const bool second = curves_[step.change.curve].patches.front() != step.patch;
+    return 4 * step.change.curve + (second ? 2 : 0) + (step.change.by > 0 ? 1 : 0);
+  }
+  static bool is_used(const std::vector<Step>& steps, int s, int curve) {
+    for (; s >= 0; s = steps[s].before)
+      if (steps[s].change.curve == curve) return true;
+    return false;
+  }
+  int beyond(int curve, int patch) const {
+    const auto& patches = curves_[curve].patches;
+    if (patches.size() == 1) return patch == outside_ ? patches[0] : outside_;
+    return patches[0] == patch ? patches[1] : patches[0];
+  }
+
+  double misfit(int curve, int n) const {
+    if (n < curves_[curve].least) return kNever;
+    const double log = std::abs(std::log(n / curves_[curve].want));
+    return n * log * (curves_[curve].weight + kUneven * log);
+  }
+  double cost_of(Change change) const {
+    const int n = counts_[change.curve];
+    return misfit(change.curve, n + change.by) - misfit(change.curve, n);
+  }
+  double price(int sum, int value) const {
+    return value == 0 ? 0 : sums_[sum].price_of_pair + sums_[sum].price * std::abs(value);
+  }
+  int times_in(int sum, int curve) const {
+    int times = 0;
+    if (curve >= 0)
+      for (const auto& [s, t] : in_sums_[curve])
+        if (s == sum) times += t;
+    return times;
+  }
+  /// Of two changes at a patch, the second one new, by its sums.
+  double cost_at(int patch, Change first, Change second) const {
+    double cost = 0;
+    const auto add = [&](int curve) {
+      for (const auto& [s, times] : in_sums_[curve]) {
+        if (sums_[s].patch != patch || (curve == second.curve && times_in(s, first.curve) != 0)) continue;
+        const int by = times_in(s, second.curve) * second.by;
+        if (s == forced_) {
+          cost += by != 0 ? kForced : 0;
+          continue;
+        }
+        const int value = values_[s];
+        cost += price(s, value + by + times_in(s, first.curve) * first.by) - price(s, value);
+      }
+    };
+    add(first.curve);
+    if (second.curve >= 0) add(second.curve);
+    return cost;
+  }
+
+  /// By how much the changes lower the costs, that of the forced sum being kForced.
+  double gain_of(const Changes& changes) {
+    if (changes.empty()) return 0;
+    double gain = 0;
+    std::vector<int> touched;
+    for (const Change& c : changes) {
+      gain -= cost_of(c);
+      for (const auto& in : in_sums_[c.curve]) touched.push_back(in.first);
+    }
+    std::ranges::sort(touched);
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const int s : touched) {
+      int value = values_[s];
+      for (const Change& c : changes) value += times_in(s, c.curve) * c.by;
+      gain += s == forced_ ? kForced * (std::abs(values_[s]) - std::abs(value))
+                           : price(s, values_[s]) - price(s, value);
+    }
+    return gain;
+  }
+
+  bool make(const Changes& changes) {
+    for (const Change& c : changes) {
+      counts_[c.curve] += c.by;
+      for (const auto& [s, times] : in_sums_[c.curve]) values_[s] += times * c.by;
+    }
+    return !changes.empty();
+  }
+
+  static constexpr int kAnywhere = -1;
+
+  const std::vector<AgreeingCurve>& curves_;
+  const std::vector<ClosureSum>& sums_;
+  Budget& steps_;
+  std::vector<int>& counts_;
+  int outside_;
+  std::vector<std::vector<std::pair<int, int>>> in_sums_;  ///< of each curve: sums, and how often
+  std::vector<std::vector<int>> at_patch_;                 ///< free curves, of the outside, too
+  std::vector<char> closes_;                               ///< whether a patch has sums
+  std::vector<int> values_;                                ///< of the sums
+  int forced_ = -1;                                        ///< a sum that is to become zero
+  std::vector<double> best_;                               ///< by label()
+};
+
+}  // namespace
+
+void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
+                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts) {
+  Agreement(curves, n_patches, sums, steps, counts).run();
+}
+
+}  // namespace delquad

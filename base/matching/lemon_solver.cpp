@@ -1,0 +1,102 @@
+// The one file that LEMON's headers enter; it is compiled as C++17 because they are not valid C++20.
+#define LEMON_ONLY_TEMPLATES
+#include <lemon/matching.h>
+#include <lemon/smart_graph.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <exception>
+#include <system_error>
+
+#include "base/cancel.h"
+#include "base/matching/matching.h"
+
+namespace delquad {
+
+namespace {
+
+// Extracting the matching recurses once a level of nested blossoms, which may be as deep as a fraction of the
+// nodes.
+constexpr std::size_t kMinimumStack = std::size_t{64} << 20;
+constexpr std::size_t kStackPerNode = 256;
+/// What every thread has left on its stack. A thread of its own costs as much time as some hundred nodes.
+constexpr std::size_t kUsualStack = std::size_t{1} << 20;
+
+/// The costs as LEMON wants them, to be maximised. Arcs inherit the value of their edge.
+class NegatedCosts {
+ public:
+  using Key = lemon::SmartGraph::Edge;
+  using Value = long long;
+  explicit NegatedCosts(const MatchingGraph& graph) : edges_(graph.edges) {}
+  Value operator[](const Key& e) const { return -edges_[lemon::SmartGraph::id(e)].cost; }
+
+ private:
+  const std::vector<MatchingGraph::Edge>& edges_;
+};
+
+MatchingResult match(const MatchingGraph& graph) {
+  MatchingResult result;
+  if (graph.n_nodes % 2 != 0) return result;
+  lemon::SmartGraph g;
+  g.reserveNode(graph.n_nodes);
+  g.reserveEdge(static_cast<int>(graph.edges.size()));
+  for (int i = 0; i < graph.n_nodes; ++i) g.addNode();
+  for (const MatchingGraph::Edge& e : graph.edges) g.addEdge(g.nodeFromId(e.a), g.nodeFromId(e.b));
+  const NegatedCosts costs(graph);
+  lemon::MaxWeightedPerfectMatching<lemon::SmartGraph, NegatedCosts> matching(g, costs);
+  if (!matching.run()) return result;
+  result.status = MatchingStatus::kOptimal;
+  result.cost = -matching.matchingWeight();
+  result.mate.resize(graph.n_nodes);
+  for (int i = 0; i < graph.n_nodes; ++i) result.mate[i] = g.id(matching.mate(g.nodeFromId(i)));
+  return result;
+}
+
+struct Task {
+  const MatchingGraph& graph;
+  MatchingResult result;
+  std::exception_ptr error;
+};
+
+void* run_task(void* argument) {
+  Task& task = *static_cast<Task*>(argument);
+  try {
+    task.result = match(task.graph);
+  } catch (...) {
+    task.error = std::current_exception();
+  }
+  return nullptr;
+}
+
+void check(int code, const char* what) {
+  if (code != 0) throw std::system_error(code, std::generic_category(), what);
+}
+
+class LemonSolver final : public MatchingSolver {
+ public:
+  std::string name() const override { return "lemon"; }
+
+  /// LEMON cannot be interrupted: whoever cancels waits for its end.
+  MatchingResult solve(const MatchingGraph& graph) const override {
+    check_cancelled();
+    const std::size_t needed = kStackPerNode * static_cast<std::size_t>(graph.n_nodes);
+    if (needed <= kUsualStack) return match(graph);
+    Task task{graph, {}, nullptr};
+    pthread_attr_t attributes;
+    check(pthread_attr_init(&attributes), "matching thread");
+    int code = pthread_attr_setstacksize(&attributes, std::max(kMinimumStack, needed));
+    pthread_t thread;
+    if (code == 0) code = pthread_create(&thread, &attributes, run_task, &task);
+    pthread_attr_destroy(&attributes);
+    check(code, "cannot start the matching thread");
+    check(pthread_join(thread, nullptr), "matching thread");
+    if (task.error) std::rethrow_exception(task.error);
+    return std::move(task.result);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<MatchingSolver> make_lemon_solver() { return std::make_unique<LemonSolver>(); }
+
+}  // namespace delquad

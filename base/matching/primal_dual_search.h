@@ -1,0 +1,276 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/cancel.h"
+#include "base/matching/primal_dual_state.h"
+#include "base/matching/radix_queue.h"
+#include "base/matching/tree_members.h"
+
+namespace delquad {
+
+enum class SearchOutcome {
+  kDone,
+  kStuck,     ///< some trees can neither grow nor end: there is no perfect matching
+  kOverflow,  ///< times leave the range of the numbers
+};
+
+/// A node with neighbours outside its range, and how high its total may rise: of the slack of an edge between
+/// two ranges, each has half.
+template <class Value>
+struct BorderNode {
+  int node;
+  Value cap;
+};
+
+/// Consecutive nodes that are searched for themselves.
+template <class Value>
+struct SearchRange {
+  int begin = 0, end = 0;
+  /// A node in each container to start from, ascending; after the search, in each that is free.
+  std::vector<int> roots = {};
+  std::span<const BorderNode<Value>> border = {};  ///< ascending
+  SearchOutcome outcome = SearchOutcome::kDone;
+  Value time = 0;                 ///< at which the search ended
+  std::vector<int> witness = {};  ///< where it is stuck: a set that proves it
+  long long contractions = 0, expansions = 0;
+};
+
+/// Trees of alternating paths that grow from all free containers of a range of nodes at once and at one
+/// speed, until each has ended: at another tree or a free container (both are matched then), or at an odd
+/// cycle that is left as a free blossom (`park`), or where it would have to leave the range. docs/matching.md
+/// says more.
+///
+/// Searches of ranges that have no node in common may run at once: each changes containers that lie in its
+/// range only, and looks at others only where none changes them.
+template <class Value, class Cost>
+class PrimalDualSearch {
+ public:
+  explicit PrimalDualSearch(PrimalDualState<Value, Cost>& state) : s_(state) {}
+
+  /// Searches `range`, and leaves there what came of it. No time is over `limit`. `park`: see above;
+  /// `modulus`: such that totals of the nodes of roots that agree in their remainders keep all times
+  /// integral.
+  void run(SearchRange<Value>& range, Value limit, bool park, int modulus);
+
+ private:
+  using State = PrimalDualState<Value, Cost>;
+  using Node = typename State::Node;
+  using Child = typename State::Child;
+  using Event = typename RadixQueue<Value>::Event;
+  struct Step {
+    int container, end, next;  ///< on a path to the root, and the edge to the one after
+  };
+  static constexpr std::size_t kFetchAhead = 12;  ///< entries of a list that are read one by one
+  static constexpr int kMarksAtOnce = 1024;
+  static constexpr int kStart = -1, kVanish = -2, kBorder = -3;  ///< in place of an arc
+
+  bool in_range(int v) const { return v >= range_->begin && v < range_->end; }
+  Value offset(const Node& container) const { return container.offset + container.rate * time_; }
+  Value total(int v) const { return s_.nodes[v].value + offset(s_.nodes[s_.nodes[v].container]); }
+  Value slack(int v, const typename State::Arc& arc) const { return arc.cost - total(v) - total(arc.to); }
+  Value dual(int container) const {
+    const Node& node = s_.nodes[container];
+    return offset(node) - s_.blossoms[node.blossom].origin;
+  }
+
+  void set_label(int container, int label) {
+    Node& node = s_.nodes[container];
+    node.offset += (node.rate - label) * time_;
+    node.label = node.rate = static_cast<signed char>(label);
+  }
+  void join(int container, int label, int tree) {
+    set_label(container, label);
+    s_.nodes[container].tree = tree;
+    members_.add(tree, container);
+  }
+
+  /// Starts to read a node from memory, of two cache lines.
+  void fetch(int v) const {
+    __builtin_prefetch(&s_.nodes[v]);
+    __builtin_prefetch(&s_.nodes[v].own_arcs);
+  }
+  void handle(const Event& event);
+  void start(int v);
+  Value room(int v) const;
+  void reach_border(int v);
+  void scan(int v);
+  void scan_missed(int v);
+  void scan_all(int container) {
+    s_.each_node(container, [&](int v) { scan(v); });
+  }
+  void follow(int v, int arc);
+  void meet(int v, int w);
+  void grow(int v, int w);
+  void flip(int v, int w);
+  void free_base(int container);
+  void stop(int tree);
+  void dissolve(int tree);
+  void settle();
+  void notice_missed();
+  void release_all();
+  void leave_free_ones();
+  void find_witness();
+
+  void contract(int v, int w);
+  void park_cycle(int container);
+  int common_container(int a, int b);
+  void climb(int from, int to, std::vector<Step>& path) const;
+  void list_children(int v, int w, int common, std::vector<Child>& children);
+  void join_lists(int blossom);
+  void relabel(int blossom, int container);
+  void expand_odd(int container);
+
+  State& s_;
+  SearchRange<Value>* range_ = nullptr;
+  RadixQueue<Value> queue_;
+  TreeMembers members_;
+  Value time_ = 0;
+  bool park_ = false;
+  int waiting_ = 0;                                 ///< roots that have not started
+  int growing_ = 0;                                 ///< trees
+  unsigned events_ = 0;                             ///< that have come, modulo 2^32
+  std::vector<std::pair<int, long long>> stopped_;  ///< trees with their births
+  std::vector<int> released_, missed_, loose_, parked_;
+  std::vector<Step> path_a_, path_b_;
+  std::vector<std::pair<int, int>> were_odd_;  ///< first and last nodes of lists
+  int mark_ = 0, last_mark_ = 0;               ///< of those that are this search's own
+};
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::run(SearchRange<Value>& range, Value limit, bool park, int modulus) {
+  range_ = &range;
+  park_ = park;
+  time_ = 0;
+  queue_.reset();
+  waiting_ = growing_ = 0;
+  parked_.clear();
+  for (const int v : range.roots) {
+    const int c = s_.nodes[v].container;
+    if (s_.matched(c) || !s_.inside(c, range.begin, range.end)) continue;
+    const Value remainder = total(v) % modulus;
+    queue_.push(remainder < 0 ? remainder + modulus : remainder, v, kStart);
+    ++waiting_;
+  }
+  Event event;
+  while (growing_ + waiting_ > 0) {
+    if (++events_ % kPerCheck == 0) check_cancelled();
+    if (!queue_.pop(event)) {
+      find_witness();
+      return;
+    }
+    time_ = event.time;
+    if (time_ > limit) {
+      range.outcome = SearchOutcome::kOverflow;
+      return;
+    }
+    handle(event);
+  }
+  release_all();
+  leave_free_ones();
+  range.time = time_;
+}
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::handle(const Event& event) {
+  if (event.arc >= 0) return follow(event.node, event.arc);
+  if (event.arc == kStart) return start(event.node);
+  if (event.arc == kBorder) return reach_border(event.node);
+  const Node& node = s_.nodes[event.node];
+  if (node.container == event.node && node.rate < 0 && node.blossom >= 0 && dual(event.node) == 0) {
+    expand_odd(event.node);
+  }
+}
+
+/// By how much the total of a node at the border may rise.
+template <class Value, class Cost>
+Value PrimalDualSearch<Value, Cost>::room(int v) const {
+  const auto at = std::ranges::lower_bound(range_->border, v, {}, &BorderNode<Value>::node);
+  return at->cap - total(v);
+}
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::reach_border(int v) {
+  const Node& node = s_.nodes[s_.nodes[v].container];
+  if (node.rate <= 0) return;
+  const Value left = room(v);
+  if (left > 0) return queue_.push(time_ + left, v, kBorder);
+  stop(node.tree);
+}
+
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::start(int v) {
+  --waiting_;
+  const int c = s_.nodes[v].container;
+  if (s_.matched(c)) return;
+  ++growing_;
+  join(c, 1, members_.make());
+  scan_all(c);
+}
+
+/// Events for the edges of a node that has become even.
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::scan(int v) {
+  const Value mine = total(v);
+  const int c = s_.nodes[v].container, tree = s_.nodes[c].tree;
+  const auto* const arcs = s_.arcs_of(s_.nodes[v]);
+  const int degree = s_.nodes[v].degree;
+  bool border = false;
+  for (int a = 0; a < degree; ++a) {
+    const int w = arcs[a].to;
+    if (!in_range(w)) {
+      border = true;
+      continue;
+    }
+    const int d = s_.nodes[w].container;
+    if (d == c) continue;
+    Node& other = s_.nodes[d];
+    if (other.rate < 0) {
+      // A node in this tree stays odd for as long as this one is even.
+      if (other.tree != tree || other.blossom >= 0) other.missed = true;
+      continue;
+    }
+    if (other.mate >= 0) fetch(other.mate);  // where the tree may grow to next
+    const Value slack = arcs[a].cost - mine - (s_.nodes[w].value + offset(other));
+    queue_.push(time_ + (other.rate > 0 ? slack / 2 : slack), v, a);
+  }
+  if (border) queue_.push(time_ + room(v), v, kBorder);
+}
+
+/// Events for the edges of a node that is odd no more, or does not change any more, with nodes that are even.
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::scan_missed(int v) {
+  const auto* const arcs = s_.arcs_of(s_.nodes[v]);
+  for (int a = 0; a < s_.nodes[v].degree; ++a) {
+    const int w = arcs[a].to;
+    if (in_range(w) && s_.nodes[s_.nodes[w].container].rate > 0) queue_.push(time_ + slack(v, arcs[a]), v, a);
+  }
+}
+
+/// An edge that may have become tight.
+template <class Value, class Cost>
+void PrimalDualSearch<Value, Cost>::follow(int v, int arc) {
+  const auto& edge = s_.arcs_of(s_.nodes[v])[arc];
+  int w = edge.to;
+  if (s_.nodes[v].container == s_.nodes[w].container) return;
+  const Value left = slack(v, edge);
+  const int from = v;
+  if (s_.nodes[s_.nodes[v].container].rate <= 0) std::swap(v, w);
+  const Node& mine = s_.nodes[s_.nodes[v].container];
+  if (mine.rate <= 0) return;
+  Node& other = s_.nodes[s_.nodes[w].container];
+  if (other.rate < 0) {
+    if (other.tree != mine.tree || other.blossom >= 0) other.missed = true;
+  } else if (left != 0) {
+    queue_.push(time_ + (other.rate > 0 ? left / 2 : left), from, arc);
+  } else if (other.label < 0) {
+    stop(mine.tree);
+  } else {
+    meet(v, w);
+  }
+}
+
+}  // namespace delquad

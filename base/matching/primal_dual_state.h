@@ -1,0 +1,163 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "base/huge_pages.h"
+#include "base/matching/shared_pool.h"
+
+namespace delquad {
+
+/// Nodes or events after which a loop asks whether the run is cancelled: some milliseconds of work.
+inline constexpr unsigned kPerCheck = 1u << 14;
+
+/// What the primal-dual method knows of a graph between two searches (docs/matching.md): a matching, dual
+/// values and blossoms such that no edge has negative slack and all matched edges and all links of blossoms
+/// have none.
+///
+/// A container is a node outside all blossoms, or an outermost blossom; it goes by the number of one of its
+/// nodes. The total of a node, its own dual value and those of all blossoms around it, is `value` of the node
+/// and `offset` of its container: the slack of an edge between two containers is its cost less the totals of
+/// its ends.
+template <class Value, class Cost>
+struct PrimalDualState {
+  struct Arc {
+    Cost cost;  ///< in quarters
+    int to;
+  };
+
+  /// Nodes with more arcs have them apart.
+  static constexpr int kOwnArcs = 3;
+
+  struct alignas(32) Node {
+    Value value = 0;
+    int container = 0;
+    int mate = -1;  ///< valid for nodes by which a container is matched
+    // Of the container that goes by this node's number:
+    Value offset = 0;
+    int tree = -1;               ///< that it is in
+    int blossom = -1;            ///< the outermost one; -1: a node
+    int base = -1;               ///< the node by which it is matched, or where it is free
+    int outer = -1, inner = -1;  ///< the edge by which it came into its tree as an odd one
+    int mark = 0;
+    signed char label = 0;  ///< 1 even, -1 odd, 0 in no tree
+    signed char rate =
+        0;  ///< by which the offset changes with time: the label, or 0 in a tree that has stopped
+    bool missed = false;  ///< an event with a neighbour that is even was dropped since this is odd
+    int degree = 0;
+    Arc own_arcs[kOwnArcs];  ///< or the number of the first in the first one's `to`
+  };
+
+  struct Child {
+    int blossom;    ///< -1: a node
+    int container;  ///< as which it went
+    int end, next;  ///< the edge to the next child: its ends here and there
+  };
+
+  struct Blossom {
+    int first = -1, last = -1, size = 0;  ///< its nodes, a list
+    int lowest = 0, highest = 0;          ///< of its nodes
+    Value dual = 0;                       ///< while it is inside another one
+    Value origin = 0;             ///< while it is outermost: the offset at which its dual value is zero
+    std::vector<Child> children;  ///< around the odd cycle
+  };
+
+  explicit PrimalDualState(int n) : n_nodes(n), nodes(n), next(n), blossoms(n / 2) {}
+
+  int n_nodes;
+  int hub = 0;  ///< nodes of more arcs than this are hubs: they are in no range but that of all nodes
+  std::vector<Node, HugePageAllocator<Node>> nodes;
+  std::vector<int> next;  ///< in the lists of nodes of blossoms
+  std::vector<Arc> arcs;  ///< of nodes that have many
+  SharedPool<Blossom> blossoms;
+  /// Marks that searches have taken, some at a time: each is in use once.
+  std::atomic<int> marks = 0;
+  std::vector<int> free_nodes;  ///< one in each container that is not matched
+
+  const Arc* arcs_of(const Node& node) const {
+    return node.degree <= kOwnArcs ? node.own_arcs : arcs.data() + node.own_arcs[0].to;
+  }
+
+  bool matched(int container) const { return nodes[nodes[container].base].mate >= 0; }
+
+  void match(int a, int b) {
+    nodes[nodes[a].container].base = a;
+    nodes[nodes[b].container].base = b;
+    nodes[a].mate = b;
+    nodes[b].mate = a;
+  }
+
+  int first_node(const Child& child) const {
+    return child.blossom < 0 ? child.container : blossoms[child.blossom].first;
+  }
+  int last_node(const Child& child) const {
+    return child.blossom < 0 ? child.container : blossoms[child.blossom].last;
+  }
+
+  template <class F>
+  void each_in_list(int first, int last, F f) const {
+    for (int v = first;; v = next[v]) {
+      f(v);
+      if (v == last) return;
+    }
+  }
+  template <class F>
+  void each_node(int container, F f) const {
+    const int b = nodes[container].blossom;
+    if (b < 0) return f(container);
+    each_in_list(blossoms[b].first, blossoms[b].last, f);
+  }
+
+  /// While no search runs.
+  Value total(int v) const { return nodes[v].value + nodes[nodes[v].container].offset; }
+
+  bool inside(int container, int begin, int end) const {
+    const int b = nodes[container].blossom;
+    if (b >= 0) return blossoms[b].lowest >= begin && blossoms[b].highest < end;
+    return nodes[container].degree <= hub || end - begin == n_nodes;
+  }
+  /// A container that a search of the range may change, and so the one that it is matched with.
+  bool movable(int container, int begin, int end) const {
+    if (!inside(container, begin, end)) return false;
+    const int mate = nodes[nodes[container].base].mate;
+    return mate < 0 || (mate >= begin && mate < end && inside(nodes[mate].container, begin, end));
+  }
+
+  /// The outermost blossom of a container becomes its children, which are matched around the cycle and in no
+  /// tree. `offset` is the container's at this time.
+  std::vector<Child> expand(int container, Value offset) {
+    const int b = nodes[container].blossom, base = nodes[container].base;
+    std::vector<Child> children;
+    children.swap(blossoms[b].children);
+    blossoms.drop(b);
+    for (const Child& child : children) {
+      const int c = child.container;
+      if (c != container)
+        each_in_list(first_node(child), last_node(child), [&](int v) { nodes[v].container = c; });
+      Node& node = nodes[c];
+      node.offset = offset;
+      node.blossom = child.blossom;
+      node.tree = -1;
+      node.label = node.rate = 0;
+      node.missed = false;
+      if (child.blossom >= 0) blossoms[child.blossom].origin = offset - blossoms[child.blossom].dual;
+    }
+    const int k = static_cast<int>(children.size()), start = index_of(children, nodes[base].container);
+    nodes[children[start].container].base = base;
+    for (int i = 1; i < k; i += 2) {
+      const Child& child = children[(start + i) % k];
+      match(child.end, child.next);
+    }
+    return children;
+  }
+
+  static int index_of(const std::vector<Child>& children, int container) {
+    int i = 0;
+    while (children[i].container != container) ++i;
+    return i;
+  }
+};
+
+}  // namespace delquad

@@ -1,0 +1,88 @@
+#include "experiments/console/interrupt.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#include "experiments/console/activities.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+namespace {
+
+// A signal handler can only speak through variables that outlive every call.
+std::atomic<int> sections{0};
+std::atomic<int> pending{0};  ///< the signal's number
+static_assert(std::atomic<int>::is_always_lock_free);
+
+[[noreturn]] void leave(int signal_number) {
+  remove_unfinished_files();
+  constexpr char kInterruption[] = "\ninterrupted\n", kTermination[] = "\nterminated\n";
+  const bool by_user = signal_number == SIGINT;
+  // Nothing is left to do if even this cannot be written.
+  [[maybe_unused]] const ssize_t written =
+      write(STDERR_FILENO, by_user ? kInterruption : kTermination,
+            by_user ? sizeof kInterruption - 1 : sizeof kTermination - 1);
+  _exit(by_user ? kInterrupted : kTerminated);
+}
+
+void on_signal(int signal_number) {
+  pending = signal_number;
+  if (sections == 0) leave(signal_number);
+}
+
+}  // namespace
+
+void exit_on_interrupt() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+Uninterrupted::Uninterrupted() { ++sections; }
+Uninterrupted::~Uninterrupted() {
+  if (--sections == 0 && pending != 0) leave(pending);
+}
+
+struct TimeLimit::Watch {
+  std::mutex mutex;
+  std::condition_variable over;
+  bool is_over = false;
+  std::thread thread;
+};
+
+TimeLimit::TimeLimit(double seconds) : watch_(std::make_unique<Watch>()) {
+  constexpr double kLongest = 1e9;  // seconds, 30 years: the clock counts nanoseconds
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                             std::chrono::duration<double>(std::min(seconds, kLongest)));
+  watch_->thread = std::thread([watch = watch_.get(), end, seconds] {
+    std::unique_lock lock(watch->mutex);
+    if (watch->over.wait_until(lock, end, [&] { return watch->is_over; })) return;
+    const std::string at = program_activities().text();
+    if (!abandon_files()) return;
+    fmt::print(stderr, "{}error: not done after {:g} s (--time-limit): {}\n",
+               isatty(STDERR_FILENO) != 0 ? "\r\x1b[2K" : "", seconds, at);
+    _exit(kTimeIsUp);
+  });
+}
+
+TimeLimit::~TimeLimit() {
+  {
+    const std::lock_guard lock(watch_->mutex);
+    watch_->is_over = true;
+  }
+  watch_->over.notify_one();
+  watch_->thread.join();
+}
+
+}  // namespace delquad

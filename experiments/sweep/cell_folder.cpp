@@ -1,0 +1,117 @@
+#include "experiments/sweep/cell_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "delquad/error.h"
+#include "experiments/console/interrupt.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kRecord = "record.json", *kTemporary = ".tmp";
+
+/// Removed at the end unless it has been moved away.
+struct TemporaryFolder {
+  fs::path path;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// The files of a cell by its record; none where that cannot be read.
+std::vector<fs::path> recorded_files(const fs::path& folder) {
+  std::ifstream in(folder / kRecord);
+  const auto record = nlohmann::json::parse(in, nullptr, false);
+  std::vector<fs::path> files;
+  if (!record.is_object() || !record.contains("files")) return files;
+  for (const auto& [name, mark] : record["files"].items())
+    if (const fs::path file = fs::path(name).lexically_normal(); *file.begin() != ".." && file.is_relative())
+      files.push_back(file);
+  return files;
+}
+
+/// Temporary folders of this cell whose processes were killed.
+void remove_unfinished(const fs::path& folder) {
+  const std::string prefix = "." + folder.filename().string() + ".";
+  std::error_code nothing_there;
+  for (const auto& entry : fs::directory_iterator(folder.parent_path(), nothing_there)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(kTemporary)) fs::remove_all(entry.path(), nothing_there);
+  }
+}
+
+void move_into_place(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(to) || (!fs::is_symlink(to) && fs::is_empty(to))) return fs::rename(from, to);
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().filename() != kRecord) fs::rename(entry, to / entry.path().filename());
+  fs::rename(from / kRecord, to / kRecord);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+// The record first: it says that the rest is whole.
+void remove_cell(const fs::path& folder) {
+  const std::vector<fs::path> recorded = recorded_files(folder);
+  for (const char* name :
+       {kRecord,      "mesh.msh",   "mesh.vtu",    "picture.svg", "convergence.svg", "peer.log",
+        "input.geo",  "input.msh",  "input.obj",   "input.inp",   "input.mesh",      "size.pos",
+        "size.sol",   "size.mesh",  "size.points", "model.step",  "model.msh",       "output.msh",
+        "output.obj", "output.off", "output.stl"}) {
+    std::error_code nothing_there;
+    fs::remove(folder / name, nothing_there);
+  }
+  std::error_code no_folder;
+  for (const fs::path& file : recorded) fs::remove(folder / file, no_folder);
+  for (const auto& entry : fs::directory_iterator(folder, no_folder))
+    if (entry.path().filename().string().starts_with("metric-")) fs::remove(entry.path(), no_folder);
+}
+
+void write_cell(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
+  const Uninterrupted whole;
+  const std::string name = "." + folder.filename().string() + "." + std::to_string(getpid()) + kTemporary;
+  const TemporaryFolder temporary{folder.parent_path() / name};
+  try {
+    remove_cell(folder);
+    remove_unfinished(folder);
+    fs::create_directories(temporary.path);
+    write(temporary.path);
+    move_into_place(temporary.path, folder);
+  } catch (const InputError& error) {
+    throw InputError(replaced(error.what(), temporary.path.string(), folder.string()));
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(folder.string() + ": cannot be written: " + error.code().message());
+  }
+}
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
+  std::string probe = (folder / ".delquad-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0)
+    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
+                                 std::generic_category().message(errno)));
+  close(file);
+  fs::remove(probe, status);
+}
+
+}  // namespace delquad

@@ -1,0 +1,137 @@
+#include "experiments/sweep/cells.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include "experiments/sweep/command_files.h"
+#include "experiments/sweep/digest.h"
+#include "geometry/cad/cad_reader.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program and the one that reads CAD for it: their bytes, which no change of an algorithm, an option of
+/// the compiler or a library inside leaves alone.
+const std::string& program_digest() {
+  static const std::string program = [] {
+    const fs::path reader = cad_program();
+    return digest(file_digest("/proc/self/exe") + (reader.empty() ? "" : file_digest(reader)) +
+                  versions_record());
+  }();
+  return program;
+}
+
+/// Curves by points on them, which tell any two that differ apart.
+std::string describe(const PlanarModel& model) {
+  constexpr int kPoints = 17;  // odd, so that none falls on a symmetry but the middle
+  std::string text;
+  for (const ModelCurve& curve : model.curves) {
+    text += curve.name + '\n';
+    const auto add = [&](double t) {
+      const Vec2 p = curve.shape->point(t);
+      text += fmt::format("{:a} {:a}\n", p.x, p.y);
+    };
+    for (int k = 0; k <= kPoints; ++k) add(double(k) / kPoints);
+    for (const double t : curve.shape->fixed_parameters()) add(t);
+  }
+  for (const ModelLoop& loop : model.loops) {
+    text += loop.region + '\n';
+    for (const int curve : loop.curves) text += fmt::format("{} ", curve);
+  }
+  return text;
+}
+
+constexpr std::size_t kHeadLength = 1024;  // of a record: what is looked for stands in it
+
+/// The text or number of a key of a record's first lines.
+std::string value_of(std::string_view head, const std::string& key) {
+  const std::string opening = "\n  \"" + key + "\": ";
+  const auto at = head.find(opening);
+  if (at == std::string_view::npos) return "";
+  auto begin = at + opening.size();
+  const bool is_text = head.substr(begin).starts_with('"');
+  if (is_text) ++begin;
+  const auto end = head.find(is_text ? '"' : ',', begin);
+  return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
+}
+
+/// Asked until it tells; empty where the peer does not, and `why` says for what reason.
+std::string version_of(const Peer& peer, std::string& why) {
+  static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
+  const std::pair asked{peer.folder, peer.version};
+  if (const auto at = known.find(asked); at != known.end()) return at->second;
+  try {
+    return known[asked] = peer_version(peer);
+  } catch (const std::runtime_error& error) {  // PeerError, InputError
+    why = error.what();
+    known.erase(asked);
+    return "";
+  }
+}
+
+}  // namespace
+
+std::string model_digest(const Case& c) {
+  if (c.model) {
+    std::string text = describe(*c.model);
+    for (const ModelLoop& loop : c.model->loops) {
+      if (!loop.is_hole) continue;
+      const Vec2 first = c.model->curves[loop.curves.front()].shape->point(0);
+      text += fmt::format("hole {:a} {:a}\n", first.x, first.y);
+    }
+    return digest(text);
+  }
+  return c.example.empty() ? file_digest(model_path(c)) : digest("example " + c.example);
+}
+
+CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model,
+                      const Word& word) {
+  CellIdentity cell;
+  cell.model_digest = model;
+  cell.program_digest = program_digest();
+  std::string pipeline = word.text;
+  if ((cell.peer = experiment.peer_of(word)) != nullptr) {
+    cell.peer_version = version_of(*cell.peer, cell.no_peer_version);
+    cell.peer_file = fs::absolute(cell.peer->file)
+                         .lexically_normal()
+                         .lexically_relative(fs::absolute(experiment.file).lexically_normal().parent_path())
+                         .generic_string();
+    cell.peer_files = command_files(cell.peer->folder, cell.peer->command);
+    pipeline += peer_record(cell);
+  }
+  for (const MetricCommand& metric : experiment.metrics)
+    cell.metrics.push_back({&metric, metric_files(metric)});
+  cell.solvers = experiment.solvers;
+  pipeline += metrics_by_command_record(cell);
+  cell.key = digest(
+      fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed, pipeline, cell.program_digest));
+  return cell;
+}
+
+fs::path cell_folder(const fs::path& folder, const Case& c, const Word& word) {
+  return folder / c.folder / word.text;
+}
+
+bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }
+
+std::string state_of_cell(const fs::path& folder, const std::string& key) {
+  std::ifstream in(folder / "record.json", std::ios::binary);
+  if (!in) return "to do";
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!is_sealed(text)) return "damaged";
+  const std::string_view head = std::string_view(text).substr(0, kHeadLength);
+  if (value_of(head, "key") != key) return "outdated";
+  if (!value_of(head, "metrics_status").empty()) return "metric failed";
+  const std::string status = value_of(head, "status");
+  if (status != "ok") return status;
+  std::error_code missing;
+  const auto bytes = fs::file_size(folder / "mesh.msh", missing);
+  return !missing && std::to_string(bytes) == value_of(head, "mesh_bytes") ? "done" : "damaged";
+}
+
+}  // namespace delquad

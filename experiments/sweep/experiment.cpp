@@ -1,0 +1,346 @@
+#include "experiments/sweep/experiment.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/located.h"
+#include "cases/case_file.h"
+#include "cases/problem.h"
+#include "cases/size_file.h"
+#include "cases/toml_reader.h"
+#include "experiments/sweep/command_files.h"
+#include "experiments/sweep/digest.h"
+#include "experiments/sweep/experiment_keys.h"
+#include "experiments/sweep/schema.h"
+#include "experiments/sweep/tables.h"
+#include "metrics/metrics.h"
+#include "metrics/solve/solver_metrics.h"
+
+namespace delquad {
+namespace {
+
+const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
+
+/// What one of the keys is, up to a dot: commands may give several values.
+bool is_known(const std::string& metric, const std::vector<std::string>& known) {
+  return std::ranges::find(known, metric) != known.end() ||
+         std::ranges::find(known, metric.substr(0, metric.find('.'))) != known.end();
+}
+
+void check_known(const TomlTable& table, const std::string& key, const std::string& metric,
+                 const std::vector<std::string>& known) {
+  if (is_known(metric, known)) return;
+  throw InputError(table.where(key) + ": unknown metric '" + metric + "'" + suggestion(metric, known));
+}
+
+/// Names of solvers, each once.
+std::vector<std::string> read_solvers(const TomlTable& table) {
+  if (!table.has("solver")) return {};
+  const std::vector<std::string> solvers = table.texts("solver");
+  for (const std::string& name : solvers) {
+    located(table.where("solver"), [&] { metrics_of_solver(name); });
+    if (std::ranges::count(solvers, name) > 1)
+      throw InputError(table.where("solver") + ": '" + name + "' twice among the solvers");
+  }
+  return solvers;
+}
+
+CorrelationRequest read_correlation(const TomlTable& table, const std::vector<std::string>& metrics) {
+  CorrelationRequest request{table.texts("of"), table.texts("with")};
+  for (const auto& [key, list] : {std::pair("of", &request.of), std::pair("with", &request.with)}) {
+    if (list->empty())
+      throw InputError(fmt::format("{}: '{}' is empty: expected keys of measures", table.where(key), key));
+    for (const std::string& metric : *list) check_known(table, key, metric, metrics);
+  }
+  table.finish(correlate_keys());
+  return request;
+}
+
+/// Keys of columns: measures and times.
+std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::string> known) {
+  if (!table.has("columns")) return {};
+  for (const char* key : {kRuns, "seconds", kRowEnds}) known.push_back(key);
+  for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
+  std::vector<std::string> columns = table.texts("columns");
+  for (const std::string& key : columns) {
+    check_known(table, "columns", key, known);
+    if (std::ranges::count(columns, key) > 1)
+      throw InputError(table.where("columns") + ": '" + key + "' twice among the columns");
+  }
+  if (columns.empty())
+    throw InputError(table.where("columns") + ": 'columns' is empty: expected keys of measures");
+  return columns;
+}
+
+std::vector<PublishedRow> read_published(const std::filesystem::path& file,
+                                         std::vector<std::string> columns) {
+  const TomlTable top = TomlTable::read(file);
+  const std::string source = top.text("source");
+  for (const StepTime& time : step_times_of_tables()) columns.push_back(time.key);
+  std::vector<PublishedRow> rows;
+  for (const TomlTable& table : top.tables("row")) {
+    PublishedRow row{table.text("name"), source, {}};
+    for (const std::string& key : table.keys()) {
+      if (key == "name") continue;
+      check_known(table, key, key, columns);
+      row.values[key] = table.number(key);
+    }
+    rows.push_back(std::move(row));
+  }
+  top.finish();
+  return rows;
+}
+
+ExpectedRatio read_ratio(const TomlTable& table, const std::vector<std::string>& metrics) {
+  ExpectedRatio ratio{table.text("metric"), table.text("numerator"), table.text("denominator"),
+                      table.positive_number("expected"), table.text("source", "")};
+  check_known(table, "metric", ratio.metric, metrics);
+  located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
+  located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
+  table.finish(ratio_keys());
+  return ratio;
+}
+
+LinfStudy read_linf_study(const TomlTable& table) {
+  LinfStudy study{read_counts(table, "points", 3, 1e7), read_counts(table, "seeds", 0, 1e9)};
+  table.finish(linf_study_keys());
+  return study;
+}
+
+/// Up to this many characters of a value make the name of a folder.
+constexpr std::size_t kLongestValue = 40;
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+}  // namespace
+
+std::string folder_text(const std::vector<std::string>& values, std::size_t i) {
+  constexpr std::size_t kDigits = 8;  // of a digest
+  const auto plain = [](const std::string& text) {
+    std::string result = text;
+    for (char& c : result)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
+        c = '_';
+    return result;
+  };
+  const std::string text = plain(values[i]);
+  const auto same = std::ranges::count_if(values, [&](const std::string& v) { return plain(v) == text; });
+  return text.size() > kLongestValue || same > 1 ? "value-" + digest(values[i]).substr(0, kDigits) : text;
+}
+
+std::optional<std::array<std::size_t, 2>> Experiment::find_variant(
+    const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const {
+  const auto is_it = [&](const TomlTable& table) { return table.text("name") == name; };
+  const auto at = std::ranges::find_if(cases_, is_it);
+  if (at == cases_.end() || values.size() != axes.size()) return std::nullopt;
+  std::size_t variant = 0;
+  for (const Axis& axis : axes) {
+    const auto given = std::ranges::find(values, axis.title, &std::pair<std::string, std::string>::first);
+    if (given == values.end()) return std::nullopt;
+    const auto value = std::ranges::find(axis.values, given->second);
+    if (value == axis.values.end()) return std::nullopt;
+    variant = variant * axis.values.size() + static_cast<std::size_t>(value - axis.values.begin());
+  }
+  return std::array{static_cast<std::size_t>(at - cases_.begin()), variant};
+}
+
+std::vector<std::filesystem::path> Experiment::files() const {
+  namespace fs = std::filesystem;
+  std::set<fs::path> found;
+  const auto add = [&](const fs::path& name) {
+    std::error_code unknown;
+    if (fs::is_regular_file(name, unknown)) found.insert(fs::absolute(name).lexically_normal());
+  };
+  add(file);
+  add(reference);
+  for (const fs::path& peer_file : peer_files) add(peer_file);
+  for (std::size_t i = 0; i < n_cases(); ++i) {
+    const Case c = read_variant(i);
+    add(c.model_file);
+    if (const auto size = size_file_of(c.size.base, c.size.folder)) add(size->path);
+    if (!c.may_be_absent) add(model_path(c));
+  }
+  // Programs of the system stay where they are.
+  const auto add_beside = [&](const fs::path& folder, const std::string& word) {
+    if (!fs::path(word).is_absolute()) add(folder / word);
+  };
+  for (const Peer& peer : peers)
+    for (const std::vector<std::string>* command : {&peer.command, &peer.version})
+      for (const auto& [word, digest] : command_files(peer.folder, *command)) add_beside(peer.folder, word);
+  for (const MetricCommand& metric : metrics)
+    for (const auto& [word, digest] : metric_files(metric)) add_beside(metric.folder, word);
+  return {found.begin(), found.end()};
+}
+
+std::size_t Experiment::n_variants() const {
+  std::size_t n = 1;
+  for (const Axis& axis : axes) n *= axis.values.size();
+  return n;
+}
+
+void Experiment::read_matrix(const TomlTable& matrix) {
+  matrix_ = matrix;
+  leaves_ = matrix.leaves();
+  constexpr double kMostCells = 1e7;
+  double cells = 1;
+  for (const std::string& leaf : leaves_) {
+    Axis axis{leaf, last_part(leaf), {}};
+    const auto same = [&](const std::string& other) { return last_part(other) == axis.title; };
+    if (std::ranges::count_if(leaves_, same) > 1) axis.title = leaf;
+    for (std::size_t i = 0; i < matrix.count(leaf); ++i) {
+      axis.values.push_back(matrix.element_text(leaf, i));
+      if (std::ranges::count(axis.values, axis.values.back()) > 1)
+        throw InputError(matrix.where(leaf) + ": '" + leaf + "' has " + axis.values.back() + " twice");
+    }
+    cells *= static_cast<double>(axis.values.size());
+    axes.push_back(std::move(axis));
+  }
+  if (cells > kMostCells) throw InputError(matrix.where() + ": more than 1e7 combinations");
+}
+
+Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) const {
+  std::vector<std::size_t> choice(axes.size());
+  for (std::size_t k = axes.size(); k-- > 0; variant /= axes[k].values.size())
+    choice[k] = variant % axes[k].values.size();
+  const TomlTable& plain = cases_[index_of_case];
+  const TomlTable table = matrix_ ? plain.with_choice(*matrix_, leaves_, choice) : plain;
+  table.require_known(experiment_case_keys());
+  Case c = defaults_;
+  c.name = table.text("name");
+  c.where = table.where();
+  c.folder = c.name;
+  read_case_keys(table, c);
+  check_comparisons(table, c);
+  table.finish(experiment_case_keys());
+  if (!has_model(c))
+    throw InputError(table.where() + ": case '" + c.name +
+                     "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
+  c.max_elements = max_elements;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    c.variant.emplace_back(axes[k].title, axes[k].values[choice[k]]);
+    c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k].values, choice[k]);
+  }
+  return c;
+}
+
+void Experiment::check_comparisons(const TomlTable& table, const Case& c) const {
+  std::vector<std::string> names;
+  for (const PublishedRow& row : published) names.push_back(row.name);
+  for (const auto& [word, name] : c.compare) {
+    located(table.where("compare"), [&] { find_pipeline(word); });
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw InputError(table.where("compare") + ": no published row '" + name + "'" + suggestion(name, names));
+  }
+}
+
+const Peer* Experiment::peer_of(const Word& word) const {
+  if (!word.stages.empty()) return nullptr;
+  return &*std::ranges::find(peers, word.text, &Peer::name);
+}
+
+Word Experiment::find_pipeline(const std::string& text) const {
+  const bool is_peer = std::ranges::find(peers, text, &Peer::name) != peers.end();
+  if (is_peer) return {text, {}, PatchForm::kQuads};
+  std::vector<std::string> names;
+  for (const Peer& peer : peers) names.push_back(peer.name);
+  try {
+    return parse_word(text, word_start_);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + suggestion(text, names));
+  }
+}
+
+std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
+  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
+  std::vector<Word> found;
+  for (const std::string& text : texts) {
+    if (std::ranges::find(found, text, &Word::text) != found.end())
+      throw InputError("pipeline '" + text + "' is given twice");
+    found.push_back(find_pipeline(text));
+  }
+  return found;
+}
+
+const std::vector<StepTime>& step_times_of_tables() {
+  static const std::vector<StepTime> times = {{"seconds_read", "read s", "read"},
+                                              {"seconds_maps", "maps s", "maps"},
+                                              {"seconds_curves", "curves s", "curves"},
+                                              {"seconds_fields", "fields s", "fields"},
+                                              {"seconds_insertion", "insertion s", "insertion"},
+                                              {"seconds_adaptation", "adaptation s", "adaptation"},
+                                              {"seconds_smoothing", "smoothing s", "smoothing"},
+                                              {"seconds_matching", "matching s", "matching"},
+                                              {"seconds_treatment", "treatment s", "treatment"},
+                                              {"seconds_cleanup", "clean-up s", "clean-up"},
+                                              {"seconds_regularity", "regularity s", "regularity"},
+                                              {"seconds_optimisation", "optimisation s", "optimisation"},
+                                              {"seconds_parting", "parting s", "parting"},
+                                              {"seconds_lifting", "lifting s", "lifting"},
+                                              {"seconds_projection", "projection s", "projection"},
+                                              {"seconds_total", "total s", ""}};
+  return times;
+}
+
+Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
+  const TomlTable table = TomlTable::read(file);
+  Experiment experiment;
+  experiment.file = file;
+  experiment.cases_ = table.tables("case");
+  if (table.has("start") ||
+      std::ranges::any_of(experiment.cases_, [](const auto& c) { return c.has("start"); }))
+    experiment.word_start_ = WordStart::kGivenMesh;
+  experiment.title = table.text("title", file.stem().string());
+  const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
+  experiment.read_peers(table, words);
+  experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
+  experiment.solvers = read_solvers(table);
+  for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
+  const std::vector<std::string> metrics = experiment.keys_of_metrics();
+  if (const auto correlation = table.optional_table("correlate"))
+    experiment.correlation = read_correlation(*correlation, metrics);
+  if (table.has("reference")) {
+    experiment.reference = file.parent_path() / table.text("reference");
+    experiment.published = read_published(experiment.reference, metrics);
+  }
+  experiment.step_times = table.flag("step_times", false);
+  experiment.repeat_times = read_count(table, "repeat_times", 2, kMostRepetitions, 0);
+  experiment.columns = read_columns(table, metrics);
+  if (const auto ratio = table.optional_table("ratio")) {
+    experiment.ratio = read_ratio(*ratio, metrics);
+    for (const std::string& text : {experiment.ratio->numerator, experiment.ratio->denominator})
+      located(ratio->where(), [&] { experiment.find_pipeline(text); });
+  }
+  if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
+  if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
+
+  experiment.defaults_.where = file.string();
+  experiment.defaults_.data_folder = data;
+  read_case_keys(table, experiment.defaults_);
+  table.finish(experiment_keys());
+  if (experiment.cases_.empty() && !experiment.linf)
+    throw InputError(file.string() +
+                     ": no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'");
+  if (!experiment.cases_.empty() && experiment.linf)
+    throw InputError(table.where("linf_delaunay") + ": 'linf_delaunay' and cases exclude each other");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
+    const std::string name = experiment.cases_[i].text("name");
+    check_folder_name(experiment.cases_[i], name, names);
+    names.push_back(name);
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
+      const Case c = experiment.read_variant(i, v);
+      check_case(c);
+      for (const Word& word : experiment.words)
+        if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c)); });
+    }
+  }
+  return experiment;
+}
+
+}  // namespace delquad

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.h"
+#include "cases/toml_reader.h"
+#include "experiments/sweep/correlation.h"
+#include "experiments/sweep/metric_command.h"
+#include "experiments/sweep/peer.h"
+#include "mesher/stages.h"
+
+namespace delquad {
+
+/// A row of a published table.
+struct PublishedRow {
+  std::string name, source;
+  std::map<std::string, double> values;  ///< by metric key
+};
+
+/// The column of a table that shows how long a step took.
+struct StepTime {
+  const char *key, *title;
+  const char* step;  ///< as records call it; empty: all of these together
+};
+const std::vector<StepTime>& step_times_of_tables();
+
+/// How a metric of one pipeline should relate to that of another on the same case.
+struct ExpectedRatio {
+  std::string metric, numerator, denominator;  ///< key and two words
+  double expected = 1;
+  std::string source;
+};
+
+/// Point sets on which the two Delaunay kernels are compared instead of meshing.
+struct LinfStudy {
+  std::vector<int> points;  ///< how many
+  std::vector<int> seeds;
+};
+
+/// An option that an experiment varies.
+struct Axis {
+  std::string key;                  ///< dotted: "insertion.h_max"
+  std::string title;                ///< its last part, or as much as tells it from the others
+  std::vector<std::string> values;  ///< as texts
+};
+
+/// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
+/// replaced by `_`, and long or doubtful texts by a digest.
+std::string folder_text(const std::vector<std::string>& values, std::size_t i);
+
+/// A file of experiments/: cases, the pipelines to run on each, and what was published.
+///
+/// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
+/// read when they are asked for: a sweep may have many.
+class Experiment {
+ public:
+  std::string title;
+  std::filesystem::path file;
+  std::vector<Word> words;  ///< and peers, as words without stages
+  std::vector<Peer> peers;
+  std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
+  bool calibrate = false;                         ///< peers are compared at our number of quads
+  std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
+  std::string calibrate_where;                    ///< file and line that ask for it; empty: nothing does
+  std::vector<MetricCommand> metrics;
+  std::vector<std::string> solvers;               ///< that measure every mesh, by name
+  std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
+  std::vector<PublishedRow> published;
+  std::optional<ExpectedRatio> ratio;
+  std::vector<Axis> axes;
+  bool step_times = false;           ///< the table has a column for each step's time
+  int repeat_times = 0;              ///< how often every pipeline is run again for its time; 0: not at all
+  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
+  std::optional<LinfStudy> linf;     ///< then there are no cases
+  long long max_elements = MeshProblem{}.max_elements;  ///< of every case
+  std::filesystem::path reference;                      ///< file of the published rows; empty: none
+
+  /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
+  /// called when all peers are there.
+  void check_calibration() const;
+  /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
+  /// twice.
+  std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
+  /// Reads the [[peer]] tables of a file of their own; returns their names, which `words` does not have yet.
+  /// Throws InputError with file and line.
+  std::vector<std::string> add_peer_file(const std::filesystem::path& path);
+  /// Null for a word of stages.
+  const Peer* peer_of(const Word& word) const;
+
+  std::size_t n_cases() const { return cases_.size(); }
+  std::size_t n_variants() const;  ///< of each case
+  std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
+  /// Case and variant by the case's name and the values that vary, by title, in any order; nothing where the
+  /// experiment has none such.
+  std::optional<std::array<std::size_t, 2>> find_variant(
+      const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const;
+  /// The experiment's file and all that it names beside it: models, published rows, files of peers and
+  /// measures. Without those that cases call data and those that are not there.
+  std::vector<std::filesystem::path> files() const;
+  /// Throws InputError with file and line.
+  Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
+
+  /// `data`: the folder that the models which cases call data are in. Throws InputError with file and line
+  /// for anything that is not as docs/experiments.md says.
+  static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder);
+
+ private:
+  void read_matrix(const TomlTable& matrix);
+  void read_peer(const TomlTable& table);
+  void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
+  void read_metric(const TomlTable& table);
+  std::vector<std::string> keys_of_metrics() const;
+  Word find_pipeline(const std::string& text) const;
+  void check_comparisons(const TomlTable& table, const Case& c) const;
+
+  Case defaults_;                                ///< what the file says for every case
+  WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
+  std::vector<TomlTable> cases_;
+  std::optional<TomlTable> matrix_;
+  std::vector<std::string> leaves_;  ///< of the matrix, as in axes
+};
+
+}  // namespace delquad

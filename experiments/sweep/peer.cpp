@@ -1,0 +1,378 @@
+#include "experiments/sweep/peer.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+
+#include "base/activity.h"
+#include "delquad/error.h"
+#include "experiments/sweep/calibration.h"
+#include "experiments/sweep/command_files.h"
+#include "experiments/sweep/peer_reference.h"
+#include "experiments/sweep/peer_sizes.h"
+#include "experiments/sweep/rendered_table.h"
+#include "experiments/sweep/run_program.h"
+#include "experiments/sweep/scratch_folder.h"
+#include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/half_edges.h"
+#include "io/mesh_io.h"
+#include "metrics/surface/surface_report.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned kVersionSeconds = 30;   // after which a program that only tells its version hangs
+constexpr std::size_t kLongestLine = 200;  // of a program's output, in a message
+/// With which a program ends that cannot be told the case, the reason in its last line.
+constexpr int kCannotBeTold = 77;
+constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
+
+/// What a program said went wrong: its first line with "error" in it, else its last.
+std::string complaint(const fs::path& log) {
+  std::ifstream in(log);
+  std::string line, last;
+  while (std::getline(in, line)) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    last = line.substr(0, kLongestLine);
+    if (last.find("rror") != std::string::npos) break;
+  }
+  return last.empty() ? "" : ": " + last;
+}
+
+std::string last_line(const fs::path& log) {
+  std::ifstream in(log);
+  std::string line, last;
+  while (std::getline(in, line))
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line.substr(0, kLongestLine);
+  return last;
+}
+
+/// `good`: exit codes.
+void check_run(const std::string& program, const ProgramRun& run, const std::vector<int>& good,
+               const fs::path& log) {
+  const std::string end = how_it_ended(run, good);
+  if (!end.empty()) throw PeerError(program + ": " + end + (run.error == 0 ? complaint(log) : ""));
+}
+
+/// A program with a slash in it counts from the peer's folder, and so do files that lie there.
+std::vector<std::string> located_command(const Peer& peer, std::vector<std::string> words) {
+  if (words[0].find('/') != std::string::npos)
+    words[0] = fs::absolute(peer.folder / words[0]).lexically_normal().string();
+  for (std::size_t i = 1; i < words.size(); ++i)
+    if (const fs::path file = file_of_word(peer.folder, words, i); !file.empty()) words[i] = file.string();
+  return words;
+}
+
+Vec3 area_vector(const Mesh& mesh, std::span<const int> v) {
+  Vec3 twice{0, 0, 0};
+  for (std::size_t k = 1; k + 1 < v.size(); ++k)
+    twice = twice + cross(mesh.points[v[k]] - mesh.points[v[0]], mesh.points[v[k + 1]] - mesh.points[v[0]]);
+  return 0.5 * twice;
+}
+
+/// By `part` of each element's area vector.
+template <class Part>
+double sum_areas(const Mesh& mesh, Part part) {
+  double sum = 0;
+  for_each_element(mesh, [&](int, const auto& v) { sum += part(area_vector(mesh, v)); });
+  return sum;
+}
+
+double area_in_space(const Mesh& mesh) {
+  return sum_areas(mesh, [](const Vec3& a) { return norm(a); });
+}
+
+double area_in_plane(const Mesh& mesh) {
+  return sum_areas(mesh, [](const Vec3& a) { return a.z; });
+}
+
+/// For each of `points` the index of the first of `mesh` within `tolerance`, -1: none.
+std::vector<int> find_points(const std::vector<Vec3>& points, const Mesh& mesh, double tolerance) {
+  std::vector<int> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto x_of = [&](int i) { return mesh.points[i].x; };
+  std::ranges::stable_sort(order, {}, x_of);
+  std::vector<int> found;
+  for (const Vec3& p : points) {
+    int index = -1;
+    for (auto at = std::ranges::lower_bound(order, p.x - tolerance, {}, x_of);
+         at != order.end() && x_of(*at) <= p.x + tolerance && index < 0; ++at)
+      if (norm(mesh.points[*at] - p) <= tolerance) index = *at;
+    found.push_back(index);
+  }
+  return found;
+}
+
+/// How many edges of the boundary are no edges of the mesh.
+int missing_edges(const Mesh& boundary, const Mesh& mesh) {
+  constexpr double kTolerance = 1e-9;  // diagonals: text with ten digits
+  const std::vector<int> node = find_points(boundary.points, mesh, kTolerance * diagonal(boundary));
+  std::vector<std::array<int, 2>> edges;
+  for (const HalfEdge& side : sorted_half_edges(mesh)) edges.push_back({side.lo, side.hi});
+  int missing = 0;
+  for (const auto& [a, b] : boundary.lines)
+    missing += !std::ranges::binary_search(
+        edges, std::array{std::min(node[a], node[b]), std::max(node[a], node[b])});
+  return missing;
+}
+
+void check_planar(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh) {
+  for (Vec3& p : mesh.points) p.z = prepared.boundary.points[0].z;
+  if (area_in_plane(mesh) < 0) {
+    for (auto& v : mesh.triangles) std::ranges::reverse(v);
+    for (auto& v : mesh.quads) std::ranges::reverse(v);
+  }
+  double area = 0;
+  for (const PreparedPatch& patch : prepared.patches)
+    for (const auto& [a, b] : patch.boundary.edges)
+      area += 0.5 * cross(patch.boundary.points[a], patch.boundary.points[b]);
+  const double tolerance = peer.keeps_boundary ? 1e-6 : 0.02;  // chords of another boundary
+  const double covered = area_in_plane(mesh) / area;
+  if (!(std::abs(covered - 1) <= tolerance))
+    throw PeerError(fmt::format("its mesh covers {:.6g} % of the domain's area", 100 * covered));
+  if (const int missing = peer.keeps_boundary ? missing_edges(prepared.boundary, mesh) : 0; missing > 0)
+    throw PeerError(
+        fmt::format("{} of {} boundary edges are not in its mesh", missing, prepared.boundary.lines.size()));
+}
+
+void check_surface(const PreparedProblem& prepared, const Mesh& mesh) {
+  constexpr double kCovered = 0.1;  // chords of curved faces take some of the area
+  const Mesh& model = prepared.surface->whole().fine;
+  const double covered = area_in_space(mesh) / area_in_space(model);
+  if (!(std::abs(covered - 1) <= kCovered))
+    throw PeerError(fmt::format("its mesh covers {:.4g} % of the model's area", 100 * covered));
+  const int free_edges = topology_of(mesh).free_edges;
+  if (free_edges > 0 && topology_of(model).watertight())
+    throw PeerError(fmt::format("its mesh has {} open edges, the model none", free_edges));
+}
+
+/// Its size where that is uniform; for a peer that has a field besides, the largest.
+double told_size(const PeerTask& task) {
+  if (const auto size = uniform_size(task.c)) return task.scale * *size;
+  if (task.peer.size_field.empty())
+    throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
+  return std::ranges::max(sample_sizes(task).delta);
+}
+
+/// What a program made of a task.
+struct PeerRun {
+  Mesh mesh;
+  ProgramRun program;
+};
+
+void check_end(const Peer& peer, const std::string& program, const ProgramRun& run, const fs::path& log) {
+  if (run.error == ENOENT && peer.optional) throw NotApplicable(program + " is not installed");
+  const auto is_good = [&](int code) {
+    return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
+  };
+  if (run.error == 0 && WIFEXITED(run.status) && WEXITSTATUS(run.status) == kCannotBeTold &&
+      !is_good(kCannotBeTold))
+    throw NotApplicable(last_line(log));
+  check_run(program, run, peer.exit_codes, log);
+}
+
+/// In `folder`, which is empty.
+PeerRun run_once(const PeerTask& task, const fs::path& folder) {
+  const Peer& peer = task.peer;
+  const fs::path log = folder / "peer.log", input = write_peer_input(task, folder);
+  const fs::path field =
+      peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
+  const std::string output = "output" + peer.output;
+  const auto words = peer_command(task, input, output, field);
+  const DoingStage meshing("the peer");
+  PeerRun result;
+  result.program = run_program(words, folder, log);
+  check_end(peer, words[0], result.program, log);
+  if (!fs::exists(folder / output)) throw PeerError(words[0] + ": wrote no mesh" + complaint(log));
+  try {
+    result.mesh = read_mesh(folder / output);
+    require_straight(result.mesh, output);
+    check_peer_mesh(peer, task.prepared, result.mesh);
+  } catch (const InputError& error) {
+    std::string reason = error.what();
+    reason = replace_all(reason, folder.string() + "/", "");
+    throw PeerError("its mesh cannot be read: " + reason);
+  }
+  fs::remove(folder / output);
+  return result;
+}
+
+/// At another scale of its sizes. The boundary of a planar model is made anew at it: our own edges would ask
+/// for our own size. Lines that are given, and surfaces, stay.
+PeerRun run_scaled(const Peer& peer, const Case& c, const PreparedProblem& prepared, double scale,
+                   const fs::path& folder) {
+  if (!c.model || scale == 1) return run_once({peer, c, prepared, scale, scale}, folder);
+  return run_once({peer, c, prepare_scaled(c, scale), scale, 1}, folder);
+}
+
+/// Everything in the folder but what is kept.
+void move_all_but_kept(const fs::path& from, const fs::path& to) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().filename() != kKept) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::rename(file, to / file.filename());
+}
+
+void remove_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != kKept) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove_all(file);
+}
+
+/// The runs of a calibration, of which the closest is kept, with its files.
+class Calibrated {
+ public:
+  Calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared, const fs::path& folder,
+             double wanted)
+      : peer_(peer), c_(c), prepared_(prepared), folder_(folder), wanted_(wanted) {}
+
+  PeerRun run() {
+    done = calibrate_scale(wanted_, [&](double scale) { return quads_at(scale); });
+    if (fs::exists(folder_ / kKept)) {
+      remove_files(folder_);
+      move_all_but_kept(folder_ / kKept, folder_);
+      fs::remove(folder_ / kKept);
+    }
+    return std::move(*best_);
+  }
+
+  Calibration done = {};
+  std::string failure = {};  ///< of the last run; empty: none
+
+ private:
+  std::optional<double> quads_at(double scale) {
+    try {
+      PeerRun run = run_scaled(peer_, c_, prepared_, scale, folder_);
+      const double quads = count_of_quads(run.mesh), off = std::abs(std::log(quads / wanted_));
+      if (best_ && !(off < off_)) return remove_files(folder_), quads;
+      fs::remove_all(folder_ / kKept);
+      fs::create_directory(folder_ / kKept);
+      move_all_but_kept(folder_, folder_ / kKept);
+      best_ = std::move(run);
+      off_ = off;
+      return quads;
+    } catch (const PeerError& error) {
+      if (!best_) throw;
+      failure = error.what();
+    } catch (const InputError& error) {  // there is no boundary of that size
+      if (!best_) throw;
+      failure = error.what();
+    }
+    return std::nullopt;
+  }
+
+  const Peer& peer_;
+  const Case& c_;
+  const PreparedProblem& prepared_;
+  const fs::path& folder_;
+  double wanted_;
+  std::optional<PeerRun> best_;
+  double off_ = 0;
+};
+
+/// As close as it gets to the reference's number of quads; `log` receives how close.
+PeerRun run_calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared,
+                       const fs::path& folder, const ReferenceCell& reference, StageLog& log) {
+  const auto wanted = reference_quads(prepared, peer.calibrate_to, reference);
+  if (!wanted || !(*wanted > 0)) {
+    PeerRun run = run_once({peer, c, prepared}, folder);
+    log.summaries.add(kCalibrationStep, {{"to", peer.calibrate_to}, {"size_factor", 1.0}, {"runs", 1LL}});
+    return run;
+  }
+  Calibrated runs(peer, c, prepared, folder, *wanted);
+  PeerRun run = runs.run();
+  log.summaries.add(kCalibrationStep, {{"to", peer.calibrate_to},
+                                       {"wanted_quads", *wanted},
+                                       {"quads", runs.done.quads},
+                                       {"size_factor", runs.done.scale},
+                                       {"runs", static_cast<long long>(runs.done.runs)},
+                                       {"tried", runs.done.tried}});
+  if (!runs.failure.empty()) log.summaries.add(kCalibrationStep, {{"ended_by", runs.failure}});
+  return run;
+}
+
+}  // namespace
+
+std::vector<std::string> peer_command(const PeerTask& task, const fs::path& input, const std::string& output,
+                                      const fs::path& size_field) {
+  const Peer& peer = task.peer;
+  std::vector<std::string> words = located_command(peer, peer.command);
+  for (std::string& word : words) {
+    if (word.find("{size}") != std::string::npos)
+      word = replace_all(word, "{size}", fmt::format("{}", told_size(task)));
+    if (word.find("{quads}") != std::string::npos)
+      word = replace_all(
+          word, "{quads}",
+          fmt::format("{:.0f}", task.prepared.expected_quads / (task.field_scale * task.field_scale)));
+    word = replace_all(word, "{size_field}", size_field.string());
+    word = replace_all(word, "{input}", input.string());
+    word = replace_all(word, "{output}", output);
+    word = replace_all(word, "{seed}", std::to_string(task.c.seed));
+  }
+  return words;
+}
+
+const std::vector<std::string>& peer_placeholders() {
+  static const std::vector<std::string> all = {"{input}",      "{output}", "{size}",
+                                               "{size_field}", "{quads}",  "{seed}"};
+  return all;
+}
+
+std::string peer_version(const Peer& peer) {
+  const ScratchFolder scratch;
+  const fs::path log = scratch.path() / "version";
+  const auto words = located_command(peer, peer.version);
+  check_run(words[0], run_program(words, scratch.path(), log, kVersionSeconds), {0}, log);
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
+  throw PeerError(fmt::format("{}: prints no version", fmt::join(words, " ")));
+}
+
+void check_peer_mesh(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh) {
+  if (mesh.triangles.empty() && mesh.quads.empty()) throw PeerError("its mesh has no triangles and no quads");
+  for (const Vec3& p : mesh.points)
+    if (!std::isfinite(p.x + p.y + p.z)) throw PeerError("its mesh has a point that is not finite");
+  // On surfaces faces may be turned against each other, and any number of them meet in a curve.
+  const std::vector<char> branching(prepared.surface ? mesh.curves.size() : 0, 1);
+  const std::vector<std::string> violations = check_invariants(mesh, branching);
+  if (!violations.empty())
+    throw PeerError(
+        fmt::format("its mesh is not sound ({} violations): {}", violations.size(), violations[0]));
+  prepared.surface ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
+}
+
+RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
+                   const fs::path& scratch, const ReferenceCell& reference) {
+  fs::remove_all(scratch);
+  fs::create_directories(scratch);
+  const fs::path folder = fs::absolute(scratch);
+  RunResult result;
+  PeerRun run = peer.calibrate_to.empty() ? run_once({peer, c, prepared}, folder)
+                                          : run_calibrated(peer, c, prepared, folder, reference, result.log);
+  result.mesh = std::move(run.mesh);
+  if (const int code = WEXITSTATUS(run.program.status); code != 0)
+    result.warnings.push_back(
+        fmt::format("{}: ended with exit code {}{}", label, code, complaint(folder / "peer.log")));
+  result.log.add_seconds("peer", run.program.cpu_seconds);
+  result.seconds = run.program.seconds;
+  result.peak_memory = run.program.peak_memory;
+  result.metrics =
+      evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
+  result.soundness = check_elements(prepared, result.mesh);
+  const std::vector<double> etas = quad_etas(result.mesh);
+  result.bad_elsewhere =
+      static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
+  return result;
+}
+
+}  // namespace delquad

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "cases/problem.h"
+#include "experiments/sweep/peer.h"
+#include "experiments/sweep/peer_sizes.h"
+#include "geometry/cad/example_models.h"
+#include "geometry/mesh/check_mesh.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSizeView = "size.pos";
+
+/// The edges of a patch as loops of points, the outermost first.
+std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
+  std::vector<int> next(boundary.points.size(), -1);
+  for (const auto& [a, b] : boundary.edges) next[a] = b;
+  std::vector<std::pair<double, std::vector<int>>> loops;  // twice the area
+  for (int first = 0; first < static_cast<int>(next.size()); ++first) {
+    double area = 0;
+    std::vector<int> loop;
+    for (int at = first; next[at] >= 0;) {
+      loop.push_back(at);
+      const int to = std::exchange(next[at], -1);
+      area += cross(boundary.points[at], boundary.points[to]);
+      at = to;
+    }
+    if (!loop.empty()) loops.emplace_back(area, std::move(loop));
+  }
+  std::ranges::stable_sort(loops, std::greater(), [](const auto& loop) { return loop.first; });
+  std::vector<std::vector<int>> result;
+  for (auto& [area, loop] : loops) result.push_back(std::move(loop));
+  return result;
+}
+
+/// Every edge of the boundary is a straight curve with one element.
+void write_boundary(TextWriter& out, const PreparedProblem& prepared) {
+  const Mesh& boundary = prepared.boundary;
+  for (std::size_t i = 0; i < boundary.points.size(); ++i) {
+    const Vec3& p = boundary.points[i];
+    out << "Point(" << i + 1 << ") = {" << p.x << ", " << p.y << ", " << p.z << "};\n";
+  }
+  std::map<std::array<int, 2>, int> curve_of;
+  for (const auto& [a, b] : boundary.lines) {
+    const int curve = static_cast<int>(curve_of.size()) + 1;
+    curve_of[{std::min(a, b), std::max(a, b)}] = curve;
+    out << "Line(" << curve << ") = {" << std::min(a, b) + 1 << ", " << std::max(a, b) + 1 << "};\n";
+  }
+  out << "Transfinite Curve {1:" << curve_of.size() << "} = 2;\n";
+  int n_loops = 0, n_surfaces = 0;
+  for (const PreparedPatch& patch : prepared.patches) {
+    std::string surface;
+    for (const std::vector<int>& loop : loops_of(patch.boundary)) {
+      out << "Curve Loop(" << ++n_loops << ") = {";
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const int a = patch.boundary.point_node[loop[k]];
+        const int b = patch.boundary.point_node[loop[(k + 1) % loop.size()]];
+        const int curve = curve_of.at({std::min(a, b), std::max(a, b)});
+        out << (k == 0 ? "" : ", ") << (a < b ? curve : -curve);
+      }
+      out << "};\n";
+      surface += fmt::format("{}{}", surface.empty() ? "" : ", ", n_loops);
+    }
+    out << "Plane Surface(" << ++n_surfaces << ") = {" << surface << "};\n";
+  }
+}
+
+/// The file of a surface as it is, or the example as a STEP file.
+fs::path surface_file(const PeerTask& task, const fs::path& folder) {
+  const SurfaceSpec& s = task.c.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.glue || s.mirror ||
+      s.weld_tolerance || !s.unit.empty())
+    throw NotApplicable("'" + task.peer.name +
+                        "' gets the model's file as it is, but the case changes its faces");
+  if (task.c.example.empty()) return fs::absolute(model_path(task.c));
+  const fs::path file = folder / "model.step";
+  write_file_atomically(file,
+                        [&](std::ostream& out) { write_example(task.c.example, CadFormat::kStep, out); });
+  return file;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char ch : text) result += (ch == '"' || ch == '\\' ? "\\" : "") + std::string(1, ch);
+  return result + '"';
+}
+
+bool is_triangulation(const fs::path& file) {
+  const std::string kind = kind_of_file(file);
+  return !is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off";
+}
+
+/// Every Gmsh reads MSH and STL; OBJ, OFF and packed files only some do.
+fs::path read_by_gmsh(const fs::path& file, const fs::path& folder) {
+  if (!is_triangulation(file) || file.extension() == ".stl" || file.extension() == ".msh") return file;
+  const Mesh read = read_mesh(file);
+  require_straight(read, file.string());
+  Mesh mesh;
+  mesh.points = read.points;
+  mesh.triangles = read.triangles;
+  for (const auto& [a, b, c, d] : read.quads)
+    for (const std::array<int, 3>& half : {std::array{a, b, c}, std::array{a, c, d}})
+      mesh.triangles.push_back(half);
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  mesh.regions = {{1, {}}};
+  write_msh(folder / "model.msh", mesh);
+  return folder / "model.msh";
+}
+
+void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
+  out << "Merge " << quoted(file.string()) << ";\n";
+  if (is_triangulation(file)) {
+    constexpr double kFeatureAngle = 40;  // degrees, as for our own
+    out << "ClassifySurfaces{" << c.surface.feature_angle.value_or(kFeatureAngle) * std::numbers::pi / 180
+        << ", 1, 1, Pi};\nCreateGeometry;\n";
+  }
+}
+
+void write_script(const PeerTask& task, const fs::path& script) {
+  const PreparedProblem& prepared = task.prepared;
+  const auto size = uniform_size(task.c);
+  const fs::path folder = script.parent_path();
+  const fs::path model = prepared.surface ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
+  if (!size) write_size_field(sample_sizes(task), "pos", folder);
+  write_file_atomically(script, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    prepared.surface ? write_surface(out, task.c, model) : write_boundary(out, prepared);
+    if (size)
+      out << "Mesh.MeshSizeMin = " << task.scale * *size << ";\nMesh.MeshSizeMax = " << task.scale * *size
+          << ";\n";
+    else
+      out << "Merge \"" << kSizeView
+          << "\";\nField[1] = PostView;\nField[1].ViewIndex = 0;\nBackground Field = 1;\n"
+          << "Mesh.MeshSizeFromPoints = 0;\n";
+    out << "Mesh.MeshSizeExtendFromBoundary = 0;\n";
+    out.flush();
+  });
+}
+
+}  // namespace
+
+std::optional<double> uniform_size(const Case& c) {
+  const SizeText& s = c.size;
+  auto size = as_number(s.base);
+  if (s.base.empty() && s.max > 0) size = s.max;
+  if (!size || !s.sources.empty() || !s.named.empty() || s.curvature > 0) return std::nullopt;
+  return s.max > 0 ? std::min(*size, s.max) : *size;
+}
+
+fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
+  const Peer& peer = task.peer;
+  const bool on_surface = task.prepared.surface != nullptr;
+  const HandOver given = on_surface ? peer.surfaces : peer.planar;
+  if (given == HandOver::kNothing)
+    throw NotApplicable(
+        fmt::format("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains"));
+  if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
+  if (!task.prepared.outlines.empty())
+    throw NotApplicable("layers along curves are made by this program's meshes alone");
+  const fs::path file = folder / ("input" + peer.input);
+  if (peer.input == kGmshScript)
+    write_script(task, file);
+  else
+    write_mesh(file,
+               given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared.boundary);
+  return file;
+}
+
+}  // namespace delquad

@@ -1,0 +1,496 @@
+#include "experiments/sweep/record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "cases/size_file.h"
+#include "delquad/error.h"
+#include "experiments/sweep/versions.h"
+#include "mesher/size_aware.h"
+#include "metrics/metrics.h"
+#include "metrics/solve/solver_metrics.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+/// Where only the clock was read, nothing but the work is known.
+bool is_known(const TimeSpent& time) { return time.cpu > 0 || time.clock > 0; }
+
+void add_times(Json& json, const StepTimes& times) {
+  Json work = Json::object(), cpu = Json::object(), clock = Json::object(), alone = Json::object();
+  for (const auto& [step, time] : times) {
+    work[step] = time.work;
+    if (!is_known(time)) continue;
+    cpu[step] = time.cpu;
+    clock[step] = time.clock;
+    alone[step] = time.alone;
+  }
+  json["seconds"] = work;
+  json["cpu_seconds"] = cpu;
+  json["clock_seconds"] = clock;
+  json["alone_seconds"] = alone;
+}
+
+Json size_json(const SizeText& size) {
+  Json json = {{"base", size.base.empty() ? Json() : Json(size.base)}, {"sources", Json::array()}};
+  if (const auto file = size_file_of(size.base, size.folder)) json["digest"] = file_digest(file->path);
+  for (const SizeSource& s : size.sources)
+    json["sources"].push_back({{"at", point_json(s.a)},
+                               {"to", point_json(s.b)},
+                               {"near", s.size_near},
+                               {"far", s.size_far},
+                               {"radius_near", s.radius_near},
+                               {"radius_far", s.radius_far}});
+  for (const NamedSize& n : size.named)
+    json["on"].push_back({{"name", n.name},
+                          {"size", n.size},
+                          {"reach", n.reach},
+                          {"growth", n.growth},
+                          {"curvature", n.curvature}});
+  const double given[] = {size.gradation, size.curvature, size.min, size.max};
+  const char* keys[] = {"gradation", "curvature", "min", "max"};
+  for (int k = 0; k < 4; ++k) json[keys[k]] = given[k] > 0 ? Json(given[k]) : Json();
+  return json;
+}
+
+Json compound_json(const SurfaceSpec& surface) {
+  switch (surface.compounds) {
+    case Compounds::kNone:
+      return Json();
+    case Compounds::kTangent:
+      return "tangent";
+    case Compounds::kAll:
+      return "all";
+    case Compounds::kGroups:
+      return surface.groups;
+  }
+  return Json();
+}
+
+Json embed_json(const std::vector<EmbeddedLine>& lines) {
+  Json json = Json::array();
+  for (const EmbeddedLine& line : lines) {
+    Json points = Json::array();
+    for (const Vec3& x : line.points) points.push_back(point_json(x));
+    json.push_back({{"name", line.name}, {"points", points}});
+  }
+  return json;
+}
+
+Json surface_json(const SurfaceSpec& surface) {
+  Json json = {{"compound", compound_json(surface)},
+               {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
+               {"feature_angle", surface.feature_angle ? Json(*surface.feature_angle) : Json()},
+               {"ignore_below", surface.ignore_below > 0 ? Json(surface.ignore_below) : Json()},
+               {"glue", surface.glue},
+               {"unit", surface.unit.empty() ? Json() : Json(surface.unit)},
+               {"weld_tolerance", surface.weld_tolerance ? Json(*surface.weld_tolerance) : Json()},
+               {"mirror", Json()}};
+  if (surface.mirror)
+    json["mirror"] = {{"point", point_json(surface.mirror->point)},
+                      {"normal", point_json(surface.mirror->normal)},
+                      {"tolerance", surface.mirror->tolerance},
+                      {"join", surface.mirror->join}};
+  if (!surface.embed.empty()) json["embed"] = embed_json(surface.embed);
+  return json;
+}
+
+Json value_json(const OptionValue& value) {
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+/// The group's options; null: the strategy's own.
+Json group_json(const OptionGroup& group, const Options& options) {
+  Json json = Json::object();
+  for (const OptionKey& key : group.keys) {
+    const std::string name = group.name + "." + key.name;
+    const bool is_own = !key.absent.empty() && options.find(name) == nullptr;
+    json[key.name] = is_own ? Json() : value_json(options.value(name));
+  }
+  return json;
+}
+
+Json layer_json(const LayerSpec& layer) {
+  return {{"on", layer.on},
+          {"first", layer.first},
+          {"growth", layer.growth},
+          {"number", layer.number > 0 ? Json(layer.number) : Json()},
+          {"thickness", layer.thickness > 0 ? Json(layer.thickness) : Json()},
+          {"fan", layer.fan}};
+}
+
+Json options_json(const Case& c) {
+  Json json = {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
+               {"size", size_json(c.size)},
+               {"cross", c.cross.text},
+               {"max_points", 4 * c.max_elements},
+               {"max_elements", c.max_elements}};
+  for (const CurveDivision& d : c.divisions)
+    json["divide"].push_back(
+        {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
+  for (const PeriodicPair& pair : c.periodic)
+    json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
+  if (c.symmetry.automatic) json["symmetry"] = "auto";
+  for (const SymmetryPlane& plane : c.symmetry.planes)
+    json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
+  if (c.mapped.automatic) json["mapped"] = "auto";
+  if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
+  for (const GridCorners& grid : c.mapped.corners) {
+    Json corners = Json::array();
+    for (const GridCorner& corner : grid.corners)
+      corners.push_back(corner.name.empty() ? point_json(corner.at) : Json(corner.name));
+    json["mapped_corners"].push_back({{"name", grid.region}, {"corners", corners}});
+  }
+  for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
+  if (c.start) json["start"] = true;
+  for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
+  return json;
+}
+
+Json domain_json(const PreparedProblem& p) {
+  std::size_t edges = 0;
+  for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
+  Json json = {
+      {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.expected_quads}};
+  json["size_adapted_to"] = p.size_adapted_to;
+  for (const SymmetryPlane& plane : p.symmetry)
+    json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
+  if (p.background) json["background_triangles"] = p.background->triangles().triangles.size();
+  return json;
+}
+
+Json cross_json(const PreparedProblem& p) {
+  Json json = {{"singularities", Json::array()}};
+  for (const PlacedSingularity& s : p.singularities)
+    json["singularities"].push_back({{"at", point_json(s.at)}, {"index_quarters", s.index}});
+  if (p.index_sum_and_expected) {
+    json["index_sum_quarters"] = p.index_sum_and_expected->first;
+    json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
+  }
+  json["row_ends"] = expected_row_ends(p);
+  if (p.dislocations)
+    json["expected_dislocations"] = {{"boundary", p.dislocations->first},
+                                     {"size_aware", p.dislocations->second}};
+  return json;
+}
+
+Json histogram_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
+
+void add_metrics(Json& json, const MeshMetrics& metrics) {
+  Json values = Json::object();
+  for (const Metric& metric : metric_registry())
+    if (const auto at = metrics.values.find(metric.key); at != metrics.values.end())
+      values[metric.key] = at->second;
+  for (const auto& [key, value] : metrics.values)
+    if (!values.contains(key)) values[key] = value;
+  json["metrics"] = values;
+  if (!metrics.failures.empty()) json["failed_metrics"] = metrics.failures;
+  json["eta_histogram"] = histogram_json(metrics.eta);
+  json["angle_histogram"] = histogram_json(metrics.angle);
+  const auto counts_json = [](const std::map<int, long long>& counts) {
+    Json result = Json::object();
+    for (const auto& [valence, count] : counts) result[std::to_string(valence)] = count;
+    return result;
+  };
+  json["valences"] = counts_json(metrics.valences);
+  json["quad_valences"] = counts_json(metrics.quad_valences);
+  if (metrics.pairs) {
+    Json burgers = Json::object();
+    for (const auto& [rows, count] : metrics.pairs->burgers)
+      burgers[std::to_string(rows[0]) + "," + std::to_string(rows[1])] = count;
+    json["irregular_pairs"] = {{"pairs", metrics.pairs->pairs},
+                               {"unpaired", metrics.pairs->unpaired},
+                               {"burgers", burgers},
+                               {"edges", counts_json(metrics.pairs->edges)}};
+  }
+}
+
+const char* name_of(Better better) {
+  return better == Better::kHigher ? "higher" : better == Better::kLower ? "lower" : "neither";
+}
+
+Json metric_json(const Metric& metric) {
+  return {{"key", metric.key},
+          {"title", metric.title},
+          {"unit", metric.unit},
+          {"better", name_of(metric.better)},
+          {"digits", metric.digits}};
+}
+
+Json metric_json(const CellIdentity::IdentifiedMetric& of_cell) {
+  const MetricCommand& metric = *of_cell.metric;
+  Json json = metric_json(metric.metric);
+  json["command"] = metric.command;
+  json["timeout"] = metric.timeout;
+  json["files"] = of_cell.files;
+  return json;
+}
+
+/// The measures that the project itself does not have, so that tables can be made from records alone.
+Json own_metrics_json(const CellIdentity* cell) {
+  Json json = Json::array();
+  for (const OwnMetric& own : own_metrics()) json.push_back(metric_json(*find_metric(own.key)));
+  if (cell != nullptr)
+    for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));
+  if (cell != nullptr)
+    for (const std::string& solver : cell->solvers)
+      for (const Metric& metric : metrics_of_solver(solver)) json.push_back(metric_json(metric));
+  return json;
+}
+
+Json fields_json(const SummaryStep& step) {
+  Json json = Json::object();
+  for (const SummaryField& field : step.fields)
+    json[field.key] = std::visit([](const auto& value) { return Json(value); }, field.value);
+  return json;
+}
+
+/// What the steps did, by step. Throws InputError where one from outside has the name of another part.
+void add_summaries(Json& json, const Summaries& summaries) {
+  for (const SummaryStep& step : summaries.steps()) {
+    if (json.contains(step.name))
+      throw InputError("a stage calls its summary '" + step.name + "', as another part of records is called");
+    json[step.name] = fields_json(step);
+  }
+}
+
+/// Quads below kBadEta, and the corners of the model that forbid more.
+Json bad_quads_json(const PreparedProblem& p, const RunResult& result) {
+  Json corners = Json::array();
+  for (const SharpCorner& c : p.sharp_corners)
+    corners.push_back({{"face", p.boundary.regions[c.face].tag},
+                       {"curves", {p.boundary.curves[c.curves[0]].tag, p.boundary.curves[c.curves[1]].tag}},
+                       {"at", point_json(p.boundary.points[c.node])},
+                       {"angle_degrees", c.angle * 180 / std::numbers::pi},
+                       {"eta_bound", c.eta_bound}});
+  return {{"eta_below", kBadEta},
+          {"in_sharp_corners", result.bad_in_corners},
+          {"elsewhere", result.bad_elsewhere},
+          {"sharp_corners", corners}};
+}
+
+Json topology_json(const Topology& t) {
+  return {{"euler_characteristic", t.euler_characteristic},
+          {"watertight", t.watertight()},
+          {"free_edges", t.free_edges},
+          {"branching_edges", t.branching_edges},
+          {"disagreeing_edges", t.disagreeing_edges}};
+}
+
+Json distances_json(const Distances& d) {
+  return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}, {"max_in_sizes", d.max_in_sizes}};
+}
+
+Json maps_json(const PreparedProblem& p) {
+  const MapReport maps = report_maps(maps_of(*p.surface));
+  Json json = {{"patches", maps.patches},
+               {"sigma_mean", maps.sigma_mean},
+               {"sigma_95", maps.sigma_95},
+               {"sigma_max", maps.sigma_max},
+               {"area_ratio", maps.area_ratio},
+               {"worst_face", maps.worst_face < 0 ? Json() : Json(p.boundary.regions[maps.worst_face].tag)},
+               {"by_patch", Json::array()}};
+  for (const SurfacePatch& patch : p.surface->domain.patches) {
+    const FlatQuality& q = patch.map.quality;
+    json["by_patch"].push_back({{"face", p.boundary.regions[patch.map.face].tag},
+                                {"method", patch.map.method},
+                                {"sigma_mean", q.sigma_mean},
+                                {"sigma_95", q.sigma_95},
+                                {"sigma_max", q.sigma_max},
+                                {"area_ratio", q.area_ratio}});
+  }
+  return json;
+}
+
+Json share_json(const QuadShare& share) {
+  return {{"quads", share.quads}, {"vertices", share.vertices}, {"eta_mean", share.eta}, {"d4", share.d4}};
+}
+
+Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
+  Json cuts = Json::array();
+  for (const SurfaceCut& cut : p.surface->cuts)
+    cuts.push_back({{"curve", p.boundary.curves[cut.curve].tag},
+                    {"face", p.boundary.regions[cut.face].tag},
+                    {"length", cut.length},
+                    {"divides", cut.divides}});
+  return {{"maps", maps_json(p)},
+          {"cuts", cuts},
+          {"near_cuts", share_json(report.near_cuts)},
+          {"off_cuts", share_json(report.off_cuts)},
+          {"topology", topology_json(report.mesh)},
+          {"model_topology", topology_json(report.model)},
+          {"nonconforming_edges", report.nonconforming_edges.count},
+          {"turned_elements", report.turned_elements.count},
+          {"distances_in_diagonals",
+           {{"mesh_to_surface", distances_json(report.mesh_to_surface)},
+            {"surface_to_mesh", distances_json(report.surface_to_mesh)},
+            {"nodes_in_faces", distances_json(report.nodes_in_faces)},
+            {"nodes_on_curves", distances_json(report.nodes_on_curves)},
+            {"nodes_at_corners", distances_json(report.nodes_at_corners)}}}};
+}
+
+Json failures_json(const PreparedProblem& p, const RunResult& result) {
+  Json json = Json::array();
+  for (const FaceFailure& failure : result.failures)
+    json.push_back({{"face", failure.face < 0 ? Json() : Json(p.boundary.regions[failure.face].tag)},
+                    {"reason", failure.reason}});
+  return json;
+}
+
+Json versions_json() {
+  Json json = Json::object();
+  for (const auto& [name, version] : versions()) json[name] = version;
+  return json;
+}
+
+/// `start`: null outside of experiments.
+void add_origin(Json& json, const MachineState* start = nullptr) {
+  const Machine machine = this_machine();
+  json["versions"] = versions_json();
+  json["machine"] = {{"system", machine.system},
+                     {"architecture", machine.architecture},
+                     {"cpu", machine.cpu},
+                     {"processors", machine.processors}};
+  if (start == nullptr) return;
+  json["machine"]["load_average"] = start->load ? Json(*start->load) : Json();
+  json["started"] = start->time;
+}
+
+/// The file of the model, or the name of the example.
+std::string source_of(const Case& c) {
+  if (c.model) return c.model->source;
+  if (!c.example.empty()) return "example " + c.example;
+  return model_path(c).string();
+}
+
+Json peer_json(const CellIdentity& cell) {
+  const Peer& peer = *cell.peer;
+  const auto name_of = [](HandOver given, const char* plain) {
+    return given == HandOver::kModel ? plain : given == HandOver::kTriangles ? "triangles" : "none";
+  };
+  return {{"version", cell.peer_version},
+          {"command", peer.command},
+          {"files", cell.peer_files},
+          {"input", peer.input},
+          {"output", peer.output},
+          {"exit_codes", peer.exit_codes},
+          {"keeps_boundary", peer.keeps_boundary},
+          {"planar", name_of(peer.planar, "boundary")},
+          {"surfaces", name_of(peer.surfaces, "file")},
+          {"size_field", peer.size_field},
+          {"calibrate_to", peer.calibrate_to}};
+}
+
+Json files_json(const CellIdentity& cell) {
+  Json json = Json::object();
+  for (const auto& [name, mark] : cell.files) json[name] = {{"bytes", mark.bytes}, {"digest", mark.digest}};
+  return json;
+}
+
+/// A measure failed which another try might give: of a mesh that a solver refuses there is none, ever.
+bool may_come_out_otherwise(const MeshMetrics& metrics) {
+  return std::ranges::any_of(metrics.failures, [](const auto& failure) {
+    return std::ranges::find(solver_names(), failure.first) == solver_names().end();
+  });
+}
+
+/// `metrics`: "failed" where one of them has no value.
+Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell,
+                  const std::string& metrics = "ok") {
+  Json json = Json::object();
+  // First: they are looked for without reading the rest.
+  const auto mesh = cell != nullptr ? cell->files.find("mesh.msh") : decltype(cell->files.end()){};
+  const bool has_mesh = cell != nullptr && mesh != cell->files.end();
+  if (cell != nullptr) json["key"] = cell->key;
+  if (cell != nullptr && metrics != "ok") json["metrics_status"] = metrics;
+  if (has_mesh) json["mesh_bytes"] = mesh->second.bytes;
+  json["case"] = c.name;
+  json["pipeline"] = word.text;
+  json["status"] = status;
+  json["quads_only"] = word.quads_only();
+  json["model"] = source_of(c);
+  json["seed"] = c.seed;
+  json["variant"] = Json::object();
+  for (const auto& [title, value] : c.variant) json["variant"][title] = value;
+  if (cell == nullptr) return json;
+  if (cell->peer != nullptr) json["peer"] = peer_json(*cell);
+  if (cell->peer != nullptr) json["peer_file"] = cell->peer_file;
+  json["experiment"] = cell->experiment;
+  json["digests"] = {{"model", cell->model_digest}, {"program", cell->program_digest}};
+  if (has_mesh) json["digests"]["mesh"] = mesh->second.digest;
+  json["files"] = files_json(*cell);
+  return json;
+}
+
+/// A file name or what a peer prints need not be UTF-8; JSON must be.
+constexpr auto kReplace = Json::error_handler_t::replace;
+
+std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) + "\n"; }
+
+}  // namespace
+
+std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
+                       const RunResult& result, const CellIdentity* cell) {
+  Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
+  if (const Json own = own_metrics_json(cell); !own.empty()) json["own_metrics"] = own;
+  json["sound"] = result.soundness.sound();
+  if (!result.soundness.sound()) json["unsound"] = result.soundness.reasons;
+  json["options"] = options_json(c);
+  json["domain"] = domain_json(prepared);
+  json["cross_field"] = cross_json(prepared);
+  json["warnings"] = texts(prepared.warnings);
+  for (const Warning& warning : result.warnings) json["warnings"].push_back(warning.text);
+  if (result.surface) json["surface"] = surface_json(prepared, *result.surface);
+  if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
+  const StageLog& log = result.log;
+  json["bad_quads"] = bad_quads_json(prepared, result);
+  const bool is_peer = cell != nullptr && cell->peer != nullptr;
+  StepTimes times = is_peer ? StepTimes{} : prepared.times;
+  times.insert(times.end(), log.times.begin(), log.times.end());
+  json["threads"] = thread_count();
+  add_times(json, times);
+  // A peer's time has reading and writing in it: not to be set beside this.
+  json["meshing_seconds"] = is_peer ? Json() : Json(result.seconds);
+  if (is_peer) json["peer_seconds"] = result.seconds;
+  json["peak_memory_bytes"] = result.peak_memory;
+  add_metrics(json, result.metrics);
+  add_origin(json, cell != nullptr ? &cell->start : nullptr);
+  add_summaries(json, log.summaries);
+  return cell != nullptr ? sealed(print(json)) : print(json);
+}
+
+std::string failure_record(const Case& c, const Word& word, const std::string& status,
+                           const std::string& kind, const std::string& reason, const CellIdentity* cell) {
+  Json json = start_record(c, word, status, cell);
+  json["kind"] = kind;
+  json["reason"] = reason;
+  json["options"] = options_json(c);
+  add_origin(json, cell != nullptr ? &cell->start : nullptr);
+  return cell != nullptr ? sealed(print(json)) : print(json);
+}
+
+std::string peer_record(const CellIdentity& cell) { return peer_json(cell).dump(-1, ' ', false, kReplace); }
+std::string metrics_by_command_record(const CellIdentity& cell) {
+  Json json = Json::array();
+  for (const auto& metric : cell.metrics) json.push_back(metric_json(metric));
+  for (const std::string& solver : cell.solvers) json.push_back("solver " + solver);
+  return json.empty() ? "" : json.dump(-1, ' ', false, kReplace);
+}
+std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
+std::string versions_record() { return versions_json().dump(); }
+
+std::string metrics_record(const std::string& mesh_file, const std::string& size,
+                           const MeshMetrics& metrics) {
+  Json json = {{"mesh", mesh_file}, {"size", size.empty() ? Json() : Json(size)}};
+  add_metrics(json, metrics);
+  add_origin(json);
+  return print(json);
+}
+
+}  // namespace delquad

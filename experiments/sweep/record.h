@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/sweep/digest.h"
+#include "experiments/sweep/machine.h"
+#include "experiments/sweep/metric_command.h"
+#include "experiments/sweep/peer.h"
+
+namespace delquad {
+
+/// What the record of a cell of an experiment has besides, so that it can be found and made again.
+struct CellIdentity {
+  std::string key;  ///< digest of everything that determines the result
+  std::string model_digest, program_digest;
+  std::string experiment = {};                         ///< its copy, as seen from the folder of the results
+  MachineState start = {};                             ///< when work on it began
+  std::map<std::string, FileMark> files = {};          ///< of the cell, but for the record
+  const Peer* peer = nullptr;                          ///< in place of a pipeline
+  std::string peer_version = {};                       ///< empty: it does not tell
+  std::string no_peer_version = {};                    ///< why it does not
+  std::map<std::string, std::string> peer_files = {};  ///< that its command names, with their digests
+  std::string peer_file = {};  ///< that it was read from, as seen from the folder of the experiment's file
+  /// Measures by command, and the digests of the files that determine each.
+  struct IdentifiedMetric {
+    const MetricCommand* metric;
+    std::map<std::string, std::string> files;
+  };
+  std::vector<IdentifiedMetric> metrics = {};
+  std::vector<std::string> solvers = {};  ///< that measure the mesh
+};
+
+/// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
+/// Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
+std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
+                       const RunResult& result, const CellIdentity* cell = nullptr);
+/// The record of one that was not run, "failed" or "skipped" by its status, and of what kind the reason is:
+/// as in ProcessFailure, or "data not found".
+std::string failure_record(const Case& c, const Word& word, const std::string& status,
+                           const std::string& kind, const std::string& reason,
+                           const CellIdentity* cell = nullptr);
+/// The metrics of a mesh from a file.
+std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics);
+/// What determines the mesh of a peer's cell besides the case, in one line of JSON.
+std::string peer_record(const CellIdentity& cell);
+/// What determines the values of a cell's measures by command and by solvers, in one line of JSON.
+std::string metrics_by_command_record(const CellIdentity& cell);
+/// Every option of a case in one line of JSON.
+std::string options_record(const Case& c);
+/// Version, commit, compiler and libraries in one line of JSON.
+std::string versions_record();
+
+}  // namespace delquad

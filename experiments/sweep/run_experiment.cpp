@@ -1,0 +1,272 @@
+#include "experiments/sweep/run_experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "cases/problem.h"
+#include "delquad/error.h"
+#include "experiments/console/progress.h"
+#include "experiments/sweep/cell_folder.h"
+#include "experiments/sweep/cells.h"
+#include "experiments/sweep/experiment_copy.h"
+#include "experiments/sweep/folder_lock.h"
+#include "experiments/sweep/linf_study.h"
+#include "experiments/sweep/repeat_times.h"
+#include "experiments/sweep/study_file.h"
+#include "experiments/sweep/sweep_progress.h"
+#include "experiments/sweep/variant_work.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows. Peers
+/// come right after the root, without a stage, and last: those that are calibrated ask for a word's record.
+struct Branch {
+  const Stage* stage = nullptr;  ///< null at the root and for a peer
+  const Cell* cell = nullptr;    ///< null where no pipeline ends here
+  std::vector<Branch> next;
+};
+
+Branch make_tree(const std::vector<Cell>& cells) {
+  Branch root;
+  for (const Cell& cell : cells) {
+    Branch* at = &root;
+    for (const Stage* stage : cell.word->stages) {
+      auto found = std::ranges::find(at->next, stage, &Branch::stage);
+      if (found == at->next.end()) found = at->next.insert(found, Branch{stage, nullptr, {}});
+      at = &*found;
+    }
+    if (cell.word->stages.empty()) at = &root.next.emplace_back();
+    at->cell = &cell;
+  }
+  std::ranges::stable_partition(root.next, [](const Branch& branch) { return branch.stage != nullptr; });
+  return root;
+}
+
+void collect_cells(const Branch& branch, std::vector<const Cell*>& cells) {
+  if (branch.cell != nullptr) cells.push_back(branch.cell);
+  for (const Branch& next : branch.next) collect_cells(next, cells);
+}
+
+/// The end of a stretch of stages without a fork: there, cells end or pipelines part.
+const Branch& end_of_stretch(const Branch& branch) {
+  const Branch* at = &branch;
+  while (at->cell == nullptr && at->next.size() == 1) at = &at->next[0];
+  return *at;
+}
+
+void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
+  const char* head = why.kind == kNotApplicable ? "not applicable" : "error";
+  say(fmt::format("{}: {} {}: {}", head, folder, cell.word->text, why.reason));
+}
+
+/// What reports a failure for all cells of a branch that were not done.
+std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<VariantWork>& work,
+                                                      const Branch& branch) {
+  return [work, &branch](const ProcessFailure& why) {
+    std::vector<const Cell*> cells;
+    collect_cells(branch, cells);
+    say_why(work->c.folder, *cells[0], why);
+    for (const Cell* cell : cells)
+      if (!is_done(*cell)) work->fail(*cell, why);
+  };
+}
+
+/// Runs a branch up to where it forks.
+Job job_of(const std::shared_ptr<VariantWork>& work, const Branch& branch) {
+  const Branch& end = end_of_stretch(branch);
+  const bool is_leaf = end.next.empty();
+  Job job;
+  job.failed = failure_of(work, branch);
+  job.work = [work, &branch, &end, is_leaf] {
+    for (const Branch* at = &branch;; at = &at->next[0]) {
+      if (at->stage == nullptr && at->cell == nullptr)
+        work->prepare();
+      else if (at->stage != nullptr)
+        run_stage(*at->stage, *work->prepared, work->state);
+      if (at == &end) break;
+    }
+    if (is_leaf) work->finish(*end.cell);
+  };
+  if (is_leaf) return job;
+  job.next = [work, &end] {
+    std::vector<Job> jobs;
+    if (end.cell != nullptr) {
+      Job ending;
+      ending.work = [work, &end] { work->finish(*end.cell); };
+      ending.failed = [work, &end](const ProcessFailure& why) {
+        say_why(work->c.folder, *end.cell, why);
+        work->fail(*end.cell, why);
+      };
+      jobs.push_back(std::move(ending));
+    }
+    for (const Branch& next : end.next) jobs.push_back(job_of(work, next));
+    return jobs;
+  };
+  return job;
+}
+
+class Sweep {
+ public:
+  /// `copy`: of the experiment's file, as seen from `folder`.
+  Sweep(const Experiment& experiment, const fs::path& folder, const fs::path& copy,
+        const SweepOptions& options)
+      : experiment_(experiment), folder_(folder), copy_(copy), options_(options), progress_(shard_size()) {}
+
+  /// Returns how many cells were interrupted.
+  std::size_t run() {
+    run_jobs([&] { return next_job(); }, options_.limits, [&] { progress_.draw(); });
+    return progress_.n_interrupted();
+  }
+
+ private:
+  std::size_t n_works() const { return experiment_.n_cases() * experiment_.n_variants(); }
+
+  /// Whole variants go to a shard, so that pipelines share their stages, unless there are too few.
+  bool is_mine(std::size_t work, std::size_t word) const {
+    const std::size_t n = experiment_.words.size();
+    return (n_works() >= options_.shard.count ? work : work * n + word) % options_.shard.count ==
+           options_.shard.index;
+  }
+
+  std::size_t shard_size() const {
+    std::size_t cells = 0;
+    for (std::size_t i = 0; i < n_works(); ++i)
+      for (std::size_t w = 0; w < experiment_.words.size(); ++w) cells += is_mine(i, w);
+    return cells;
+  }
+
+  /// The next variant that has cells to make.
+  std::optional<Job> next_job() {
+    while (next_ < n_works()) {
+      const std::size_t i = next_++;
+      auto work = std::make_shared<VariantWork>();
+      work->c = experiment_.read_variant(i / experiment_.n_variants(), i % experiment_.n_variants());
+      work->folder = folder_;
+      work->progress = &progress_;
+      work->allow_unsound = options_.allow_unsound;
+      work->pictures = options_.pictures;
+      const bool absent = work->c.may_be_absent && !fs::exists(model_path(work->c));
+      add_cells(i, absent, *work);
+      if (work->cells.empty()) continue;
+      if (absent) {
+        skip(*work);
+        continue;
+      }
+      for (const Cell& cell : work->cells) remove_cell(cell.folder);
+      const auto tree = std::make_shared<const Branch>(make_tree(work->cells));
+      Job job = job_of(work, *tree);
+      job.work = [tree, run = std::move(job.work)] { run(); };  // keeps the tree alive
+      return job;
+    }
+    return std::nullopt;
+  }
+
+  void add_cells(std::size_t i, bool absent, VariantWork& work) {
+    std::string model;
+    try {
+      model = absent ? "" : model_digest(work.c);
+    } catch (const InputError&) {  // the file cannot be read, as the cells will say
+    }
+    const MachineState start = machine_state();
+    for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
+      if (!is_mine(i, w)) continue;
+      const Word& word = experiment_.words[w];
+      Cell cell{&word, identify(experiment_, work.c, model, word), cell_folder(folder_, work.c, word)};
+      cell.identity.experiment = copy_.generic_string();
+      cell.identity.start = start;
+      cell.reference = reference_of(cell, work.c, model);
+      if (!options_.force && is_done(cell))
+        progress_.found(1);
+      else
+        work.cells.push_back(std::move(cell));
+    }
+  }
+
+  /// The cell of the word that a peer is calibrated to, if it is run, too.
+  ReferenceCell reference_of(const Cell& cell, const Case& c, const std::string& model) const {
+    const Peer* peer = cell.identity.peer;
+    if (peer == nullptr || peer->calibrate_to.empty()) return {};
+    const auto at = std::ranges::find(experiment_.words, peer->calibrate_to, &Word::text);
+    if (at == experiment_.words.end()) return {};
+    return {cell_folder(folder_, c, *at), identify(experiment_, c, model, *at).key};
+  }
+
+  void skip(const VariantWork& work) {
+    const ProcessFailure why = {"data not found", "data not found, skipped: " + model_path(work.c).string()};
+    say(work.c.folder + ": " + why.reason);
+    for (const Cell& cell : work.cells) work.give_up(cell, "skipped", why);
+  }
+
+  const Experiment& experiment_;
+  const fs::path& folder_;
+  const fs::path& copy_;
+  const SweepOptions& options_;
+  SweepProgress progress_;
+  std::size_t next_ = 0;
+};
+
+/// Refuses a folder with the results of another experiment.
+void check_study(const Experiment& experiment, const fs::path& folder) {
+  const auto study = read_study(folder);
+  if (study && study->experiment != experiment.file.stem().string())
+    throw InputError(fmt::format("{}: holds results of the experiment '{}', not of '{}': give another folder",
+                                 folder.string(), study->experiment, experiment.file.stem().string()));
+}
+
+Outcome run_study(const Experiment& experiment, const fs::path& folder) {
+  Outcome outcome;
+  Progress progress(linf_study_steps(*experiment.linf));
+  outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
+  for (const TableRow& row : outcome.table.rows) outcome.bad_inputs += row.failure.empty() ? 0 : 1;
+  return outcome;
+}
+
+}  // namespace
+
+Outcome run_experiment(const Experiment& experiment, const fs::path& folder, const SweepOptions& options) {
+  prepare_folder(folder);
+  const FolderLock lock(folder, options.shard.index, options.shard.count);
+  Outcome outcome;
+  if (experiment.linf) {
+    outcome = run_study(experiment, folder);
+  } else {
+    check_study(experiment, folder);
+    const fs::path copy = keep_experiment(experiment, folder);
+    write_study(folder, describe(experiment));
+    const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
+    if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
+    outcome = make_tables(folder);
+    outcome.others_failed += static_cast<int>(interrupted);
+  }
+  for (const std::string& error : write_tables(folder, outcome)) {
+    ++outcome.bad_inputs;
+    say("error: " + error);
+  }
+  return outcome;
+}
+
+std::string list_cells(const Experiment& experiment, const fs::path& folder) {
+  std::string text;
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i)
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
+      const Case c = experiment.read_variant(i, v);
+      const bool absent = c.may_be_absent && !fs::exists(model_path(c));
+      const std::string model = absent ? "" : model_digest(c);
+      for (const Word& word : experiment.words) {
+        const std::string key = identify(experiment, c, model, word).key;
+        text += fmt::format("{:<14} {} {}\n",
+                            absent ? "data not found" : state_of_cell(cell_folder(folder, c, word), key),
+                            c.folder, word.text);
+      }
+    }
+  return text;
+}
+
+}  // namespace delquad

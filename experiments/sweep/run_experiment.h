@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "experiments/sweep/experiment.h"
+#include "experiments/sweep/process_tree.h"
+#include "experiments/sweep/tables.h"
+
+namespace delquad {
+
+/// One of several runs that share an experiment and its folder.
+struct Shard {
+  std::size_t index = 0, count = 1;  ///< index < count
+};
+
+struct SweepOptions {
+  ProcessLimits limits = {};
+  Shard shard = {};
+  bool force = false;          ///< run cells again that are done
+  bool allow_unsound = false;  ///< meshes that are not sound are results, marked as such
+  bool pictures = true;        ///< of fields and meshes, as SVG
+};
+
+/// Runs every pipeline on every variant of every case, each in a process of its own: what crashes, hangs or
+/// uses up its memory is a failed cell, and the rest goes on. Pipelines that begin alike share what they have
+/// in common. Cells are left out whose result is there already, made by the same program from the same model
+/// and options; those that failed are tried again.
+///
+/// Writes DIR/study.json, DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, record.json},
+/// DIR/<case>/{cross.svg, size.svg} and the tables (see tables.h); with a matrix, <case> has the values that
+/// vary in its name. What the experiment was read from is copied, see keep_experiment(). A cell's files
+/// appear together, its record last; a run that is killed at any moment leaves the cells that are done, and
+/// none half done. What cannot be written goes to the table. Last, runs
+/// are repeated for their times, where the experiment asks for it (see repeat_times.h).
+///
+/// Throws InputError when the folder cannot be written to, holds the results of another experiment, or
+/// belongs to another run that is still going on.
+Outcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
+                       const SweepOptions& options = {});
+
+/// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
+/// found".
+std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
+
+}  // namespace delquad

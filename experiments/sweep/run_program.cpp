@@ -1,0 +1,127 @@
+#include "experiments/sweep/run_program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "base/stopwatch.h"
+
+namespace delquad {
+namespace {
+
+/// What the watcher tells of the program.
+struct Report {
+  int error, status;
+  rusage usage;
+};
+
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+extern "C" void kill_group(int) { kill(0, SIGKILL); }
+
+[[noreturn]] void become(char* const* words, const char* folder, int log, int errors, int reports) {
+  for (const int number : {SIGTERM, SIGALRM, SIGINT}) signal(number, SIG_DFL);
+  if (dup2(open("/dev/null", O_RDONLY), STDIN_FILENO) >= 0 && dup2(log, STDOUT_FILENO) >= 0 &&
+      dup2(errors, STDERR_FILENO) >= 0 && chdir(folder) == 0)
+    execvp(words[0], words);
+  const Report report = {errno, 0, {}};
+  [[maybe_unused]] const ssize_t written = write(reports, &report, sizeof report);
+  _exit(127);
+}
+
+/// Leads a group of processes, which ends as a whole: with the program, after `seconds`, or when the process
+/// that wants the result dies.
+[[noreturn]] void watch(char* const* words, const char* folder, int log, int errors, int reports,
+                        pid_t parent, unsigned seconds) {
+  setpgid(0, 0);
+  signal(SIGTERM, kill_group);
+  signal(SIGALRM, kill_group);
+  signal(SIGINT, SIG_DFL);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(1);
+  alarm(seconds);
+  const pid_t program = fork();
+  if (program == 0) become(words, folder, log, errors, reports);
+  Report report = {program < 0 ? errno : 0, 0, {}};
+  while (program > 0 && wait4(program, &report.status, 0, &report.usage) < 0 && errno == EINTR) {
+  }
+  [[maybe_unused]] const ssize_t written = write(reports, &report, sizeof report);
+  kill(0, SIGKILL);
+  _exit(0);
+}
+
+/// Made anew, and closed at the end.
+class LogFile {
+ public:
+  explicit LogFile(const std::filesystem::path& path)
+      : number_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (number_ < 0) throw std::system_error(errno, std::generic_category(), path.string());
+  }
+  ~LogFile() { close(number_); }
+  LogFile(const LogFile&) = delete;
+  LogFile& operator=(const LogFile&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good) {
+  if (run.error == ENOENT) return "not found: is it installed, and on the PATH?";
+  if (run.error != 0) return std::string("cannot be run: ") + std::strerror(run.error);
+  if (WIFSIGNALED(run.status))
+    return "ended by signal " + std::to_string(WTERMSIG(run.status)) + " (" +
+           strsignal(WTERMSIG(run.status)) + ")";
+  const int code = WEXITSTATUS(run.status);
+  return std::ranges::find(good, code) == good.end() ? "ended with exit code " + std::to_string(code) : "";
+}
+
+ProgramRun run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                       const std::filesystem::path& log, unsigned seconds,
+                       const std::filesystem::path& errors) {
+  const auto throw_errno = [&] { throw std::system_error(errno, std::generic_category(), words[0]); };
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const LogFile log_file(log);
+  const LogFile errors_file(errors.empty() ? "/dev/null" : errors);
+  int reports[2];
+  if (pipe2(reports, O_CLOEXEC) != 0) throw_errno();
+  const Stopwatch clock;
+  const pid_t parent = getpid();
+  std::fflush(stdout);
+  const pid_t watcher = fork();
+  if (watcher < 0) throw_errno();
+  if (watcher == 0)
+    watch(arguments.data(), folder.c_str(), log_file.number(),
+          errors.empty() ? log_file.number() : errors_file.number(), reports[1], parent, seconds);
+  close(reports[1]);
+  ProgramRun run;
+  while (waitpid(watcher, &run.status, 0) < 0 && errno == EINTR) {
+  }
+  run.seconds = clock.seconds();
+  Report report;
+  if (read(reports[0], &report, sizeof report) == sizeof report) {
+    run.error = report.error;
+    run.status = report.status;
+    run.cpu_seconds = seconds_of(report.usage.ru_utime) + seconds_of(report.usage.ru_stime);
+    run.peak_memory = 1024LL * report.usage.ru_maxrss;
+  }
+  close(reports[0]);
+  return run;
+}
+
+}  // namespace delquad

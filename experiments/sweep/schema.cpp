@@ -1,0 +1,178 @@
+#include "experiments/sweep/schema.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cases/case_keys.h"
+#include "experiments/sweep/peer.h"
+
+namespace delquad {
+namespace {
+
+using namespace toml_types;
+using Json = nlohmann::ordered_json;
+
+const std::string kCommand = R"({"type": "array", "items": {"type": "string"}, "minItems": 1})";
+const std::string kExitCodes =
+    R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 255}, "minItems": 1})";
+const std::string kPoints =
+    R"({"type": "array", "items": {"type": "integer", "minimum": 3, "maximum": 10000000}, "minItems": 1})";
+const std::string kSeeds =
+    R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 1000000000}, "minItems": 1})";
+const std::string kColumnList =
+    R"({"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": true})";
+const std::string kFolderName = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
+const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
+const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
+const std::string kSolvers =
+    R"({"type": "array", "items": {"enum": ["poisson", "elasticity"]}, "uniqueItems": true})";
+const std::string kCalibrate = one_of({"quads", "none"});
+/// What a model is made of, which does not vary.
+const std::vector<std::string> kModels = {"loop", "pattern", "curve", "embed",  "example",
+                                          "mesh", "model",   "data",  "compare"};
+
+Json table_schema(const TomlKeys& keys);
+
+Json value_schema(const TomlKey& key) {
+  Json choices = Json::array();
+  if (!key.type.empty()) choices.push_back(Json::parse(key.type));
+  if (key.table != nullptr) {
+    choices.push_back(table_schema(key.table()));
+    if (key.many) choices.push_back({{"type", "array"}, {"items", choices.back()}});
+  }
+  return choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
+}
+
+Json table_schema(const TomlKeys& keys) {
+  Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+  Json required = Json::array();
+  for (const TomlKey& key : keys) {
+    Json& property = json["properties"][key.name] = {{"description", key.about}};
+    property.update(value_schema(key));
+    if (key.required) required.push_back(key.name);
+  }
+  if (!required.empty()) json["required"] = required;
+  return json;
+}
+
+Json list_of(const Json& items) { return {{"type", "array"}, {"minItems", 1}, {"items", items}}; }
+
+/// The same keys, with lists of values in place of values.
+Json matrix_schema(const TomlKeys& keys) {
+  Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+  for (const TomlKey& key : keys) {
+    if (std::ranges::find(kModels, key.name) != kModels.end()) continue;
+    Json choices = Json::array();
+    if (!key.type.empty() || key.many) choices.push_back(list_of(value_schema(key)));
+    if (key.table != nullptr && !key.many) choices.push_back(matrix_schema(key.table()));
+    json["properties"][key.name] = choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
+  }
+  return json;
+}
+
+Json whole_matrix_schema() {
+  Json json = matrix_schema(case_keys());
+  json["patternProperties"] = {{"\\.", list_of(true)}};  // quoted keys with dots
+  json["description"] = "keys of a case, each with a list of values: every combination is run";
+  return json;
+}
+
+}  // namespace
+
+const TomlKeys& peer_keys() {
+  static const TomlKeys keys = {
+      {"name", "in pipelines and tables", kPeerName, nullptr, false, true},
+      {"command", "program and arguments, with {input} and {output}", kCommand, nullptr, false, true},
+      {"version", "program and arguments that print the version", kCommand, nullptr, false, true},
+      {"input", "what it reads", one_of({"geo", "msh", "obj", "inp", "mesh"})},
+      {"output", "what it writes", one_of({"msh", "obj", "off", "stl"})},
+      {"exit_codes", "with which its mesh is worth a look", kExitCodes},
+      {"keeps_boundary", "whether it has the boundary's edges", kFlag},
+      {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
+      {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
+      {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
+      {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
+      {"calibrate_to", "the word whose number that is", kText},
+      {"optional", "whether it may be missing", kFlag}};
+  return keys;
+}
+
+const TomlKeys& peer_file_keys() {
+  static const TomlKeys keys = {{"peer", "other meshers", "", peer_keys, true, true}};
+  return keys;
+}
+
+const TomlKeys& metric_keys() {
+  static const TomlKeys keys = {
+      {"name", "in tables and records", kMetricName, nullptr, false, true},
+      {"command", "program and arguments, with {mesh}", kCommand, nullptr, false, true},
+      {"files", "that its value depends on, too", kTexts},
+      {"title", "in tables; else the name", kText},
+      {"unit", "for people", kText},
+      {"better", "which values are", one_of({"higher", "lower", "neither"})},
+      {"digits", "after the decimal point, in tables", between("integer", 0, kMostDigits)},
+      {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
+  return keys;
+}
+
+const TomlKeys& ratio_keys() {
+  static const TomlKeys keys = {{"metric", "key of a measure", kText, nullptr, false, true},
+                                {"numerator", "a pipeline", kText, nullptr, false, true},
+                                {"denominator", "a pipeline", kText, nullptr, false, true},
+                                {"expected", "what it should be", kPositive, nullptr, false, true},
+                                {"source", "where that stands", kText}};
+  return keys;
+}
+
+const TomlKeys& correlate_keys() {
+  static const TomlKeys keys = {{"of", "keys of measures", kColumnList, nullptr, false, true},
+                                {"with", "keys of others", kColumnList, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& linf_study_keys() {
+  static const TomlKeys keys = {{"points", "how many", kPoints, nullptr, false, true},
+                                {"seeds", "of the points", kSeeds, nullptr, false, true}};
+  return keys;
+}
+
+TomlKeys experiment_case_keys() {
+  TomlKeys keys = case_keys();
+  keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
+  return keys;
+}
+
+TomlKeys experiment_keys() {
+  TomlKeys keys = {{"title", "of the tables", kText},
+                   {"pipelines", "words of stages and names of peers", kTexts},
+                   {"peer", "other meshers", "", peer_keys, true},
+                   {"peer_files", "files with further peers", kTexts},
+                   {"calibrate", "whether peers are compared at our number of quads", kCalibrate},
+                   {"calibrate_to", "the word whose number that is", kText},
+                   {"metric", "measures that other programs take", "", metric_keys, true},
+                   {"solver", "finite elements that measure every mesh", kSolvers},
+                   {"correlate", "measures with others, within domains", "", correlate_keys},
+                   {"reference", "a file of published rows", kText},
+                   {"step_times", "whether tables have a column for each step's time", kFlag},
+                   {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},
+                   {"repeat_times", "how often all is run again for its time, in changing order",
+                    between("integer", 2, kMostRepetitions)},
+                   {"ratio", "of a measure between two pipelines", "", ratio_keys},
+                   {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
+                   // Its keys are those of cases, see whole_matrix_schema().
+                   {"matrix", "what varies", R"({"type": "object"})"},
+                   {"case", "what is meshed", "", experiment_case_keys, true}};
+  const TomlKeys of_cases = case_keys();
+  keys.insert(keys.end(), of_cases.begin(), of_cases.end());
+  return keys;
+}
+
+std::string experiment_schema() {
+  Json json = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Delquad experiment"}};
+  json.update(table_schema(experiment_keys()));
+  json["properties"]["matrix"] = whole_matrix_schema();
+  json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"linf_delaunay"}}}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace delquad

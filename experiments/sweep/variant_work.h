@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.h"
+#include "experiments/sweep/cells.h"
+#include "experiments/sweep/peer.h"
+#include "experiments/sweep/process_tree.h"
+#include "experiments/sweep/sweep_progress.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+
+/// A line on standard error, in one piece: several processes may speak at once.
+void say(const std::string& text);
+
+struct Cell {
+  const Word* word;
+  CellIdentity identity;
+  std::filesystem::path folder;
+  ReferenceCell reference = {};  ///< that a peer is calibrated to
+};
+
+bool is_done(const Cell& cell);
+
+/// A variant of a case with the cells that are to be made from it, in the process that works on it: each
+/// process has its own.
+struct VariantWork {
+  Case c;
+  std::filesystem::path folder;  ///< of the experiment
+  std::vector<Cell> cells;
+  SweepProgress* progress;
+  bool allow_unsound;
+  bool pictures;
+  std::optional<PreparedProblem> prepared;
+  MeshingState state;
+
+  /// Before the first stage.
+  void prepare();
+  /// After the last one: the cell's files, measured and in place.
+  void finish(const Cell& cell);
+  /// A cell whose process did not get to its end.
+  void fail(const Cell& cell, const ProcessFailure& why) const;
+  /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
+  /// interrupted: it is to be made yet.
+  void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const;
+
+ private:
+  void draw(const std::filesystem::path& folder_of_cell, const std::string& label,
+            const RunResult& result) const;
+};
+
+}  // namespace delquad

@@ -1,0 +1,159 @@
+#include "features/extrusion/layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/box.h"
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "features/extrusion/axis.h"
+#include "features/extrusion/moving_section.h"
+#include "features/extrusion/vertex_normals.h"
+
+namespace delquad {
+
+namespace {
+
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void require_layers(const Section& section, const SweepLayers& layers, long long number) {
+  if (number < 1) throw InputError(fmt::format("{} layers: expected at least 1", number));
+  const auto n_quads = static_cast<long long>(section.mesh.quads.size());
+  const auto n_points = static_cast<long long>(section.mesh.points.size());
+  if (number > layers.max_elements / n_quads)
+    throw InputError(
+        fmt::format("{} layers of {} quads are more than {} hexahedra, the most that are allowed", number,
+                    n_quads, layers.max_elements));
+  if ((number + 1) * n_points > std::numeric_limits<int>::max())
+    throw InputError(
+        fmt::format("{} layers of {} points are more points than can be numbered", number, n_points));
+}
+
+/// Fills in the points of `result`. `place_of`: a point's place in a layer of nodes.
+template <class PlaceOf>
+LayeredPoints make_points(const Section& section, LayeredPoints result, const PlaceOf& place_of) {
+  const std::vector<Vec3>& from = section.mesh.points;
+  const std::size_t n = from.size();
+  const std::size_t n_levels = static_cast<std::size_t>(result.n_layers) + (result.is_closed ? 0 : 1);
+  result.points.resize(n * n_levels);
+  parallel_for(n_levels, [&](std::size_t level) {
+    check_cancelled();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 p = place_of(i, level);
+      if (!is_finite(p))
+        throw InputError(fmt::format("the point at {} would go beyond all numbers", place(from[i])));
+      result.points[level * n + i] = p;
+    }
+  });
+  return result;
+}
+
+LayeredPoints along(const Section& section, const AlongVector& path, const SweepLayers& layers) {
+  if (!is_finite(path.shift) || !(norm(path.shift) > 0))
+    throw InputError(
+        fmt::format("the vector {}: expected finite numbers that are not all 0", place(path.shift)));
+  require_layers(section, layers, layers.number);
+  const std::vector<double> ends = layer_ends(layers.number, layers.growth);
+  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
+    return section.mesh.points[i] + ends[level] * path.shift;
+  });
+}
+
+LayeredPoints along(const Section& section, const AroundAxis& path, const SweepLayers& layers) {
+  constexpr double kFull = 360, kFewest = 3;
+  const double angle = std::abs(path.degrees);
+  if (!(angle > 0) || angle > kFull)
+    throw InputError(fmt::format("an angle of {} degrees: expected at most 360, and not 0", path.degrees));
+  if (!is_finite(path.point) || !is_finite(path.axis) || !(norm(path.axis) > 0))
+    throw InputError(
+        fmt::format("the axis through {} along {}: expected finite numbers, and a direction that is not 0",
+                    place(path.point), place(path.axis)));
+  require_layers(section, layers, layers.number);
+  const bool is_closed = angle == kFull;
+  if (is_closed && layers.number < kFewest)
+    throw InputError(fmt::format("{} layers around an axis: expected at least {}", layers.number, kFewest));
+  require_beside_axis(section, path.point, path.axis);
+  const std::vector<double> ends = layer_ends(layers.number, layers.growth);
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    if (constexpr double kHalf = 180; (ends[k] - ends[k - 1]) * angle >= kHalf)
+      throw InputError(fmt::format("layer {} would turn by {:.6g} degrees: expected less than 180", k,
+                                   (ends[k] - ends[k - 1]) * angle));
+  std::vector<Motion> turns;
+  for (const double end : ends)
+    turns.push_back({{}, end * path.degrees * std::numbers::pi / 180, path.point, path.axis});
+  return make_points(section, {{}, layers.number, is_closed, false}, [&](std::size_t i, std::size_t level) {
+    return level == 0 ? section.mesh.points[i] : turns[level](section.mesh.points[i]);
+  });
+}
+
+LayeredPoints along(const Section& section, const AlongCurve& path, const SweepLayers& layers) {
+  std::vector<Vec3> line = path.points;
+  for (const Vec3& p : line)
+    if (!is_finite(p)) throw InputError("the curve has a point that is not finite");
+  if (layers.number == 0 && layers.growth != 1)
+    throw InputError(
+        "growth along a curve needs a number of layers: without one they end at the curve's points");
+  check_open_line(line);
+  if (layers.number != 0) {
+    require_layers(section, layers, layers.number);
+    line = points_at_lengths(line, layer_ends(layers.number, layers.growth));
+  }
+  require_layers(section, layers, static_cast<long long>(line.size()) - 1);
+  const int n_layers = static_cast<int>(line.size()) - 1;
+  const MovingSection moving(std::move(line));
+  return make_points(section, {{}, n_layers, false, false}, [&](std::size_t i, std::size_t level) {
+    const Vec3& p = section.mesh.points[i];
+    return level == 0 ? p : moving.place(p, level);
+  });
+}
+
+LayeredPoints along(const Section& section, const AlongNormals& path, const SweepLayers& layers) {
+  if (!std::isfinite(path.thickness) || path.thickness == 0)
+    throw InputError(
+        fmt::format("a thickness of {}: expected a finite number that is not 0", path.thickness));
+  require_layers(section, layers, layers.number);
+  const std::vector<double> ends = layer_ends(layers.number, layers.growth);
+  const std::vector<Vec3> directions = offset_directions(section);
+  const double start = path.both_sides ? -0.5 : 0;
+  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
+    return section.mesh.points[i] + (start + ends[level]) * path.thickness * directions[i];
+  });
+}
+
+}  // namespace
+
+std::vector<double> layer_ends(int number, double growth) {
+  if (!(growth > 0) || !std::isfinite(growth))
+    throw InputError(fmt::format("a growth of {}: expected a finite number > 0", growth));
+  std::vector<double> ends(static_cast<std::size_t>(number) + 1, 0);
+  // From the thinner end, where sums lose nothing.
+  const bool shrinks = growth < 1;
+  const double factor = shrinks ? 1 / growth : growth;
+  double height = 1;
+  for (int k = 1; k <= number; ++k, height *= factor) ends[k] = ends[k - 1] + height;
+  const double total = ends[number];
+  for (double& end : ends) end /= total;
+  if (shrinks) {
+    std::reverse(ends.begin(), ends.end());
+    for (double& end : ends) end = 1 - end;
+  }
+  ends[0] = 0;
+  ends[number] = 1;
+  for (int k = 1; k <= number; ++k)
+    if (!(ends[k] > ends[k - 1]))
+      throw InputError(fmt::format("a growth of {} makes some of {} layers thinner than numbers can tell",
+                                   growth, number));
+  return ends;
+}
+
+LayeredPoints place_layers(const Section& section, const SweepPath& path, const SweepLayers& layers) {
+  return std::visit([&](const auto& kind) { return along(section, kind, layers); }, path);
+}
+
+}  // namespace delquad

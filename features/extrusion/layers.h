@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "features/extrusion/section.h"
+
+namespace delquad {
+
+/// The section's points, once for each layer of nodes, which follow each other.
+struct LayeredPoints {
+  std::vector<Vec3> points;
+  int n_layers = 0;          ///< of hexahedra
+  bool is_closed = false;    ///< above the last layer of nodes comes the first one
+  bool is_straight = false;  ///< each point of the section moves along a straight line
+};
+
+/// Where layers end, from 0 to 1: each is `growth` times as high as the one before.
+std::vector<double> layer_ends(int number, double growth);
+
+/// Throws InputError that says what was expected.
+LayeredPoints place_layers(const Section& section, const SweepPath& path, const SweepLayers& layers);
+
+}  // namespace delquad

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "features/layers/layer_chains.h"
+
+namespace delquad {
+
+/// Nodes above a point of a chain, one for each layer.
+struct LayerColumn {
+  int at;            ///< the point's place in its chain
+  int point;         ///< of the patch
+  Vec2 direction;    ///< from a node at height h to the point: h * direction; not of unit length
+  int wall = -1;     ///< the wall that the nodes lie on, instead of along the direction
+  int end = 0;       ///< of the wall
+  double slant = 1;  ///< length along the wall by height
+};
+
+/// A node of a chain's columns; layer 0: the point that they stand on.
+struct ColumnNode {
+  int column, layer;
+};
+
+/// How a chain runs through one of its points.
+struct ChainCorner {
+  enum Kind { kSmooth, kMitre, kFan, kOnWall, kFanToWall, kOpenEnd };
+  Kind kind = kSmooth;
+  double angle = 0;  ///< inside of the boundary
+  Vec2 in, out;      ///< unit tangents of the edges before and after; at an end both are of its edge
+  int quads = 0;     ///< of a fan, in the first layer
+};
+
+/// The columns of all chains of a patch, for given scales of their heights.
+class LayerColumns {
+ public:
+  LayerColumns(const PatchBoundary& patch, const LayerChains& found, std::span<const LayerSpec> specs,
+               const std::vector<std::vector<double>>& heights);
+
+  int n_chains() const { return static_cast<int>(found_.chains.size()); }
+  const LayerChains& found() const { return found_; }
+  const LayerChain& chain(int c) const { return found_.chains[c]; }
+  const ChainCorner& corner(int c, int k) const { return corners_[c][k]; }
+  /// Layers on the edge from a point, and at a point: the more of those at its edges.
+  int layers_on(int c, int k) const { return n_of(chain(c).spec[k]); }
+  int layers_at(int c, int k) const;
+  /// Of two columns side by side.
+  int layers_between(int c, int a, int b) const;
+  Vec2 foot(int c, int k) const { return patch_.points[chain(c).points[k]]; }
+  /// Lengths of the edges at a point; at an end both are of its edge.
+  std::array<double, 2> edges_at(int c, int k) const;
+
+  /// What the heights at each point of each chain are multiplied by.
+  std::vector<std::vector<double>> scales;
+  /// Of a node above a point.
+  double height(int c, int k, int layer) const;
+  double thickness(int c, int k) const { return height(c, k, layers_at(c, k)); }
+
+  /// The walls of other patches' layers, to know them by their places in found().walls.
+  LayerWall& wall(int w) { return found_.walls[w]; }
+  /// Length along the wall by height, at an end of an open chain.
+  double slant(int c, int end) const { return slants_[c][end]; }
+  /// An end gets the mean heights of its own layer and these, and this slant.
+  void join_end(int c, int end, std::vector<int> others, double slant);
+  /// To be called once the scales have changed.
+  void place();
+  const std::vector<LayerColumn>& columns(int c) const { return columns_[c]; }
+  Vec2 point(int c, const LayerColumn& column, double height) const;
+  Vec2 node(int c, ColumnNode node) const {
+    const LayerColumn& column = columns_[c][node.column];
+    return point(c, column, height(c, column.at, node.layer));
+  }
+
+  /// Calls visit(a, b) for columns side by side, in the order of the chain.
+  template <class Visit>
+  void for_each_pair(int c, Visit visit) const {
+    const int n = static_cast<int>(columns_[c].size());
+    for (int a = 0; a + 1 < n; ++a) visit(a, a + 1);
+    if (chain(c).is_closed) visit(n - 1, 0);
+  }
+  /// Calls visit(array of four ColumnNode), counterclockwise, layer by layer of each pair of columns. At the
+  /// corner of a fan the first layer has quads of three columns each.
+  template <class Visit>
+  void for_each_quad(int c, Visit visit) const {
+    for_each_pair(c, [&](int a, int b) {
+      const bool in_fan = columns_[c][a].point == columns_[c][b].point;
+      for (int i = in_fan ? 2 : 1, n = layers_between(c, a, b); i <= n; ++i)
+        visit(std::array<ColumnNode, 4>{{{a, i - 1}, {b, i - 1}, {b, i}, {a, i}}});
+    });
+    const int n = static_cast<int>(columns_[c].size());
+    for (int first = 0; first < n;) {
+      int last = first;
+      while (last + 1 < n && columns_[c][last + 1].point == columns_[c][first].point) ++last;
+      for (int a = first; a < last; a += 2)
+        visit(std::array<ColumnNode, 4>{{{a, 0}, {a + 2, 1}, {a + 1, 1}, {a, 1}}});
+      first = last + 1;
+    }
+  }
+
+ private:
+  void set_corner(int c, int k, std::span<const LayerSpec> specs);
+  int n_of(int spec) const { return static_cast<int>(heights_[spec].size()); }
+  void set_end(ChainCorner& corner, int c, int end);
+  int fan_quads(double turn, int c, int k) const;
+  void add_columns(int c, int k, double lean);
+  void add_fan_to_wall(int c, int k);
+  std::vector<double> leans(int c) const;
+  void lean_beside(int c, int k, bool forward, std::vector<double>& leans) const;
+  double lean_of(int c, int k, bool forward) const;
+  LayerColumn on_wall(int c, int k) const;
+
+  const PatchBoundary& patch_;
+  LayerChains found_;
+  const std::vector<std::vector<double>>& heights_;
+  std::vector<std::vector<ChainCorner>> corners_;
+  std::vector<std::array<double, 2>> slants_;            ///< of chains' ends
+  std::vector<std::array<std::vector<int>, 2>> joined_;  ///< layers of others that share the end
+  std::vector<std::vector<LayerColumn>> columns_;
+};
+
+}  // namespace delquad

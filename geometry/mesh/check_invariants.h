@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "geometry/mesh/half_edges.h"
+
+namespace delquad {
+
+/// check_invariants() of meshes of branching surfaces: on edges of the marked curves (by index) any number of
+/// elements may meet.
+std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching);
+/// The same of a mesh whose indices are in range, with its sorted_half_edges().
+std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
+                                          std::span<const HalfEdge> sides);
+
+}  // namespace delquad

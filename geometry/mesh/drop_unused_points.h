@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "geometry/mesh/renumber_nodes.h"
+
+namespace delquad {
+
+/// Takes out the points that no element uses, and their names; the others keep their order. Returns how many
+/// went.
+inline int drop_unused_points(Mesh& mesh) {
+  std::vector<int> index(mesh.points.size(), -1);
+  const auto each_vertex = [&](auto&& visit) {
+    for (auto& e : mesh.lines) std::for_each(e.begin(), e.end(), visit);
+    for (auto& e : mesh.triangles) std::for_each(e.begin(), e.end(), visit);
+    for (auto& e : mesh.quads) std::for_each(e.begin(), e.end(), visit);
+    for (auto* nodes : {&mesh.line_nodes, &mesh.quad_nodes})
+      std::for_each(nodes->begin(), nodes->end(), visit);
+  };
+  each_vertex([&](int v) { index[v] = 0; });
+  int kept = 0;
+  for (size_t i = 0; i < index.size(); ++i) {
+    if (index[i] < 0) continue;
+    mesh.points[kept] = mesh.points[i];
+    index[i] = kept++;
+  }
+  mesh.points.resize(kept);
+  renumber_nodes(mesh, index);
+  each_vertex([&](int& v) { v = index[v]; });
+  return static_cast<int>(index.size()) - kept;
+}
+
+}  // namespace delquad

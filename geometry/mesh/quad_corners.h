@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "delquad/mesh.h"
+#include "geometry/mesh/quad_topology.h"
+
+namespace delquad {
+
+/// A side shorter than this counts as this long: no division by 0.
+inline constexpr double kTinyLength = 1e-300;
+
+/// Normal of a quad from its diagonals; of no use in the plane.
+inline Vec2 quad_normal(Vec2, Vec2) { return {}; }
+inline Vec3 quad_normal(const Vec3& first, const Vec3& second) { return cross(first, second); }
+
+/// A corner between unit vectors, the side that comes in and the one that goes out.
+template <class Vec>
+struct QuadCorner;
+
+template <>
+struct QuadCorner<Vec2> {
+  QuadCorner(Vec2 in, Vec2 out, Vec2 /*normal*/) : sine(cross(in, out)) {}
+  /// A vector turned by 90 degrees in the corner's plane.
+  Vec2 quarter_turn(Vec2 v) const { return perp(v); }
+  double sine;  ///< negative where the corner turns against the normal
+};
+
+template <>
+struct QuadCorner<Vec3> {
+  QuadCorner(const Vec3& in, const Vec3& out, const Vec3& normal) : turn(cross(in, out)) {
+    sine = std::copysign(norm(turn), dot(turn, normal));
+  }
+  Vec3 quarter_turn(const Vec3& v) const { return cross((1 / sine) * turn, v); }
+  Vec3 turn;
+  double sine;
+};
+
+/// Of a quad, by the sine of its worst corner: eta is 1 for 90 degrees, 0 for 0 and for 180, and negative
+/// where the corner is reflex. A sine beyond +-1, by rounding, counts as that.
+inline double eta_of_sine(double sine) {
+  return 2 / std::numbers::pi * std::asin(std::clamp(sine, -1.0, 1.0));
+}
+inline double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi / 2); }
+
+/// A corner of a smaller angle (radians) takes one quad only: of two that share it evenly each would have an
+/// eta below 0.1, half of the angle over 90 degrees.
+inline constexpr double kLeastSharedAngle = 18 * std::numbers::pi / 180;
+
+/// How many quads best share an angle of the boundary that is so many right angles wide.
+inline int ideal_quads(double right_angles) {
+  return std::max(1, static_cast<int>(std::lround(right_angles)));
+}
+
+/// Inner sides shorter than this part of delta, or of the element's longest side, are too short: their ends
+/// nearly coincide, which no angle tells. Stages keep sides a quarter longer, for they know delta at vertices
+/// only.
+inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
+
+/// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
+std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
+/// The least of them.
+double least_sine(const QuadTopology& mesh, int element);
+
+/// Sines of a quad's corners.
+template <class Vec>
+std::array<double, 4> corner_sines(const std::array<Vec, 4>& at) {
+  const Vec normal = quad_normal(at[2] - at[0], at[3] - at[1]);
+  std::array<Vec, 4> side;
+  for (int k = 0; k < 4; ++k) {
+    side[k] = at[(k + 1) % 4] - at[k];
+    side[k] = (1 / std::max(norm(side[k]), kTinyLength)) * side[k];
+  }
+  std::array<double, 4> sines;
+  for (int k = 0; k < 4; ++k) sines[k] = QuadCorner<Vec>(side[(k + 3) % 4], side[k], normal).sine;
+  return sines;
+}
+
+}  // namespace delquad

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/matching/matching.h"
+#include "geometry/planar/planar_model.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// A piece of a curve between two corners, as a polyline of fine points from end to end; a closed curve with
+/// one corner at most is one piece, which ends where it begins.
+struct CurveChain {
+  int curve = -1;  ///< index into Mesh::curves
+  std::vector<int> points;
+  bool closed() const { return points.front() == points.back(); }
+};
+
+/// The pieces of all curves, in the curves' order. Throws InputError where the lines of a curve do not form
+/// one chain.
+std::vector<CurveChain> curve_chains(const SurfaceModel& model);
+
+/// How many edges a curve wants and must have.
+struct CurveDemand {
+  double integral = 0;  ///< of ds/delta along it
+  int minimum = 1;
+  std::vector<int> patches;  ///< that it bounds; a seam names its patch twice
+  int exact = 0;             ///< where their number is given; 0: it is free
+};
+
+/// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
+/// them. The curves to change by one are a minimum-weight T-join over patches and curves (odd patches are the
+/// terminals; the curves of the outline lead to an outside whose parity is free), weighted by |log((n +- 1) /
+/// integral)|. Curves at which more than two patches meet are changed before, where the others cannot do it
+/// alone. `odd_patches` receives the patches for which there is none.
+std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
+                             const MatchingSolver& solver, std::vector<int>& odd_patches);
+
+/// A node on a curve: at `s` in [0, number of lines], the fine line's index plus the fraction along it.
+struct CurveNode {
+  double s;
+  int node;  ///< in SurfaceNodes::points
+};
+
+struct SurfaceNodes {
+  std::vector<Vec3> points;
+  std::vector<std::vector<CurveNode>> on_curve;  ///< of each curve, ascending in s, both ends included
+};
+
+/// Integral of ds/delta along a curve, tabulated from its beginning to its end.
+struct SizeIntegral {
+  struct Entry {
+    double s;         ///< as in CurveNode
+    double integral;  ///< from the beginning to s
+  };
+  std::vector<Entry> entries;
+  double total() const { return entries.back().integral; }
+  /// Where the integral reaches this part of the total, and the other way round.
+  double s_at(double part) const;
+  double part_at(double s) const;
+};
+
+/// The size at x = (1 - t) a + t b of two fine points that are neighbours on a curve.
+using SizeOnLine = std::function<double(int a, int b, double t, const Vec3& x, int& hint)>;
+
+/// Two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if any): what the
+/// size may be at most at each point of the chain, linear between them.
+SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
+                           std::span<const double> limits = {});
+
+/// Places along each curve, ascending, both ends included, in edges from its beginning: the k-th is k where
+/// all edges are of equal integral.
+using CurvePlaces = std::vector<std::vector<double>>;
+CurvePlaces equal_places(const std::vector<int>& counts);
+
+/// Places nodes and projects them to the curves, or to the faces that cuts run through
+/// (`cut_face`: of each curve, -1 where it is no cut); ends of curves that meet share their node.
+SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
+                         const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
+                         const CurvePlaces& places);
+
+/// The place in space of a node at `s`, as in CurveNode.
+Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
+                    double s);
+
+}  // namespace delquad

@@ -1,0 +1,218 @@
+#include "patches/surface_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "patches/divided_chains.h"
+#include "patches/narrow_places.h"
+#include "patches/tube_sizes.h"
+
+namespace delquad {
+
+namespace {
+
+/// A cut to the tip of a cone has a node besides its ends.
+constexpr int kFewestTipEdges = 2;
+/// Curves shorter than this part of the size are warned of.
+constexpr double kShort = 0.5;
+
+/// What tubes allow at each point of each curve; empty for curves that bound none.
+std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
+  std::vector<std::vector<double>> limits(curves.chains.size());
+  for (size_t p = 0; p < curves.maps.size(); ++p) {
+    if (curves.tube_sizes[p].empty()) continue;
+    for (const auto& loop : curves.outlines[p])
+      for (const CurveSide& side : loop) {
+        auto& of_chain = limits[side.chain];
+        of_chain.resize(curves.chains[side.chain].points.size(), std::numeric_limits<double>::max());
+        const auto [first, second] =
+            std::pair(side.forward ? side.from : side.to, side.forward ? side.to : side.from);
+        of_chain[side.line] = std::min(of_chain[side.line], curves.tube_sizes[p][first]);
+        of_chain[side.line + 1] = std::min(of_chain[side.line + 1], curves.tube_sizes[p][second]);
+      }
+  }
+  return limits;
+}
+
+/// The angle by which a chain turns at each of its points, its ends as the points beside them by half.
+std::vector<double> turns_along(const Mesh& fine, const CurveChain& chain) {
+  const std::size_t last = chain.points.size() - 1;
+  std::vector<double> turns(last + 1, 0);
+  const auto at = [&](std::size_t i) { return fine.points[chain.points[i]]; };
+  for (std::size_t i = 1; i < last; ++i) turns[i] = angle_between(at(i) - at(i - 1), at(i + 1) - at(i));
+  turns[0] = turns[1] / 2, turns[last] = turns[last - 1] / 2;
+  return turns;
+}
+
+/// Chains that turn by more than an edge may have so many edges, and more where they turn most. Kinks, which
+/// turn by more between two fine lines, do not count.
+void demand_turns(const Mesh& fine, const CurveChain& chain, double edge_turn, std::vector<double>& limits,
+                  CurveDemand& demand) {
+  if (!(edge_turn > 0) || chain.points.size() < 3) return;
+  std::vector<double> turns = turns_along(fine, chain);
+  for (double& turn : turns)
+    if (turn > edge_turn) turn = 0;
+  const double all = std::accumulate(turns.begin(), turns.end(), 0.0);
+  demand.minimum = std::max(demand.minimum, static_cast<int>(std::lround(all / edge_turn)));
+  if (all < edge_turn) return;
+  limits.resize(turns.size(), std::numeric_limits<double>::max());
+  const auto length = [&](std::size_t i) {
+    return norm(fine.points[chain.points[i + 1]] - fine.points[chain.points[i]]);
+  };
+  for (std::size_t i = 1; i + 1 < turns.size(); ++i)
+    if (turns[i] > 0) limits[i] = std::min(limits[i], edge_turn / turns[i] * (length(i - 1) + length(i)) / 2);
+}
+
+/// The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
+void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDemand>& demands) {
+  std::vector<std::map<int, int>> sharp_ends(curves.chains.size());  // of each curve, by patch
+  for (const FaceCorner& corner : curves.corners)
+    if (corner.is_tip() && curves.is_embedded[curves.chains[corner.after].curve])
+      continue;
+    else if (corner.is_tip())
+      demands[corner.after].minimum = std::max(demands[corner.after].minimum, kFewestTipEdges);
+    else if (corner.angle < kOneQuadAngle)
+      ++sharp_ends[corner.before][corner.patch], ++sharp_ends[corner.after][corner.patch];
+  for (size_t c = 0; c < curves.chains.size(); ++c)
+    for (const auto& [patch, ends] : sharp_ends[c])
+      demands[c].minimum = std::max(demands[c].minimum, 1 + ends);
+}
+
+/// Of curves between the same two ends, one at most may be a single edge; closed ones need a loop of quads.
+void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vector<SizeIntegral>& integrals,
+                           std::vector<CurveDemand>& demands) {
+  std::map<std::pair<int, int>, size_t> single;
+  for (size_t c = 0; c < chains.size(); ++c) {
+    if (chains[c].closed()) {
+      if (demands[c].patches.size() == 2) demands[c].minimum = std::max(demands[c].minimum, kFewestLoopEdges);
+      continue;
+    }
+    const auto ends = std::minmax(chains[c].points.front(), chains[c].points.back());
+    const auto [it, first] = single.try_emplace(ends, c);
+    if (first) continue;
+    size_t longer = c;
+    if (integrals[it->second].total() > integrals[c].total()) std::swap(longer, it->second);
+    demands[longer].minimum = std::max(demands[longer].minimum, 2);
+  }
+}
+
+/// Curves that face a divided one want as many edges.
+void demand_division(CurveDemands& wanted) {
+  std::map<int, int> of_group;
+  for (std::size_t c = 0; c < wanted.divided.size(); ++c) {
+    if (wanted.divided[c].empty()) continue;
+    wanted.demands[c].exact = static_cast<int>(wanted.divided[c].size()) - 1;
+    of_group.try_emplace(wanted.group[c], wanted.demands[c].exact);
+  }
+  for (std::size_t c = 0; c < wanted.demands.size(); ++c)
+    if (const auto at = of_group.find(wanted.group[c]); at != of_group.end())
+      wanted.demands[c].integral = at->second;
+}
+
+}  // namespace
+
+SizeOnLine size_on_lines(const SurfaceSize& size) {
+  return [&size](int a, int b, double t, const Vec3& x, int& hint) {
+    return size.on_fine(std::array{a, b}, std::array{1 - t, t}, x, hint);
+  };
+}
+
+std::string face_name(const Mesh& fine, const FlatPatch& map) {
+  return fmt::format("face {}", fine.regions[map.face].tag);
+}
+
+void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
+                    const std::function<void(std::size_t)>& work) {
+  parallel_for(
+      maps.size(),
+      [&](std::size_t p) {
+        const DoingFace face(fine.regions[maps[p].face].tag);
+        work(p);
+      },
+      [&](std::size_t p) { return static_cast<double>(maps[p].flat.points.size()); });
+}
+
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                          const PeriodicSides& periodic) {
+  const Mesh& fine = model.fine;
+  SurfaceCurves curves;
+  curves.maps = std::move(flattening.patches);
+  curves.cut_face.assign(fine.curves.size(), -1);
+  for (const SurfaceCut& cut : flattening.cuts) curves.cut_face[cut.curve] = cut.face;
+  curves.is_embedded.assign(fine.curves.size(), 0);
+  for (const EmbeddedCurve& embedded : model.embedded) curves.is_embedded[embedded.curve] = 1;
+  curves.chains = curve_chains(model);
+  curves.images = pair_chains(model, curves.chains, curves.cut_face, periodic);
+  const LineIndex lines(curves.chains);
+  for (const FlatPatch& map : curves.maps)
+    curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
+  curves.corners = face_corners(fine, curves.chains, curves.maps, curves.outlines);
+  curves.tube_sizes = tube_sizes(fine, curves.chains, curves.maps, curves.outlines, size);
+  return curves;
+}
+
+CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
+                            const SurfaceSize& size, const SizeField& asked,
+                            const std::vector<CurveDivision>& divisions) {
+  const std::vector<CurveChain>& chains = curves.chains;
+  std::vector<std::vector<double>> limits = limits_on_curves(curves);
+  CurveDemands wanted;
+  const SizeOnLine delta = size_on_lines(size);
+  const SizeOnLine delta_asked = [&](int, int, double, const Vec3& x, int& hint) {
+    return asked.at(x, hint);
+  };
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    CurveDemand demand{0, chains[c].closed() ? 3 : 1, {}};
+    demand_turns(fine, chains[c], size.edge_turn(), limits[c], demand);
+    wanted.integrals.push_back(size_integral(fine, chains[c], delta, limits[c]));
+    const double total = demand.integral = wanted.integrals.back().total();
+    const bool same = limits[c].empty() && &asked == static_cast<const SizeField*>(&size);
+    wanted.lengths.push_back(same ? total : size_integral(fine, chains[c], delta_asked).total());
+    wanted.demands.push_back(std::move(demand));
+  }
+  for (std::size_t p = 0; p < curves.maps.size(); ++p)
+    for (const auto& loop : curves.outlines[p])
+      for (const CurveSide& side : loop)
+        if (side.begins(chains[side.chain]))
+          wanted.demands[side.chain].patches.push_back(static_cast<int>(p));
+  // The curves of a strip want the mean of what each wants alone.
+  wanted.group = group_facing_curves(fine, chains, across, delta);
+  std::vector<double> sum(chains.size(), 0), members(chains.size(), 0);
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    sum[wanted.group[c]] += std::log(wanted.demands[c].integral), ++members[wanted.group[c]];
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
+  wanted.divided = divide_chains(fine, chains, divisions);
+  for (const ChainPair& pair : curves.images.pairs)
+    if (!wanted.divided[pair.chain].empty())
+      throw InputError(
+          fmt::format("curve {} is divided and gets the nodes of curve {}: expected the latter to be "
+                      "divided",
+                      fine.curves[chains[pair.chain].curve].tag, fine.curves[chains[pair.master].curve].tag));
+  demand_division(wanted);
+  demand_edges_at_corners(curves, wanted.demands);
+  demand_edges_of_loops(chains, wanted.integrals, wanted.demands);
+  return wanted;
+}
+
+std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                          const CurveDemands& wanted) {
+  std::vector<Warning> warnings;
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    if (const double length = wanted.lengths[c]; length < kShort)
+      warnings.push_back({fmt::format("curves shorter than {:g} times the size", kShort), 1 / length,
+                          fmt::format("curve {} is {:.2g} times the size long: it gets {} edge(s)",
+                                      fine.curves[chains[c].curve].tag, length, wanted.demands[c].minimum)});
+  return warnings;
+}
+
+}  // namespace delquad

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "fields/surface/surface_size.h"
+#include "geometry/surface/flatten.h"
+#include "geometry/surface/surface_model.h"
+#include "patches/across_view.h"
+#include "patches/curve_nodes.h"
+#include "patches/face_corners.h"
+#include "patches/patch_outline.h"
+#include "patches/periodic_chains.h"
+
+namespace delquad {
+
+/// A boundary loop of quads needs four edges to enclose an area.
+inline constexpr int kFewestLoopEdges = 4;
+
+/// The curves of a flattened model and how they bound its patches: all that stays while they get their edges.
+struct SurfaceCurves {
+  std::vector<FlatPatch> maps;
+  std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
+  std::vector<char> is_embedded;  ///< of each curve of the model
+  std::vector<CurveChain> chains;
+  ChainPairs images;                   ///< of them
+  std::vector<PatchOutline> outlines;  ///< of each map
+  std::vector<FaceCorner> corners;
+  std::vector<std::vector<double>> tube_sizes;  ///< at the vertices of each map
+};
+
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
+                          const PeriodicSides& periodic);
+
+/// How many edges curves want and must have, by chain.
+struct CurveDemands {
+  std::vector<SizeIntegral> integrals;
+  std::vector<double> lengths;  ///< in sizes as asked
+  std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
+  std::vector<CurveDemand> demands;
+  std::vector<std::vector<double>> divided;  ///< see divide_chains()
+};
+
+/// `size` outlives it.
+SizeOnLine size_on_lines(const SurfaceSize& size);
+
+/// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
+CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
+                            const SurfaceSize& size, const SizeField& asked,
+                            const std::vector<CurveDivision>& divisions);
+
+/// One for each curve that is much shorter than the size.
+std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                          const CurveDemands& wanted);
+
+std::string face_name(const Mesh& fine, const FlatPatch& map);
+
+/// Calls work(patch), in parallel.
+void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
+                    const std::function<void(std::size_t)>& work);
+
+}  // namespace delquad

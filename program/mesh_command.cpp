@@ -1,0 +1,263 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+#include "base/activity.h"
+#include "base/context.h"
+#include "base/length_unit.h"
+#include "base/located.h"
+#include "base/stopwatch.h"
+#include "cases/case_file.h"
+#include "cases/problem.h"
+#include "cases/size_file.h"
+#include "cases/surface_spec.h"
+#include "delquad/error.h"
+#include "experiments/console/interrupt.h"
+#include "experiments/console/progress.h"
+#include "experiments/sweep/record.h"
+#include "io/mesh_io.h"
+#include "mesher/check_problem.h"
+#include "mesher/runner.h"
+#include "program/check_files.h"
+#include "program/commands.h"
+#include "program/print_metrics.h"
+#include "program/print_surface_report.h"
+
+namespace delquad {
+namespace {
+
+void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
+  const auto given = [&](const char* option) { return surface.where = option; };
+  if (!arguments.compound.empty()) {
+    surface.compounds = parse_compounds(arguments.compound, given("--compound"));
+    surface.groups.clear();
+  }
+  if (arguments.feature_angle)
+    surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
+  if (arguments.ignore_below) {
+    if (!(*arguments.ignore_below > 0) || !std::isfinite(*arguments.ignore_below))
+      throw InputError(fmt::format("--ignore-below {}: expected a length > 0", *arguments.ignore_below));
+    given("--ignore-below");
+    surface.ignore_below = *arguments.ignore_below;
+  }
+  if (arguments.glue) {
+    given("--glue");
+    surface.glue = true;
+  }
+  if (!arguments.unit.empty())
+    surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
+  if (arguments.weld_tolerance)
+    surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
+}
+
+/// What "NAME=SIZE" says.
+NamedSize named_size(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  const auto size = at == std::string::npos ? std::nullopt : as_number(text.substr(at + 1));
+  if (!size || !(*size > 0) || !std::isfinite(*size) || at == 0)
+    throw InputError("--size-on '" + text + "': expected NAME=SIZE with a size above 0, such as inlet=0.5");
+  return {.name = text.substr(0, at), .size = *size, .where = "--size-on " + text};
+}
+
+void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
+  if (arguments.mapped.empty()) return;
+  if (std::ranges::find(arguments.mapped, "") != arguments.mapped.end())
+    throw InputError("--mapped '': expected the name of a region, or auto");
+  mapped = {arguments.mapped, false, "--mapped", {}};
+  mapped.automatic = std::erase(mapped.names, "auto") > 0;
+}
+
+/// The model's sizes, with what the command line says in their place.
+SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
+  if (arguments.size) {
+    if (arguments.size->empty())
+      throw InputError("--size: the size is empty: expected a number, an expression, a file or 'boundary'");
+    size = {};
+    size.base = *arguments.size;
+    size.where = "--size";
+  }
+  const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
+                                              {arguments.min, &size.min},
+                                              {arguments.max, &size.max},
+                                              {arguments.gradation, &size.gradation}};
+  for (const auto& [value, target] : given) {
+    if (!(value > 0)) continue;
+    *target = value;
+    if (size.where.empty()) size.where = "command line";
+  }
+  for (const std::string& text : arguments.size_on) size.named.push_back(named_size(text));
+  if (size.where.empty() && !size.named.empty()) size.where = "--size-on";
+  check_size_limits(size.curvature, size.min, size.max, size.where);
+  return size;
+}
+
+/// Returns the exit code.
+int tell_what_is_missing(const RunResult& result, const Word& word, bool quads_wanted) {
+  for (const FaceFailure& failure : result.failures)
+    fmt::print(stderr, "error: left out: {}\n", failure.reason);
+  if (!result.failures.empty()) return kFacesLeftOut;
+  if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
+  const std::size_t n = result.mesh.triangles.size();
+  fmt::print(stderr,
+             "error: {} {} left among the quads of what was written (--allow-triangles accepts them{})\n", n,
+             n == 1 ? "triangle is" : "triangles are",
+             word.stages.front()->from != PatchForm::kQuads
+                 ? ""
+                 : "; a word that begins with B, such as BCO, merges triangles");
+  return kTrianglesLeft;
+}
+
+/// A value as it is written in TOML, texts without quotes.
+OptionValue value_of(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  const char *end = text.data() + text.size(), *begin = text.data();
+  if (long long whole = 0; std::from_chars(begin, end, whole) == std::from_chars_result{end, {}})
+    return whole;
+  if (double number = 0; std::from_chars(begin, end, number) == std::from_chars_result{end, {}})
+    return number;
+  return text;
+}
+
+void set_options(const MeshArguments& arguments, Options& options) {
+  if (arguments.min_angle) options.set("limits.min_angle", *arguments.min_angle);
+  if (arguments.max_aspect) options.set("limits.max_aspect", *arguments.max_aspect);
+  for (const std::string& text : arguments.set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(
+          fmt::format("--set '{}': expected OPTION=VALUE, such as regularity.tolerance=5", text));
+    try {
+      options.set(text.substr(0, equals), value_of(text.substr(equals + 1)));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--set: {}", error.what()));
+    }
+  }
+}
+
+/// The text of the word that is asked for; `given`: of what is to be improved.
+std::string word_of(const MeshArguments& arguments, const std::optional<Mesh>& given) {
+  if (arguments.pipeline) return *arguments.pipeline;
+  if (given) return given->quads.empty() ? "BCO" : "CO";
+  return quality_named(arguments.quality).word;
+}
+
+Case read_case(const MeshArguments& arguments) {
+  if (arguments.improve) {
+    Case c;
+    c.name = arguments.model.stem().string();
+    c.where = c.mesh_file = arguments.model;
+    c.start = true;
+    return c;
+  }
+  Case c = read_model_case(arguments.model);
+  if (!arguments.pipeline && c.cross.where.empty())
+    c.cross.text = text_of(quality_named(arguments.quality).cross);
+  return c;
+}
+
+void print_before(const std::string& file, const Mesh& mesh, const PreparedProblem& prepared) {
+  fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
+             mesh.points.size());
+  print_metrics(evaluate_metrics(mesh, prepared.size.get(), prepared.given_size.get(), prepared.options));
+}
+
+/// `seconds`: on the clock, of the whole command.
+void print_after(const std::string& file, const PreparedProblem& prepared, const RunResult& result,
+                 double seconds) {
+  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
+             result.mesh.triangles.size(), result.mesh.points.size(), seconds);
+  print_metrics(result.metrics);
+  if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
+    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
+               layers.columns);
+  const Summaries& log = result.log.summaries;
+  if (log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
+    fmt::print("  across cuts: {} irregular vertices before{}\n",
+               log.number("across_cuts", "irregular_before"),
+               log.number("across_cuts", "taken") > 0
+                   ? ""
+                   : ", and after: with other cuts there were no fewer, or eta or tau were worse");
+  if (log.has("grids"))
+    fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
+               log.number("grids", "asked"), log.number("grids", "quads"));
+  if (!prepared.size_adapted_to.empty())
+    fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
+               fmt::join(prepared.size_adapted_to, " and "));
+  for (const auto& [at, n] : prepared.symmetry)
+    fmt::print("  symmetry: plane through ({:.6g}, {:.6g}, {:.6g}), normal ({:.6g}, {:.6g}, {:.6g})\n", at.x,
+               at.y, at.z, n.x, n.y, n.z);
+  print_seconds(prepared, result.log);
+  if (result.surface) print_surface_report(prepared, *result.surface);
+}
+
+}  // namespace
+
+int mesh_command(const MeshArguments& arguments) {
+  const Stopwatch command;
+  const RunScope run({.threads = arguments.threads});
+  check_mesh_format(arguments.output, arguments.msh);
+  std::optional<Mesh> given;
+  if (arguments.improve) given = read_mesh(arguments.model);
+  const std::string text = word_of(arguments, given);
+  parse_word(text, WordStart::kGivenMesh);  // before anything is read
+  Case c = read_case(arguments);
+  const Word word = parse_word(text, word_start(c));
+  c.max_elements = arguments.max_elements;
+  c.keep_going = arguments.keep_going;
+  c.size = with_arguments(std::move(c.size), arguments);
+  if (arguments.order) c.order = *arguments.order;
+  check_mesh_format(arguments.output, arguments.msh, c.order);
+  if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
+  set_mapped(arguments, c.mapped);
+  set_options(arguments, c.options);
+  const auto size_file = size_file_of(c.size.base, c.size.folder);
+  set_surface(arguments, c.surface);
+  if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
+  check_distinct(
+      {{"the model", arguments.model},
+       {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},
+       {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
+       {"-o", arguments.output},
+       {"--json", arguments.json}});
+  check_output(arguments.output);
+  if (!arguments.json.empty()) check_output(arguments.json);
+
+  Progress progress(2 + static_cast<int>(word.stages.size()));
+  progress.step(c.name + ": boundary and fields");
+  PreparedProblem prepared = prepare_case(c);
+  progress.warn(prepared.warnings);
+  RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
+    progress.step(c.name + " " + word.text + ": " + stage);
+  });
+  progress.warn(result.warnings);
+  if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
+  std::vector<Warning> warnings;
+  for (const std::string& reason : result.soundness.reasons)
+    warnings.push_back("the mesh is not sound: " + reason);
+  for (const std::string& limit : result.soundness.beyond) warnings.push_back("beyond the limits: " + limit);
+  if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
+    warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
+                                   fmt::join(renamed, "; ")));
+  progress.warn(warnings);
+  {
+    const DoingStage writing_files("writing");
+    const Uninterrupted whole;
+    if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
+    const Stopwatch writing;
+    (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
+    result.log.add_time("write", writing.time());
+    if (!arguments.json.empty())
+      write_file_atomically(arguments.json,
+                            [&](std::ostream& out) { out << run_record(c, prepared, word, result); });
+  }
+  progress.finish();
+  if (given) print_before(arguments.model.string(), *given, prepared);
+  print_after(arguments.output.string(), prepared, result, command.seconds());
+  return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
+}
+
+}  // namespace delquad

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <ostream>
+#include <tuple>
+
+#include "cases/problem.h"
+#include "delquad/error.h"
+#include "experiments/sweep/record.h"
+#include "features/curved/untangle_curved.h"
+#include "geometry/mesh/check_mesh.h"
+#include "io/mesh_io.h"
+#include "metrics/solve/solver_metrics.h"
+#include "program/check_files.h"
+#include "program/commands.h"
+#include "program/print_metrics.h"
+
+namespace delquad {
+
+namespace {
+
+void add_solver(const Mesh& mesh, const std::string& solver, MeshMetrics& metrics) {
+  SolverOutcome outcome = measure_by_solver(mesh, solver);
+  metrics.values.merge(outcome.values);
+  if (!outcome.undefined.empty()) metrics.failures[solver] = outcome.undefined;
+}
+
+/// The metrics of curved elements, which are no others' and stand in no table.
+constexpr const char *kOrder = "order", *kLeastProven = "proven_jacobian_min",
+                     *kMeanProven = "proven_jacobian_mean", *kUnproven = "n_unproven";
+
+void add_curved(const Mesh& mesh, MeshMetrics& metrics) {
+  const ProvenJacobians proven = proven_jacobians(jacobian_bounds(mesh));
+  metrics.values[kOrder] = mesh.order;
+  metrics.values[kLeastProven] = proven.least;
+  metrics.values[kMeanProven] = proven.mean;
+  metrics.values[kUnproven] = proven.unproven;
+}
+
+void print_curved(const MeshMetrics& metrics) {
+  for (const auto& [key, title, what] :
+       {std::tuple{kOrder, "order", "of the elements; what stands above is of their corners"},
+        {kLeastProven, "scaled J", "least proven"},
+        {kMeanProven, "scaled J", "mean proven"},
+        {kUnproven, "unproven", "elements: not proven to be positive"}})
+    fmt::print("  {:<10} {:>12.6g} {}\n", title, metrics.values.at(key), what);
+}
+
+void print_solver(const MeshMetrics& metrics, const std::string& solver) {
+  for (const Metric& metric : metrics_of_solver(solver)) print_metric(metric, metrics);
+  if (const auto at = metrics.failures.find(solver); at != metrics.failures.end())
+    fmt::print(stderr, "warning: no '{}': {}\n", solver, at->second);
+}
+
+}  // namespace
+
+int metrics_command(const MetricsArguments& arguments) {
+  check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
+  if (!arguments.json.empty()) check_output(arguments.json);
+  ReadNotes notes;
+  const Mesh mesh = read_mesh(arguments.mesh, &notes);
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");
+  std::shared_ptr<const SizeField> size;
+  if (arguments.size) size = size_of_mesh(mesh, *arguments.size);
+  MeshMetrics metrics = evaluate_metrics(mesh, size.get());
+  if (!arguments.solvers.empty()) require_straight(mesh, arguments.mesh.string());
+  if (mesh.order > 1) add_curved(mesh, metrics);
+  for (const std::string& solver : arguments.solvers) add_solver(mesh, solver, metrics);
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, [&](std::ostream& out) {
+      out << metrics_record(arguments.mesh.string(), arguments.size.value_or(""), metrics);
+    });
+  fmt::print("{}\n", arguments.mesh.string());
+  print_metrics(metrics);
+  if (mesh.order > 1) print_curved(metrics);
+  for (const std::string& solver : arguments.solvers) print_solver(metrics, solver);
+  return kDone;
+}
+
+}  // namespace delquad

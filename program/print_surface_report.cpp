@@ -1,0 +1,41 @@
+#include "program/print_surface_report.h"
+
+#include <fmt/format.h>
+
+namespace delquad {
+
+namespace {
+
+std::string show(const Topology& t) {
+  return fmt::format("{}, Euler characteristic {}", t.watertight() ? "watertight" : "open",
+                     t.euler_characteristic);
+}
+
+}  // namespace
+
+void print_surface_report(const PreparedProblem& prepared, const SurfaceReport& report) {
+  const MapReport maps = report_maps(maps_of(*prepared.surface));
+  fmt::print(
+      "maps: {} patches, ratio of singular values {:.4g} (mean), {:.4g} (95 %), {:.4g} (max), area scale "
+      "{:.3g}",
+      maps.patches, maps.sigma_mean, maps.sigma_95, maps.sigma_max, maps.area_ratio);
+  if (maps.worst_face >= 0 && maps.sigma_95 > 1.001)
+    fmt::print("; worst: face {}", prepared.boundary.regions[maps.worst_face].tag);
+  double length = 0;
+  for (const SurfaceCut& cut : prepared.surface->cuts) length += cut.length;
+  fmt::print("\ncuts: {}, together {:.4g} long", prepared.surface->cuts.size(), length);
+  const QuadShare &near = report.near_cuts, &off = report.off_cuts;
+  if (near.quads > 0 && off.quads > 0)
+    fmt::print("; eta {:.3f} and d4 {:.1f} near them, {:.3f} and {:.1f} elsewhere", near.eta, near.d4,
+               off.eta, off.d4);
+  fmt::print("\n");
+  fmt::print("mesh: {}; the model is {}\n", show(report.mesh), show(report.model));
+  fmt::print(
+      "distances in diagonals (max, mean): mesh to surface {:.2g}, {:.2g}; surface to mesh {:.2g}, {:.2g}\n",
+      report.mesh_to_surface.max, report.mesh_to_surface.mean, report.surface_to_mesh.max,
+      report.surface_to_mesh.mean);
+  fmt::print("nodes to surface (max): in faces {:.2g}, on curves {:.2g}, at corners {:.2g}\n",
+             report.nodes_in_faces.max, report.nodes_on_curves.max, report.nodes_at_corners.max);
+}
+
+}  // namespace delquad

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "delquad/error.h"
+#include "experiments/suite/ranking.h"
+#include "experiments/suite/suite_list.h"
+#include "experiments/sweep/study_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+void write_cell(const fs::path& results, const std::string& name, const std::string& program,
+                const Json& more) {
+  Json record = {
+      {"key", "k"}, {"case", name}, {"pipeline", program}, {"status", "ok"}, {"meshing_seconds", 1}};
+  record.update(more);
+  fs::create_directories(results / name / program);
+  std::ofstream(results / name / program / "record.json") << record.dump(2);
+}
+
+Json metrics(double eta, double tau, double quads) {
+  return {{"metrics",
+           {{"eta_mean", eta}, {"eta_worst", eta / 2}, {"d4", 90}, {"tau", tau}, {"percent_quads", quads}}}};
+}
+
+void write_study_of(const fs::path& results, const std::string& program, const std::string& title) {
+  fs::create_directories(results);
+  StudyFile study;
+  study.title = title;
+  study.experiment = "suite";
+  study.pipelines = {program};
+  for (const SuiteModel& model : suite().models)
+    for (int k = 0; k < 3; ++k) study.cases.push_back(case_name(model, k));
+  study.cells = study.cases.size();
+  write_study(results, study);
+}
+
+TEST(Ranking, KeepsWhatFailedApartFromWhatIsMissing) {
+  const TemporaryFolder folder;
+  write_study_of(folder / "a", "few", suite_title());
+  write_cell(folder / "a", "gear_1", "few", metrics(1, 100, 100));
+  write_cell(folder / "a", "gear_2", "few", metrics(1, 100, 50));
+  Json triangles_only = metrics(1, 70, 0);  // which have no eta of quads
+  triangles_only["metrics"]["eta_mean"] = triangles_only["metrics"]["eta_worst"] = nullptr;
+  write_cell(folder / "a", "gear_3", "few", triangles_only);
+  write_cell(folder / "a", "bracket_1", "few", {{"status", "failed"}, {"reason", "it crashed"}});
+  Json unsound = metrics(1, 100, 100);
+  unsound["unsound"] = {"2 quads are inverted"};
+  write_cell(folder / "a", "bracket_2", "few", unsound);
+  write_study_of(folder / "b", "more", suite_title());
+  for (const SuiteModel& model : suite().models)
+    for (int k = 0; k < 3; ++k) write_cell(folder / "b", case_name(model, k), "more", metrics(0.5, 80, 100));
+
+  const Table table = rank_programs(folder.path());
+  ASSERT_EQ(table.rows.size(), 8u);
+  EXPECT_EQ(table.rows[0].name, "more");
+  EXPECT_EQ(table.rows[0].group, "all");
+  EXPECT_NEAR(table.rows[0].values.at("score"), 40, 1e-9);
+  EXPECT_EQ(table.rows[0].values.at("solved"), 120);
+  const auto& few = table.rows[1].values;
+  EXPECT_EQ(few.at("cases"), 120);
+  EXPECT_EQ(few.at("solved"), 1);
+  EXPECT_EQ(few.at("with_triangles"), 2);
+  EXPECT_EQ(few.at("failed"), 2);
+  EXPECT_EQ(few.at("not_run"), 115);
+  EXPECT_NEAR(few.at("score"), 100 * 1.5 / 120, 1e-9);
+  EXPECT_NEAR(few.at("eta_worst"), 0.5, 1e-9);
+  EXPECT_NEAR(few.at("eta_mean"), 1, 1e-9);
+  EXPECT_NEAR(few.at("tau"), 90, 1e-9);
+  // By family: none of the CAD cases has a sound mesh, and then there is nothing to take a mean of.
+  EXPECT_EQ(table.rows[5].group, "CAD");
+  EXPECT_EQ(table.rows[5].values.at("failed"), 2);
+  EXPECT_EQ(table.rows[5].values.at("not_run"), 40);
+  EXPECT_FALSE(table.rows[5].values.contains("eta_mean"));
+}
+
+TEST(Ranking, ShowsWhatIsNotInstalledWithoutARank) {
+  const TemporaryFolder folder;
+  write_study_of(folder / "a", "absent", suite_title());
+  write_study_of(folder / "b", "failing", suite_title());
+  write_cell(folder / "a", "gear_1", "absent",
+             {{"status", "not applicable"}, {"kind", "not applicable"}, {"reason", "not installed"}});
+  write_cell(folder / "b", "gear_1", "failing",
+             {{"status", "failed"}, {"kind", "peer"}, {"reason", "crashed"}});
+  const Table table = rank_programs(folder.path());
+  ASSERT_EQ(table.rows.size(), 5u);
+  for (const TableRow& row : table.rows) EXPECT_EQ(row.name == "absent", row.skipped == "not applicable");
+  EXPECT_EQ(table.rows[1].group, "all");
+  EXPECT_EQ(table.rows[1].name, "absent");
+  EXPECT_EQ(table.notes.back(), "absent is not applicable: not installed");
+  EXPECT_NE(to_csv(table).find("all,absent,not applicable,"), std::string::npos) << to_csv(table);
+}
+
+TEST(Ranking, RefusesResultsOfSomethingElse) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(rank_programs(folder.path()), InputError);
+  write_study_of(folder / "a", "DB", "Table I");
+  write_cell(folder / "a", "gear_1", "DB", metrics(1, 100, 100));
+  try {
+    rank_programs(folder.path());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'Table I', not of '" + suite_title()), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cases/case_file.h"
+#include "experiments/sweep/experiment.h"
+#include "experiments/sweep/run_experiment.h"
+#include "metrics/metrics.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Experiments, EveryFileOfTheProjectReads) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(DELQUAD_EXPERIMENTS)) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    EXPECT_NO_THROW(Experiment::read(entry.path())) << entry.path();
+  }
+  EXPECT_GE(files, 8);
+}
+
+TEST(Experiments, LewisHasThePublishedRows) {
+  const Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  ASSERT_EQ(e.published.size(), 3u);
+  const auto& delquad = e.published[2].values;
+  EXPECT_EQ(e.published[2].name, "Delquad");
+  EXPECT_EQ(delquad.at("eta_worst"), 0.25);
+  EXPECT_EQ(delquad.at("tau"), 88);
+  EXPECT_FALSE(e.published[1].values.contains("d4"));
+  ASSERT_EQ(e.n_cases(), 2u);
+  EXPECT_EQ(e.read_variant(0).compare.at("DB"), "Delquad");
+}
+
+/// The targets of the rotated square, end to end.
+TEST(Experiments, RotatedSquareIsExact) {
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "rotated_square.toml");
+  e.words = {parse_word("DB")};
+  const testing_support::TemporaryFolder folder;
+  const Outcome outcome = run_experiment(e, folder / "out");
+  ASSERT_EQ(outcome.table.rows.size(), 3u);
+  for (const TableRow& row : outcome.table.rows) {
+    EXPECT_EQ(row.values.at("n_quads"), 400) << row.group;
+    EXPECT_EQ(row.values.at("percent_quads"), 100) << row.group;
+    EXPECT_NEAR(row.values.at("eta_worst"), 1, 1e-9) << row.group;
+    EXPECT_EQ(row.values.at("d4"), 100) << row.group;
+  }
+}
+
+TEST(Experiments, LewisReachesThePublishedRow) {
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
+  e.words = {parse_word("DB")};
+  const testing_support::TemporaryFolder folder;
+  const Outcome outcome = run_experiment(e, folder / "out");
+  for (const TableRow& row : outcome.table.rows) {
+    if (row.published.empty()) continue;
+    for (const char* metric : {"eta_worst", "eta_mean", "d4", "d_min", "tau", "percent_quads"})
+      EXPECT_GE(row.values.at(metric), row.published.at(metric)) << row.group << " " << metric;
+    EXPECT_LE(row.values.at("d_max"), row.published.at("d_max")) << row.group;
+  }
+}
+
+TEST(Experiments, LinfStudyIsDeterministicAndNotesThePaper) {
+  const testing_support::TemporaryFolder folder;
+  const auto file =
+      testing_support::write_text(folder / "e.toml", "[linf_delaunay]\npoints = [50]\nseeds = [4]\n");
+  std::string tables[2];
+  for (int k = 0; k < 2; ++k) {
+    const fs::path results = folder / ("out" + std::to_string(k));
+    run_experiment(Experiment::read(file), results);
+    tables[k] = testing_support::read_text(results / "table.csv");
+    EXPECT_TRUE(fs::exists(results / "50-even-4.svg"));
+  }
+  EXPECT_EQ(tables[0], tables[1]);
+  EXPECT_GT(std::count(tables[0].begin(), tables[0].end(), '\n'), 2);
+}
+
+TEST(Experiments, MisspeltNamesAreSuggested) {
+  const testing_support::TemporaryFolder folder;
+  const auto expect = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    const auto file = testing_support::write_text(
+        folder / "e.toml", text + "\n[[case]]\nname = \"a\"\nsize = 1\nexample = \"sphere\"\n");
+    expect_input_error([&] { Experiment::read(file); }, parts);
+  };
+  expect("columns = [\"quadz\"]", {"e.toml:1", "'quadz'", "did you mean 'n_quads'?"});
+  expect("pipelines = [\"DB\", \"dbco\"]", {"e.toml:1", "'dbco'", "did you mean 'DBCO'?"});
+  expect("[[case]]\nname = \"b\"\nsize = 1\nexample = \"spere\"",
+         {"e.toml:4", "'spere'", "did you mean 'sphere'?"});
+}
+
+TEST(Experiments, RatiosAreNoted) {
+  const testing_support::TemporaryFolder folder;
+  const auto file = testing_support::write_text(
+      folder / "e.toml",
+      "pipelines = [\"F\", \"D\"]\nratio = { metric = \"n_vertices\", numerator = \"F\", denominator = "
+      "\"D\", expected = "
+      "1.1547 }\n[[case]]\nname = \"a\"\nsize = 0.05\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  const Outcome outcome = run_experiment(Experiment::read(file), folder / "out");
+  ASSERT_EQ(outcome.table.notes.size(), 2u);
+  EXPECT_EQ(outcome.table.notes[0], "a: uniform delta = 0.05");
+  EXPECT_NE(outcome.table.notes[1].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[1];
+  expect_input_error(
+      [&] {
+        Experiment::read(testing_support::write_text(
+            folder / "e.toml",
+            "[ratio]\nmetric = \"n_vertex\"\nnumerator = \"F\"\ndenominator = \"D\"\nexpected = 1\n"));
+      },
+      {"e.toml:2", "'n_vertices'"});
+}
+
+TEST(Experiments, DataExcludesOtherModels) {
+  const testing_support::TemporaryFolder folder;
+  expect_input_error(
+      [&] { read_model_case(testing_support::write_text(folder / "m.toml", "data = \"part.step\"\n")); },
+      {"m.toml:1", "experiments"});
+  const auto experiment = [&](const std::string& keys) {
+    return Experiment::read(
+        testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys), "there");
+  };
+  const Experiment e = experiment("data = \"cad/part.step\"\n");
+  EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
+  EXPECT_TRUE(e.read_variant(0).may_be_absent);
+  testing_support::write_text(folder / "part.step", "");
+  EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
+  expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
+                     {"e.toml:", "exclude each other"});
+  expect_input_error([&] { experiment("data = \"part.stp\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"); },
+                     {"e.toml:4", "exclude each other"});
+  expect_input_error([&] { experiment("data = \"part.toml\"\n"); }, {"e.toml:4", "no data"});
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include "cases/problem.h"
+#include "experiments/sweep/experiment.h"
+#include "mesher/prepare.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+const std::string kSquare = "[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+
+class Matrix : public testing::Test {
+ protected:
+  Experiment read(const std::string& matrix, const std::string& rest = kSquare + "size = 0.1\n") {
+    return Experiment::read(testing_support::write_text(folder_ / "e.toml", matrix + rest));
+  }
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Matrix, EveryCombinationIsAVariant) {
+  const Experiment e = read("[matrix]\nsize = [0.1, \"0.1 + x\"]\ninsertion.h_max = [1.3, 1.4, 1.5]\n");
+  ASSERT_EQ(e.n_variants(), 6u);
+  EXPECT_EQ(e.n_cells(), 24u);
+  const Case first = e.read_variant(0, 0), last = e.read_variant(0, 5);
+  EXPECT_EQ(first.options.number("insertion.h_max"), 1.3);
+  EXPECT_EQ(first.size.base, "0.1");
+  EXPECT_EQ(first.folder, "a@h_max=1.3,size=0.1");
+  EXPECT_EQ(last.options.number("insertion.h_max"), 1.5);
+  EXPECT_EQ(last.size.base, "0.1 + x");
+  EXPECT_EQ(last.folder, "a@h_max=1.5,size=0.1_+_x");
+  EXPECT_EQ(last.name, "a");
+  EXPECT_EQ(e.read_variant(0, 1).folder, "a@h_max=1.3,size=0.1_+_x");
+}
+
+TEST_F(Matrix, KeysMayBeQuoted) {
+  const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"cleanup\".seed = [2]\n");
+  ASSERT_EQ(e.n_variants(), 2u);
+  EXPECT_EQ(e.read_variant(0, 1).options.number("insertion.h_max"), 1.4);
+  EXPECT_EQ(e.read_variant(0, 1).folder, "a@seed=2,h_max=1.4");
+  expect_input_error([&] { read("[matrix]\n\"a.b\" = [1]\na.b = [2]\n"); }, {"e.toml:", "'a.b'", "twice"});
+}
+
+TEST_F(Matrix, OtherKeysOfATableStay) {
+  const Experiment e = read("[matrix]\ninsertion.h_max = [1.3]\n",
+                            kSquare + "size = 0.1\ninsertion = { rejection = 0.5, h_max = 1.2 }\n");
+  EXPECT_EQ(e.read_variant(0).options.number("insertion.h_max"), 1.3);
+  EXPECT_EQ(e.read_variant(0).options.number("insertion.rejection"), 0.5);
+}
+
+TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
+  const std::string value(60, '1');
+  const Experiment e =
+      read("[matrix]\ncleanup.seed = [1]\nseed = [2]\nsize = [\"1/" + value + "\", \"1\"]\n");
+  const std::string folder = e.read_variant(0).folder, begin = "a@cleanup.seed=1,seed=2,size=value-";
+  EXPECT_EQ(folder.substr(0, begin.size()), begin);
+  const Experiment more =
+      read("[matrix]\ncleanup.seed = [1]\nseed = [2]\nsize = [\"2\", \"1/" + value + "\", \"1\"]\n");
+  EXPECT_EQ(more.read_variant(0, 1).folder, folder) << "another value beside it changes nothing";
+}
+
+TEST_F(Matrix, MistakesAreNamed) {
+  expect_input_error([&] { read("[matrix]\nsize = 0.1\n"); }, {"e.toml:2", "'matrix.size'", "a list"});
+  expect_input_error([&] { read("[matrix]\nsize = []\n"); }, {"e.toml:2", "at least one"});
+  expect_input_error([&] { read("[matrix]\nsize = [1, 2, 1]\n"); }, {"e.toml:2", "1 twice"});
+  expect_input_error([&] { read("[matrix]\nsize = [0.1, -1]\nseed = [-1]\n"); },
+                     {"e.toml:3", "'seed' is -1"});
+  expect_input_error([&] { read("[matrix]\ninsertion.h_mx = [1.3]\n"); },
+                     {"e.toml:2", "'matrix.insertion.h_mx'", "'h_max'"});
+  expect_input_error([&] { read("[matrix]\nsead = [1, 2]\n"); },
+                     {"e.toml:2: unknown key 'matrix.sead'; did you mean 'seed'?"});
+  expect_input_error([&] { read("[matrix]\nsize = [0.1, true]\n"); }, {"e.toml:2: 'matrix.size' must be"});
+  expect_input_error([&] { read("[matrix]\ninsertoin.h_max = [1.3]\n"); },
+                     {"e.toml:2", "'matrix.insertoin'", "'insertion'"});
+  expect_input_error(
+      [&] {
+        read("[matrix]\ninsertion.h_max = [1.3]\n",
+             kSquare + "size = 0.1\ninsertion = { rejektion = 0.5 }\n");
+      },
+      {"e.toml:7", "'case.insertion.rejektion'", "'rejection'"});
+  expect_input_error([&] { read("[matrix]\nsize.gradation = [0.3]\n"); },
+                     {"e.toml:2", "'size' is no table at", "e.toml:6"});
+  expect_input_error([&] { read("[matrix]\ninsertion.h_max = [9]\n"); },
+                     {"e.toml:2", "'insertion.h_max' is 9"});
+}
+
+/// Another place for every node, but the same domain.
+TEST_F(Matrix, SeedsTurnAndShiftADomain) {
+  const auto prepared = [&](const std::string& seed) {
+    return prepare_case(
+        read("", kSquare + "size = \"0.05 + 0.05*x\"\ncross = \"x\"\n" + seed).read_variant(0));
+  };
+  const PreparedProblem plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
+                        again = prepared("seed = 5\n");
+  EXPECT_EQ(plain.patches[0].boundary.points, same.patches[0].boundary.points);
+  EXPECT_EQ(other.patches[0].boundary.points, again.patches[0].boundary.points);
+  EXPECT_NE(plain.patches[0].boundary.points, other.patches[0].boundary.points);
+  EXPECT_NEAR(plain.expected_quads, other.expected_quads, 0.02 * plain.expected_quads);
+  // Corners are where the corners were, turned about the origin; fields turn with them.
+  const Vec2 far = other.patches[0].boundary.points.back();
+  EXPECT_LE(norm(far), std::sqrt(2.0) + 1e-12);
+  int hint = -1;
+  double least = 1, most = 0;
+  for (const Vec2 p : other.patches[0].boundary.points) {
+    const double size = other.size->at({p.x, p.y, 0}, hint);
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  EXPECT_NEAR(least, 0.05, 1e-12);
+  EXPECT_NEAR(most, 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace delquad

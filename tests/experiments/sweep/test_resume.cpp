@@ -1,0 +1,296 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "experiments/sweep/rerun.h"
+#include "experiments/sweep/result_records.h"
+#include "experiments/sweep/run_experiment.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/run_program.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+using testing_support::read_text;
+using testing_support::run_program;
+using testing_support::write_text;
+
+const std::string kSweep =
+    "title = \"A sweep\"\npipelines = [\"F\", \"FB\", \"DB\", \"DBC\"]\n[matrix]\nseed = [1, 2, 3]\n"
+    "[[case]]\nname = \"square\"\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+    "[[case]]\nname = \"disc\"\nsize = 0.3\nloop = { circle = { centre = [0, 0], radius = 1 } }\n";
+constexpr int kResumedCells = 24;
+
+class Resume : public testing::Test {
+ protected:
+  fs::path write(const std::string& text) { return write_text(folder_ / "sweep.toml", text); }
+  testing_support::ProgramResult program(std::vector<std::string> arguments) {
+    return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
+  }
+  std::string out(const std::string& name = "out") const { return (folder_ / name).string(); }
+
+  testing_support::TemporaryFolder folder_;
+};
+
+/// Everything but times, by cell.
+std::map<std::string, std::map<std::string, double>> values_of(const fs::path& folder) {
+  std::map<std::string, std::map<std::string, double>> values;
+  for (CellRecord& record : read_records(folder)) {
+    EXPECT_EQ(record.reason, "");
+    std::erase_if(record.values,
+                  [](const auto& v) { return v.first.starts_with("seconds") || std::isnan(v.second); });
+    values[record.group + " " + record.pipeline] = record.values;
+  }
+  return values;
+}
+
+std::map<fs::path, fs::file_time_type> record_times(const fs::path& folder) {
+  std::map<fs::path, fs::file_time_type> times;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().filename() == "record.json") times[entry.path()] = entry.last_write_time();
+  return times;
+}
+
+TEST_F(Resume, DoneCellsAreLeftAloneUntilTheyAreOutdated) {
+  const Experiment experiment = Experiment::read(write(kSweep));
+  run_experiment(experiment, out());
+  const auto first = record_times(out());
+  ASSERT_EQ(first.size(), std::size_t{kResumedCells});
+  run_experiment(experiment, out());
+  EXPECT_EQ(record_times(out()), first);
+
+  const fs::path one = fs::path(out()) / "disc@seed=2" / "DB" / "record.json";
+  fs::remove(one);
+  run_experiment(experiment, out());
+  auto times = record_times(out());
+  EXPECT_NE(times.at(one), first.at(one));
+  times[one] = first.at(one);
+  EXPECT_EQ(times, first);
+
+  std::string finer = kSweep;
+  finer.replace(finer.find("0.3"), 3, "0.2");  // of the discs
+  const Experiment changed = Experiment::read(write(finer));
+  EXPECT_NE(list_cells(changed, out()).find("outdated       disc@seed=1 DB\n"), std::string::npos);
+  EXPECT_NE(list_cells(changed, out()).find("done           square@seed=1 DB\n"), std::string::npos);
+  run_experiment(changed, out());
+  for (const auto& [path, time] : record_times(out()))
+    EXPECT_EQ(time == first.at(path), path.string().find("square") != std::string::npos) << path;
+
+  SweepOptions force;
+  force.force = true;
+  run_experiment(changed, out(), force);
+  for (const auto& [path, time] : record_times(out())) EXPECT_NE(time, first.at(path)) << path;
+}
+
+TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
+  const Experiment experiment = Experiment::read(write(kSweep));
+  run_experiment(experiment, out("whole"));
+  SweepOptions parallel;
+  parallel.limits.jobs = 4;
+  run_experiment(experiment, out("parallel"), parallel);
+  for (std::size_t i = 0; i < 4; ++i) {
+    SweepOptions part;
+    part.shard = {i, 4};
+    run_experiment(experiment, out("shards"), part);
+    // Six variants of four cells: two, two, one and one.
+    constexpr std::size_t kSoFar[] = {8, 16, 20, 24};
+    EXPECT_EQ(record_times(out("shards")).size(), kSoFar[i]);
+  }
+  const auto whole = values_of(out("whole"));
+  ASSERT_EQ(whole.size(), std::size_t{kResumedCells});
+  EXPECT_EQ(values_of(out("parallel")), whole);
+  EXPECT_EQ(values_of(out("shards")), whole);
+  for (const char* mesh : {"square@seed=1/F/mesh.msh", "disc@seed=3/DBC/mesh.msh"})
+    EXPECT_EQ(read_text(out("parallel") + "/" + mesh), read_text(out("whole") + "/" + mesh)) << mesh;
+}
+
+/// Points are inserted once for pipelines that begin alike: their records show the same time, to the last
+/// bit.
+TEST_F(Resume, PipelinesThatBeginAlikeShareTheirStages) {
+  run_experiment(Experiment::read(write(kSweep)), out());
+  const auto inserting = [&](const std::string& word) {
+    for (const CellRecord& record : read_records(out()))
+      if (record.group == "disc@seed=2" && record.pipeline == word)
+        return record.values.at("seconds_insertion");
+    return -1.0;
+  };
+  EXPECT_GT(inserting("F"), 0);
+  EXPECT_EQ(inserting("F"), inserting("FB"));
+  EXPECT_EQ(inserting("DB"), inserting("DBC"));
+  EXPECT_NE(inserting("F"), inserting("DB"));
+}
+
+/// What is left of an earlier run does not stand for what a new one failed to make.
+TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
+  const std::string file = write(kSweep).string();
+  ASSERT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  EXPECT_EQ(program({"run", file, "-o", out(), "--force", "--timeout", "0.001"}).exit_code, 1);
+  for (const CellRecord& record : read_records(out())) EXPECT_EQ(record.kind, "timeout") << record.group;
+}
+
+/// A scheduler takes the machine away: that says nothing of the mesh. The parent of a command is the watcher
+/// of its group, whose parent is the cell.
+TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
+  const std::string flag = out("flag");
+  const std::string file =
+      write(kSweep + "[[metric]]\nname = \"one\"\ncommand = [\"sh\", \"-c\", '''[ -e " + flag +
+            " ] || { touch " + flag +
+            "; kill -TERM $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 5; }; echo 1''', \"{mesh}\"]\n")
+          .string();
+  const auto first = program({"run", file, "-o", out()});
+  EXPECT_EQ(first.exit_code, 1) << first.err;
+  EXPECT_NE(first.err.find("interrupted from outside"), std::string::npos) << first.err;
+  EXPECT_NE(first.out.find("1 of 24 cells have no result yet"), std::string::npos) << first.out;
+  const auto before = record_times(out());
+  EXPECT_EQ(before.size(), std::size_t{kResumedCells - 1});
+  EXPECT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  const auto after = record_times(out());
+  EXPECT_EQ(after.size(), std::size_t{kResumedCells});
+  for (const auto& [path, time] : before) EXPECT_EQ(after.at(path), time) << path;
+}
+
+TEST_F(Resume, TablesLeaveOutWhatTheExperimentNoLongerHas) {
+  run_experiment(Experiment::read(write(kSweep)), out());
+  std::string fewer = kSweep;
+  fewer.replace(fewer.find("[1, 2, 3]"), 9, "[1, 2]");
+  const Outcome outcome = run_experiment(Experiment::read(write(fewer)), out());
+  EXPECT_EQ(outcome.table.notes.back(), "8 records of cells that the experiment no longer has are left out");
+}
+
+/// At any moment: no result is lost, none is half there, and the end is the same.
+TEST_F(Resume, SurvivesBeingKilled) {
+  const std::string file = write(kSweep).string();
+  ASSERT_EQ(program({"run", file, "-o", out("whole")}).exit_code, 0);
+  std::mt19937 random(3);
+  std::map<fs::path, fs::file_time_type> before;
+  std::size_t kills = 0;
+  for (; kills < 200 && before.size() < kResumedCells; ++kills) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int null = open("/dev/null", O_WRONLY);
+      dup2(null, STDOUT_FILENO);
+      dup2(null, STDERR_FILENO);
+      execl(DELQUAD_PROGRAM, "delquad", "run", file.c_str(), "-o", out("killed").c_str(), "-j", "2", nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + random() % 120));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    if (!fs::exists(out("killed"))) continue;
+    const auto now = record_times(out("killed"));
+    for (const auto& [path, time] : before) {
+      ASSERT_TRUE(now.contains(path)) << path;
+      EXPECT_EQ(now.at(path), time) << path;
+    }
+    for (const auto& [path, time] : now)
+      for (const char* name : {"mesh.msh", "mesh.vtu", "picture.svg"})
+        EXPECT_TRUE(fs::exists(path.parent_path() / name)) << path.parent_path() / name;
+    before = now;
+  }
+  // Processes that were killed a moment ago may hold the lock for one more.
+  testing_support::ProgramResult last;
+  for (int patience = 50; patience > 0; --patience) {
+    last = program({"run", file, "-o", out("killed")});
+    if (last.exit_code == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(values_of(out("killed")), values_of(out("whole")));
+}
+
+TEST_F(Resume, AFolderHasOneRunAndOneExperiment) {
+  const Experiment experiment = Experiment::read(write(kSweep));
+  run_experiment(experiment, out());
+  const Experiment other = Experiment::read(write_text(folder_ / "other.toml", kSweep));
+  expect_input_error([&] { run_experiment(other, out()); }, {"'sweep'", "'other'"});
+  const int lock = open((out() + "/.lock").c_str(), O_RDWR);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  expect_input_error([&] { run_experiment(experiment, out()); }, {"/out: another run"});
+  close(lock);
+  EXPECT_NO_THROW(run_experiment(experiment, out()));
+}
+
+TEST_F(Resume, FailuresAreCellsWithReasons) {
+  const std::string file =
+      write(
+          "pipelines = [\"DB\"]\n[[case]]\nname = \"good\"\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, "
+          "1]] }\n"
+          "[[case]]\nname = \"bad\"\nsize = \"0.2 - x\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+          "[[case]]\nname = \"long\"\nsize = 0.0004\nloop = { rectangle = [[0, 0], [1, 1]] }\n")
+          .string();
+  const auto result = program({"run", file, "-o", out(), "--timeout", "2", "-j", "2"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("error: long DB: not done after 2 s (--timeout): "), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("error: bad DB: "), std::string::npos) << result.err;
+  const auto records = read_records(out());
+  ASSERT_EQ(records.size(), 3u);
+  EXPECT_EQ(records[0].reason, "");
+  EXPECT_EQ(records[1].kind, "bad input");
+  EXPECT_EQ(records[2].kind, "timeout");
+  EXPECT_NE(program({"run", file, "-o", out(), "--dry-run"}).out.find("failed         long DB\n"),
+            std::string::npos);
+}
+
+TEST_F(Resume, TablesComeFromRecordsAlone) {
+  const std::string file = write(kSweep).string();
+  ASSERT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  const std::string table = read_text(out() + "/table.md"), pairs = read_text(out() + "/pairs.csv");
+  EXPECT_NE(table.find("| square | DBC "), std::string::npos) << table;
+  EXPECT_NE(pairs.find("DBC - DB,eta mean,ok,,2,"), std::string::npos) << pairs;
+  for (const char* name : {"table.md", "table.csv", "table.tex", "table.json", "pairs.md"})
+    fs::remove(out() + "/" + name);
+  fs::remove(file);
+  fs::remove_all(out() + "/disc@seed=3");
+  const auto result = program({"tables", out()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("4 of 24 cells have no result yet"), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(out() + "/table.tex"));
+  write_text(out() + "/disc@seed=2/DB/record.json", "{\"case\": 1");
+  const auto broken = program({"tables", out()});
+  EXPECT_EQ(broken.exit_code, 0);
+  EXPECT_NE(broken.out.find("damaged record: " + out() + "/disc@seed=2/DB/record.json"), std::string::npos)
+      << broken.out;
+}
+
+TEST_F(Resume, RecordsCanBeMadeAgain) {
+  run_experiment(Experiment::read(write(kSweep)), out());
+  const fs::path record = out() + "/disc@seed=2/DBC/record.json";
+  Rerun rerun = rerun_record(record);
+  EXPECT_TRUE(rerun.same_mesh);
+  EXPECT_TRUE(rerun.differences.empty()) << rerun.differences[0];
+  std::string finer = kSweep;
+  finer.replace(finer.find("0.3"), 3, "0.2");
+  run_experiment(Experiment::read(write(finer)), out("finer"));
+  std::string mixed = read_text(record);
+  const auto name_of_copy = [&](const std::string& text) {
+    const auto at = text.find("\"experiment/");
+    return text.substr(at, text.find('"', at + 1) - at);
+  };
+  const std::string other = name_of_copy(read_text(out("finer") + "/disc@seed=2/DBC/record.json"));
+  fs::copy(out("finer") + "/experiment", out() + "/experiment",
+           fs::copy_options::recursive | fs::copy_options::skip_existing);
+  mixed.replace(mixed.find(name_of_copy(mixed)), name_of_copy(mixed).size(), other);
+  write_text(record, mixed);
+  rerun = rerun_record(record);
+  EXPECT_FALSE(rerun.same_mesh);
+  EXPECT_FALSE(rerun.values.empty());
+  ASSERT_EQ(rerun.differences.size(), 1u);
+  EXPECT_EQ(rerun.differences[0], "option size base: \"0.3\" in the record, \"0.2\" now");
+  mixed.replace(mixed.find("\"case\": \"disc\""), 14, "\"case\": \"disk\"");
+  write_text(record, mixed);
+  expect_input_error([&] { rerun_record(record); }, {"no case 'disk'", "\"2\""});
+}
+
+}  // namespace
+}  // namespace delquad

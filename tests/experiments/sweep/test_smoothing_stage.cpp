@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cases/case_file.h"
+#include "experiments/sweep/run_experiment.h"
+#include "smoothing/cvt/cvt_options.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SmoothingStage : public testing::Test {
+ protected:
+  Case read(const std::string& smoothing) {
+    return read_model_case(testing_support::write_text(
+        folder_ / "c.toml",
+        "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\nsmoothing = " + smoothing + "\n"));
+  }
+  void run(const std::string& smoothing, const std::string& words) {
+    const auto file = testing_support::write_text(
+        folder_ / "e.toml", "pipelines = " + words + "\nsmoothing = " + smoothing +
+                                "\n[[case]]\nname = \"disk\"\n"
+                                "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\n");
+    const Outcome outcome = run_experiment(Experiment::read(file), folder_ / "out");
+    EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
+    EXPECT_EQ(outcome.leftover_triangles, 0);
+  }
+  nlohmann::json record(const std::string& word) {
+    return nlohmann::json::parse(std::ifstream(folder_ / "out" / "disk" / word / "record.json"));
+  }
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(SmoothingStage, OptionsAreRead) {
+  EXPECT_EQ(cvt_options(read("{}").options).smoothing.p, 6);
+  EXPECT_EQ(cvt_options(read("{}").options).method, SmoothingMethod::kLpCvt);
+  const CvtOptions o =
+      cvt_options(read("{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, rank = 5, "
+                       "function_tolerance = 1e-3, gradient_tolerance = 0.5 }")
+                      .options);
+  EXPECT_EQ(o.method, SmoothingMethod::kLloyd);
+  EXPECT_EQ(o.smoothing.p, 8);
+  EXPECT_EQ(o.smoothing.outer_iterations, 2);
+  EXPECT_EQ(o.smoothing.inner.iterations, 7);
+  EXPECT_EQ(o.smoothing.inner.rank, 5);
+  EXPECT_EQ(o.smoothing.inner.function_tolerance, 1e-3);
+  EXPECT_EQ(o.smoothing.inner.gradient_tolerance, 0.5);
+}
+
+TEST_F(SmoothingStage, MistakesAreNamed) {
+  expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "'smoothing.p' is 5", "2, 4, 6"});
+  expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "14 or 16"});
+  expect_input_error([&] { read("{ method = \"newton\" }"); },
+                     {"c.toml:3", "\"newton\"", "\"lpcvt\" or \"lloyd\""});
+  expect_input_error([&] { read("{ inner_iterations = -1 }"); },
+                     {"c.toml:3", "'smoothing.inner_iterations' is -1"});
+  expect_input_error([&] { read("{ rank = 0 }"); }, {"'smoothing.rank' is 0", "from 1 to"});
+  expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'smoothing.function_tolerance' is -1"});
+  expect_input_error([&] { read("{ q = 4 }"); }, {"'smoothing.q'"});
+}
+
+TEST_F(SmoothingStage, RecordsAndDrawsItsConvergence) {
+  run("{ outer_iterations = 2 }", "[\"F\", \"FL\", \"FLB\", \"DLB\"]");
+  const nlohmann::json f = record("F"), fl = record("FL");
+  EXPECT_EQ(f["metrics"]["n_vertices"], fl["metrics"]["n_vertices"]);
+  EXPECT_FALSE(f.contains("smoothing"));
+  const nlohmann::json s = fl["smoothing"];
+  EXPECT_LT(s["final_energy"], s["first_energy"]);
+  EXPECT_GT(s["iterations"], 3);
+  EXPECT_EQ(s["energy_by_evaluation"].size(), 1u);
+  EXPECT_EQ(s["energy_by_evaluation"][0].size(), s["evaluations"]);
+  EXPECT_EQ(s["energy_by_evaluation"][0][0], s["first_energy"]);
+  EXPECT_EQ(s["first_of_frames"][0].size(), s["outer_iterations"]);
+  EXPECT_GE(s["accepted_evaluations"][0].size(), s["iterations"]);
+  EXPECT_LE(s["accepted_evaluations"][0].size(), s["evaluations"]);
+  EXPECT_EQ(s["termination"].size(), 1u);
+  EXPECT_EQ(fl["options"]["smoothing"]["outer_iterations"], 2);
+  EXPECT_TRUE(fl["seconds"].contains("smoothing"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "disk" / "DLB" / "convergence.svg"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "disk" / "F" / "convergence.svg"));
+}
+
+TEST_F(SmoothingStage, LloydRuns) {
+  run("{ method = \"lloyd\" }", "[\"FLB\"]");
+  EXPECT_EQ(record("FLB")["options"]["smoothing"]["method"], "lloyd");
+  EXPECT_LT(record("FLB")["smoothing"]["final_energy"], record("FLB")["smoothing"]["first_energy"]);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "features/extrusion/vertex_normals.h"
+#include "tests/features/extrusion/hex_checks.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad::testing_support {
+namespace {
+
+double power3(double x) { return x * x * x; }
+
+TEST(Normals, BoxesGetWallsOfTheThickness) {
+  const Mesh box = cube_surface(4, [](const Vec3& p) { return p; });
+  for (const double t : {0.3, -0.3}) {
+    const HexMesh mesh = extrude(box, AlongNormals{t}, {2});
+    expect_sound(mesh);
+    EXPECT_NEAR(measure(mesh).volume, std::abs(power3(2 + 2 * t) - 8), 1e-12);
+    EXPECT_EQ(quads_by_name(mesh),
+              (std::map<std::string, int>{{"region_1 start", 96}, {"region_1 end", 96}}));
+  }
+  const HexMesh mesh = extrude(box, AlongNormals{0.3, true}, {2});
+  EXPECT_NEAR(measure(mesh).volume, power3(2.3) - power3(1.7), 1e-12);
+  // Through the middle: more than the distance to the opposite side.
+  expect_input_error([&] { extrude(box, AlongNormals{-2.5}, {1}); }, {"inverted or flat"});
+}
+
+TEST(Normals, SphereShellsConverge) {
+  const double radius = 2, t = 0.5;
+  double before = 0;
+  for (const int n : {4, 8, 16}) {
+    for (const double thickness : {t, -t}) {
+      const HexMesh mesh = extrude(sphere(n, radius), AlongNormals{thickness}, {3, 1.2});
+      expect_sound(mesh);
+      const double exact = 4 * kPi / 3 * std::abs(power3(radius + thickness) - power3(radius));
+      const double error = std::abs(measure(mesh).volume - exact) / exact;
+      EXPECT_LT(error, 0.8 / (n * n)) << n;
+      if (thickness < 0) continue;
+      if (before > 0) {
+        EXPECT_NEAR(before / error, 4, 0.8) << n;
+      }
+      before = error;
+    }
+  }
+}
+
+TEST(Normals, ThicknessBeyondTheRadiusIsRefused) {
+  for (const int layers : {1, 2, 7})
+    for (const double part : {1.0, 1.2, 1.5, 2.5})
+      expect_input_error([&] { extrude(sphere(6, 2), AlongNormals{-part * 2}, {layers}); },
+                         {"inverted or flat", "region_1"});
+  EXPECT_NO_THROW(extrude(sphere(6, 2), AlongNormals{-0.7 * 2}, {1}));
+}
+
+/// Two planes that meet at any angle, with one quad on one side and two on the other.
+TEST(Normals, EachPlaneMovesByTheThickness) {
+  for (const double degrees : {1.0, 5.0, 20.0, 60.0, 120.0, 170.0, -30.0, -90.0}) {
+    const double a = degrees * kPi / 180;
+    Mesh mesh;
+    add_patch(mesh, 2, 2, [](double s, double t) { return Vec3{s - 1, t < 0.4 ? 0 : t < 0.6 ? 0.3 : 1, 0}; });
+    add_patch(mesh, 1, 2, [&](double s, double t) {
+      const double y = t < 0.4 ? 0 : t < 0.6 ? 0.3 : 1;
+      return Vec3{s * std::cos(a), y, -s * std::sin(a)};
+    });
+    const double thickness = 0.01;
+    const HexMesh shell = extrude(mesh, AlongNormals{thickness}, {1});
+    const std::size_t n = mesh.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 step = shell.points[n + i] - shell.points[i];
+      if (mesh.points[i].x <= 0 && mesh.points[i].z == 0) {
+        EXPECT_NEAR(step.z, thickness, 1e-13) << degrees;
+      }
+      if (std::abs(mesh.points[i].x * std::sin(a) + mesh.points[i].z * std::cos(a)) < 1e-12) {
+        EXPECT_NEAR(dot(step, {std::sin(a), 0, std::cos(a)}), thickness, 1e-13) << degrees;
+      }
+      EXPECT_NEAR(step.y, 0, 1e-13);
+    }
+  }
+}
+
+/// Quads so warped that flat triangles in their place cross those of the other side: no reason to refuse.
+TEST(Normals, CoarseMeshesOfRoundBodiesGetThinWalls) {
+  std::mt19937_64 random(3);
+  const auto noise = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  int swept = 0;
+  for (int k = 0; k < 100; ++k) {
+    Mesh torus;
+    add_patch(torus, 9, 4, [](double s, double t) {
+      const double a = 2 * kPi * s, b = 2 * kPi * t;
+      return Vec3{(20 + 8 * std::cos(b)) * std::cos(a), (20 + 8 * std::cos(b)) * std::sin(a),
+                  8 * std::sin(b)};
+    });
+    for (Vec3& p : torus.points) p = p + 5 * Vec3{noise(), noise(), noise()};
+    const std::string message = message_of([&] { expect_sound(extrude(torus, AlongNormals{1e-6}, {2})); });
+    swept += message.empty();
+    if (!message.empty()) {
+      EXPECT_NE(message.find("inverted"), std::string::npos) << message;
+    }
+  }
+  EXPECT_GT(swept, 30);
+}
+
+/// Quads of a noisy roof: the ridge must not run away along itself.
+TEST(Normals, NoiseDoesNotMatterAtEdges) {
+  Mesh mesh;
+  const auto noise = [](double s, double t) { return 1e-4 * std::sin(40 * s + 70 * t); };
+  add_patch(mesh, 4, 9, [&](double s, double t) { return Vec3{s - 1, t, noise(s, t)}; });
+  add_patch(mesh, 4, 9, [&](double s, double t) {
+    return Vec3{s == 0 ? 0 : noise(s, t), t, s == 0 ? noise(1, t) : -s};
+  });
+  Section section = make_section(mesh, nullptr);
+  const std::vector<Vec3> directions = offset_directions(section);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (norm(Vec3{section.mesh.points[i].x, 0, section.mesh.points[i].z}) < 1e-3) {
+      EXPECT_NEAR(norm(directions[i] - Vec3{1, 0, 1}), 0, 0.02);
+    }
+}
+
+TEST(Normals, WhereThereAreNone) {
+  Mesh pinched;  // two quads that share a point
+  pinched.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, -1, 0}, {0, -1, 0}};
+  pinched.quads = {{0, 1, 2, 3}, {0, 4, 5, 6}};
+  pinched.quad_region = {0, 0};
+  pinched.regions = {{1, {}}};
+  expect_input_error([&] { extrude(pinched, AlongNormals{0.1}, {1}); }, {"touch at (0, 0, 0)"});
+  EXPECT_EQ(extrude(pinched, AlongVector{{0, 0, 1}}, {2}).hexahedra.size(), 4u);
+  Mesh folded;
+  add_patch(folded, 1, 1, [](double s, double t) { return Vec3{s - 1, t, 0}; });
+  add_patch(folded, 1, 1, [](double s, double t) { return Vec3{-s, t, -0.001 * s}; });
+  expect_input_error([&] { extrude(folded, AlongNormals{0.1}, {1}); }, {"folds back"});
+  expect_input_error([&] { extrude(quad_grid(1, 1), AlongNormals{0}, {1}); }, {"thickness of 0"});
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

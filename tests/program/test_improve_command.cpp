@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/mesh_io.h"
+#include "tests/program/program.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// A grid with a third of its inner points moved.
+Mesh bad_grid() {
+  Mesh mesh = quad_grid(8, 8);
+  for (int v = 0; v < 81; v += 3)
+    if (v % 9 != 0 && v % 9 != 8 && v > 8 && v < 72) mesh.points[v] = mesh.points[v] + Vec3{0.07, 0.05, 0};
+  return mesh;
+}
+
+TEST(ImproveCommand, PrintsBeforeAndAfterAndKeepsNames) {
+  for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
+    const TemporaryFolder folder;
+    write_mesh(folder / name, bad_grid());
+    const ProgramResult result =
+        delquad({"improve", folder / name, "-o", folder / "out.msh", "--json", folder / "record.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
+    ASSERT_NE(before, after);
+    EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
+    EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.99) << name;
+    EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"start\": true"));
+    const Mesh given = read_mesh(folder / name), better = read_mesh(folder / "out.msh");
+    EXPECT_EQ(better.lines.size(), given.lines.size()) << name;
+    ASSERT_EQ(better.curves.size(), given.curves.size()) << name;
+    for (std::size_t i = 0; i < given.curves.size(); ++i)
+      EXPECT_EQ(better.curves[i].names, given.curves[i].names) << name;
+  }
+}
+
+TEST(ImproveCommand, TrianglesAreMergedUnlessTheWordIsForQuads) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "t.msh", triangle_grid(6, 6));
+  ASSERT_EQ(delquad({"improve", folder / "t.msh", "-o", folder / "out.msh"}).exit_code, 0);
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 36u);
+  const ProgramResult refused =
+      delquad({"improve", folder / "t.msh", "--pipeline", "CO", "-o", folder / "none.msh"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "72 triangles and no quads")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.msh"));
+}
+
+TEST(ImproveCommand, ModelsAndExperimentsBeginFromMeshes) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "a.vtu", bad_grid());
+  const auto model = write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n");
+  EXPECT_EQ(delquad({"mesh", model, "--pipeline", "O", "-o", folder / "out.msh"}).exit_code, 0);
+  EXPECT_EQ(delquad({"info", model}).exit_code, 0);
+  const std::string cases = "[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\nstart = true\n";
+  const auto file = write_text(folder / "e.toml", "pipelines = [\"CO\", \"O\", \"DB\"]\n" + cases);
+  const ProgramResult result = delquad({"run", file, "-o", folder / "results", "--pictures", "none"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(delquad({"rerun", folder / "results/a/CO/record.json"}).exit_code, 0);
+  // Words from elements need some.
+  const auto mixed = write_text(
+      folder / "f.toml", "pipelines = [\"CO\"]\n" + cases + "[[case]]\nname = \"b\"\nsize = 0.1\n" + kSquare);
+  const ProgramResult refused = delquad({"run", mixed, "-o", folder / "none"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "'C' starts from quads")) << refused.err;
+}
+
+/// A part of a cylinder.
+Mesh bad_shell() {
+  Mesh mesh = bad_grid();
+  for (Vec3& p : mesh.points) p = {std::sin(p.x), p.y, std::cos(p.x)};
+  mesh.regions = {{2, {"shell"}}};
+  return mesh;
+}
+
+TEST(ImproveCommand, MeshesInSpace) {
+  for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
+    const TemporaryFolder folder;
+    write_mesh(folder / name, bad_shell());
+    const ProgramResult result = delquad({"improve", folder / name, "-o", folder / "out.msh"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
+    EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
+    EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.97) << name;
+    EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 64u);
+  }
+  const TemporaryFolder folder;
+  write_mesh(folder / "a.vtu", bad_shell());
+  const auto file = write_text(folder / "e.toml",
+                               "pipelines = [\"CO\", \"O\"]\n[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\n"
+                               "start = true\n");
+  const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(delquad({"rerun", folder / "results/a/CO/record.json"}).exit_code, 0);
+  EXPECT_EQ(delquad({"info", write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n")}).exit_code,
+            0);
+}
+
+}  // namespace
+}  // namespace delquad::testing_support

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/program/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing_support;
+
+const std::string kExperiment =
+    "pipelines = [\"D\", \"DB\"]\n[[case]]\nname = \"square\"\nsize = 0.25\n" + kSquare;
+
+class RecordsCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = write_text(folder_ / "e.toml", kExperiment);
+    ASSERT_EQ(delquad({"run", file_, "-o", out()}).exit_code, 0);
+  }
+  std::string out() const { return (folder_ / "out").string(); }
+  TemporaryFolder folder_;
+  std::string file_;
+};
+
+TEST_F(RecordsCommands, VerifySaysWhatIsWrong) {
+  const ProgramResult well = delquad({"verify", out()});
+  EXPECT_EQ(well.exit_code, 0) << well.out;
+  EXPECT_EQ(well.out, out() + ": 2 records, 2 meshes measured again: all well\n");
+  fs::resize_file(out() + "/square/DB/mesh.msh", 100);
+  const ProgramResult cut = delquad({"verify", out(), "-j", "1"});
+  EXPECT_EQ(cut.exit_code, 1);
+  EXPECT_TRUE(contains(cut.out, out() + "/square/DB/mesh.msh: holds 100 bytes, expected ")) << cut.out;
+  EXPECT_TRUE(contains(cut.out, "1 findings")) << cut.out;
+  const ProgramResult nowhere = delquad({"verify", folder_ / "nowhere"});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_TRUE(contains(nowhere.err, "nowhere")) << nowhere.err;
+}
+
+TEST_F(RecordsCommands, RerunOfAMovedFolder) {
+  fs::create_directories(folder_ / "far/away");
+  fs::rename(out(), folder_ / "far/away/results");
+  fs::remove(file_);
+  const fs::path record = folder_ / "far/away/results/square/DB/record.json";
+  const ProgramResult again = delquad({"rerun", record});
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  EXPECT_TRUE(contains(again.out, "the same mesh, byte for byte\n")) << again.out;
+  std::string text = read_text(record);
+  const auto at = text.find("\"eta_mean\": ") + 12;
+  text.replace(at, text.find(',', at) - at, "0.5");
+  write_text(record, text);
+  const ProgramResult edited = delquad({"rerun", record});
+  EXPECT_EQ(edited.exit_code, 1);
+  EXPECT_TRUE(contains(edited.out, "differs: value metrics eta_mean: 0.5 in the record, ")) << edited.out;
+}
+
+TEST_F(RecordsCommands, MergeOfShards) {
+  for (const char* shard : {"0", "1"})
+    ASSERT_EQ(delquad({"run", file_, "-o", folder_ / (std::string("part") + shard), "--shard",
+                       std::string(shard) + "/2"})
+                  .exit_code,
+              0);
+  const std::string all = (folder_ / "all").string();
+  const ProgramResult merged = delquad({"merge", folder_ / "part0", folder_ / "part1", "-o", all});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(delquad({"verify", all}).exit_code, 0);
+  EXPECT_EQ(read_text(all + "/square/DB/mesh.msh"), read_text(out() + "/square/DB/mesh.msh"));
+  EXPECT_EQ(delquad({"merge", folder_ / "part0", folder_ / "part1", "-o", all}).exit_code, 2);
+  EXPECT_EQ(delquad({"merge", folder_ / "part0", "-o", folder_ / "one"}).exit_code, 2);
+}
+
+TEST_F(RecordsCommands, PicturesAreSvgOrNone) {
+  const std::string none = (folder_ / "none").string();
+  EXPECT_EQ(delquad({"run", file_, "-o", none, "--pictures", "none"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(none + "/square/DB/picture.svg"));
+  EXPECT_FALSE(fs::exists(none + "/square/cross.svg"));
+  EXPECT_TRUE(fs::exists(none + "/square/DB/mesh.vtu"));
+  EXPECT_TRUE(fs::exists(out() + "/square/DB/picture.svg"));
+  EXPECT_EQ(delquad({"run", file_, "-o", none, "--pictures", "jpg"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+#include <pty.h>
+
+#include <algorithm>
+
+#include "tests/program/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// Takes half a minute, nearly all of it in smoothing.
+const std::vector<std::string> kLong = {"--size", "0.003", "--pipeline", "DLLLLLLLLLLLL", "--threads", "1"};
+
+std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"mesh",   write_text(folder / "model.toml", kSquare),
+                                    "-o",     folder / "out.msh",
+                                    "--json", folder / "out.json"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(TimeLimit, EndsTheRunWithTheStageAndItsFace) {
+  const TemporaryFolder folder;
+  auto words = mesh_words(folder, kLong);
+  words.insert(words.end(), {"--time-limit", "3"});
+  const ProgramResult result = delquad(words);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(result.err.starts_with("error: not done after 3 s (--time-limit): ")) << result.err;
+  EXPECT_TRUE(contains(result.err, "Lp-CVT smoothing of region 1 (")) << result.err;
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+TEST(TimeLimit, IsNotFeltByWhatIsDone) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      delquad(mesh_words(folder, {"--size", "0.1", "--time-limit", "1e6", "--pipeline", "D"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(TimeLimit, MustBeATime) {
+  const TemporaryFolder folder;
+  for (const char* bad : {"0", "-1", "soon"}) {
+    const ProgramResult result = delquad(mesh_words(folder, {"--size", "0.1", "--time-limit", bad}));
+    EXPECT_EQ(result.exit_code, 2) << bad;
+    EXPECT_TRUE(contains(result.err, "--time-limit")) << result.err;
+  }
+}
+
+struct Ending {
+  int signal_number, exit_code;
+};
+class Signals : public testing::TestWithParam<Ending> {};
+
+TEST_P(Signals, EndTheRunWithoutAFile) {
+  const TemporaryFolder folder;
+  ProgramOptions options{mesh_words(folder, kLong), 0, {}, GetParam().signal_number};
+  int asked = 0;
+  options.interrupt_when = [&] { return ++asked > 150; };  // a second and a half
+  const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
+  EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+INSTANTIATE_TEST_SUITE_P(Of, Signals, testing::Values(Ending{SIGINT, 130}, Ending{SIGTERM, 143}),
+                         [](const auto& ending) { return std::to_string(ending.param.exit_code); });
+
+/// What is being written then is written to its end.
+TEST(Signals, WhileAFileIsWritten) {
+  const TemporaryFolder folder;
+  const auto is_temporary = [&] {
+    return std::ranges::any_of(folder.names(),
+                               [](const std::string& name) { return name.ends_with(".tmp"); });
+  };
+  ProgramOptions options{{"mesh", write_text(folder / "model.toml", kSquare), "-o", folder / "out.msh",
+                          "--size", "0.0015", "--pipeline", "D"},
+                         0,
+                         is_temporary,
+                         SIGTERM};
+  const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
+  EXPECT_EQ(result.exit_code, 143) << result.err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"model.toml", "out.msh"}));
+}
+
+TEST(Progress, NamesTheFaceOnATerminal) {
+  const TemporaryFolder folder;
+  auto words = mesh_words(folder, kLong);
+  words.insert(words.begin(), DELQUAD_PROGRAM);
+  words.insert(words.end(), {"--time-limit", "3"});
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  ASSERT_GT(child, 0);
+  std::string text;
+  char part[4096];
+  for (ssize_t n = 0; (n = read(terminal, part, sizeof part)) > 0;)
+    text.append(part, static_cast<std::size_t>(n));
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(contains(text, "model DLLLLLLLLLLLL: Lp-CVT smoothing, region 1")) << text;
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
