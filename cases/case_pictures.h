@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/prepare.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

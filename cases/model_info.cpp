@@ -10,11 +10,11 @@
 #include "base/box_tree.h"
 #include "cases/problem.h"
 #include "delquad/error.h"
+#include "features/given/given_domain.h"
+#include "features/given/given_surface.h"
+#include "features/given/named_domain.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/curve_chains.h"
-#include "mesher/given_domain.h"
-#include "mesher/given_surface.h"
-#include "mesher/named_domain.h"
 #include "mesher/surface_input.h"
 
 namespace delquad {

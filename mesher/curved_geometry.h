@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "features/curved/model_geometry.h"
-#include "mesher/prepare.h"
 #include "mesher/stages.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

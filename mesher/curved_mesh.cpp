@@ -17,9 +17,9 @@
 #include "features/curved/open_cusps.h"
 #include "features/curved/raise_order.h"
 #include "features/curved/untangle_curved.h"
+#include "features/layers/planar_layers.h"
 #include "geometry/mesh/element_nodes.h"
 #include "mesher/curved_geometry.h"
-#include "mesher/planar_layers.h"
 
 namespace delquad {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "features/sizes/curve_options.h"
 #include "geometry/surface/compound.h"
-#include "mesher/curve_options.h"
 
 namespace delquad {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fields/size_aware_cross_field.h"
-#include "mesher/prepare.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

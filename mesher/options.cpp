@@ -14,7 +14,7 @@
 #include "algorithms/regularity/regularity.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
-#include "mesher/curve_options.h"
+#include "features/sizes/curve_options.h"
 #include "mesher/poor_quads.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"

@@ -13,7 +13,7 @@
 
 #include "base/box.h"
 #include "base/option_table.h"
-#include "mesher/planar_layers.h"
+#include "features/layers/planar_layers.h"
 #include "metrics/shape.h"
 
 namespace delquad {

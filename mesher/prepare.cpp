@@ -1,4 +1,5 @@
 #include "mesher/prepare.h"
+#include "features/layers/add_layers.h"
 
 #include <fmt/format.h>
 
@@ -9,28 +10,28 @@
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/stopwatch.h"
+#include "features/given/given_domain.h"
+#include "features/given/given_surface.h"
+#include "features/given/named_domain.h"
+#include "features/grids/add_grids.h"
+#include "features/layers/planar_layers.h"
+#include "features/sizes/fine_spots.h"
+#include "features/sizes/gap_warning.h"
+#include "features/sizes/imprint_named.h"
+#include "features/sizes/join_short_curves.h"
+#include "features/sizes/named_parts.h"
+#include "features/sizes/size_warnings.h"
+#include "features/symmetry/symmetric_size.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/curve_divisions.h"
 #include "geometry/planar/symmetry.h"
-#include "mesher/add_grids.h"
 #include "mesher/boundary_report.h"
 #include "mesher/check_problem.h"
-#include "mesher/fine_spots.h"
-#include "mesher/gap_warning.h"
-#include "mesher/given_domain.h"
-#include "mesher/given_surface.h"
-#include "mesher/imprint_named.h"
-#include "mesher/join_short_curves.h"
-#include "mesher/named_domain.h"
-#include "mesher/named_parts.h"
 #include "mesher/perturb.h"
-#include "mesher/planar_layers.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/size_aware.h"
-#include "mesher/size_warnings.h"
 #include "mesher/surface_input.h"
-#include "mesher/symmetric_size.h"
 
 namespace delquad {
 namespace {
@@ -488,7 +489,7 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   if (std::holds_alternative<LineModel>(problem.model))
     for (const std::string& line : odd_boundaries(domain))
       p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
-  p.expected_quads = expected_quads(*p.background, *p.size) + p.layers.count.quads;
+  p.expected_quads = expected_quads(*p.background, *p.size) + (p.layers ? p.layers->count.quads : 0);
   check_count(p.expected_quads, problem);
   warn_of_large_size(*p.size, domain.boundary, p.warnings);
   if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);

@@ -9,20 +9,20 @@
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "features/grids/add_grids.h"
+#include "features/periodic/periodic_sides.h"
+#include "features/sizes/curve_options.h"
+#include "features/sizes/fine_spots.h"
+#include "features/sizes/named_parts.h"
+#include "features/sizes/size_warnings.h"
+#include "features/symmetry/mirrored_surface.h"
+#include "features/symmetry/symmetric_size.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
-#include "mesher/add_grids.h"
-#include "mesher/curve_options.h"
-#include "mesher/fine_spots.h"
-#include "mesher/mirrored_surface.h"
-#include "mesher/named_parts.h"
-#include "mesher/periodic_sides.h"
 #include "mesher/perturb.h"
 #include "mesher/recombination_options.h"
 #include "mesher/size_aware.h"
-#include "mesher/size_warnings.h"
-#include "mesher/symmetric_size.h"
 #include "patches/divided_chains.h"
 #include "patches/surface_domain.h"
 
@@ -198,12 +198,6 @@ void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedPr
 }
 
 }  // namespace
-
-std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
-  std::vector<const FlatPatch*> maps;
-  for (const SurfacePatch& patch : surface.domain.patches) maps.push_back(&patch.map);
-  return maps;
-}
 
 PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                                       std::shared_ptr<const SizeField> size,

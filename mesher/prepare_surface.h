@@ -2,8 +2,8 @@
 
 #include <functional>
 
+#include "features/given/given_surface.h"
 #include "geometry/surface/surface_model.h"
-#include "mesher/given_surface.h"
 #include "mesher/prepare.h"
 
 namespace delquad {

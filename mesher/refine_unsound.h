@@ -3,10 +3,24 @@
 #include <functional>
 #include <vector>
 
+#include "base/counters.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 
 namespace delquad {
+
+/// What refine_unsound() did.
+struct RefinementSummary {
+  int rounds = 0;  ///< how often the problem was meshed anew
+  int spots = 0;   ///< places around which the size is smaller
+};
+
+template <>
+struct Counters<RefinementSummary> {
+  using S = RefinementSummary;
+  static constexpr const char* step = "refine_unsound";
+  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
+};
 
 /// prepare() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;

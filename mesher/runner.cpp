@@ -1,4 +1,5 @@
 #include "mesher/runner.h"
+#include "features/layers/add_layers.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -9,26 +10,26 @@
 #include <new>
 #include <stdexcept>
 
+#include "algorithms/finish/lift_bad_quads.h"
+#include "algorithms/finish/part_twins.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
+#include "features/given/given_domain.h"
+#include "features/grids/mapped_grid.h"
+#include "features/layers/planar_layers.h"
+#include "features/periodic/face_images.h"
+#include "features/symmetry/mirror_mesh.h"
+#include "features/symmetry/patch_image.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/surface/triangle_sides.h"
 #include "mesher/across_cuts.h"
 #include "mesher/curved_mesh.h"
-#include "mesher/face_images.h"
-#include "mesher/given_domain.h"
 #include "mesher/keep_better.h"
-#include "mesher/lift_bad_quads.h"
-#include "mesher/mapped_grid.h"
-#include "mesher/mirror_mesh.h"
-#include "mesher/part_twins.h"
-#include "mesher/patch_image.h"
-#include "mesher/planar_layers.h"
 #include "mesher/poor_quads.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
@@ -403,7 +404,7 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
   state.reasons.resize(prepared.patches.size());
   if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
   state.nodes.points = prepared.boundary.points;
-  if (!prepared.outlines.empty()) add_summary(state.log, prepared.layers.count);
+  if (prepared.layers) add_summary(state.log, prepared.layers->count);
   count_grids(prepared, state.log);
   return state;
 }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "mesher/prepare.h"
 #include "mesher/soundness.h"
 #include "mesher/stages.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/prepare.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

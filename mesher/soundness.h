@@ -7,8 +7,8 @@
 
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"
-#include "mesher/prepare.h"
 #include "metrics/surface/surface_report.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

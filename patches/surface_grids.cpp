@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

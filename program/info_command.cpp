@@ -8,8 +8,8 @@
 #include "cases/model_info.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
+#include "features/sizes/size_warnings.h"
 #include "io/mesh_io.h"
-#include "mesher/size_warnings.h"
 #include "program/check_files.h"
 #include "program/commands.h"
 

@@ -19,6 +19,7 @@
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/record.h"
+#include "features/layers/add_layers.h"
 #include "io/mesh_io.h"
 #include "mesher/check_problem.h"
 #include "mesher/runner.h"
@@ -171,9 +172,9 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
              result.mesh.triangles.size(), result.mesh.points.size(), seconds);
   print_metrics(result.metrics);
-  if (const LayerCount& layers = prepared.layers.count; layers.quads > 0)
-    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n", layers.quads,
-               layers.columns);
+  if (prepared.layers)
+    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n",
+               prepared.layers->count.quads, prepared.layers->count.columns);
   const Summaries& log = result.log.summaries;
   if (log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
     fmt::print("  across cuts: {} irregular vertices before{}\n",

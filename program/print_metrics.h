@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mesher/prepare.h"
 #include "mesher/stages.h"
 #include "metrics/metrics.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "mesher/prepare.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 

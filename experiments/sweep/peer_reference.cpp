@@ -13,6 +13,7 @@
 #include "experiments/sweep/calibration.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/scratch_folder.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 
 namespace delquad {

@@ -19,9 +19,9 @@
 #include "experiments/sweep/result_records.h"
 #include "experiments/sweep/scratch_folder.h"
 #include "experiments/sweep/tables.h"
+#include "features/layers/planar_layers.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
-#include "mesher/planar_layers.h"
 #include "metrics/metrics.h"
 
 namespace delquad {

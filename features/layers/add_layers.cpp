@@ -14,6 +14,7 @@
 #include "features/layers/layer_builder.h"
 #include "features/layers/layer_heights.h"
 #include "features/layers/mirror_layers.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/renumber_nodes.h"
 
 namespace delquad {

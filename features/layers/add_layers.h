@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counters.h"
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
 
@@ -15,6 +16,14 @@ struct LayerCount {
   int quads = 0;           ///< all
   int fans = 0;            ///< quads at corners of fans, in the first layer
   double least_scale = 1;  ///< of heights; below 1 where there is no room for them
+};
+
+template <>
+struct Counters<LayerCount> {
+  using S = LayerCount;
+  static constexpr const char* step = "layers";
+  static constexpr auto all = std::tuple{counter("columns", &S::columns), counter("quads", &S::quads),
+                                         counter("fans", &S::fans), counter("least_scale", &S::least_scale)};
 };
 
 struct LayerReport {

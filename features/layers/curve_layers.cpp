@@ -10,11 +10,12 @@
 
 #include "base/nearest_name.h"
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {
 
-bool has_name(const Entity& entity, const std::string& name) {
+bool is_named(const Entity& entity, const std::string& name) {
   return std::ranges::find(entity.names, name) != entity.names.end();
 }
 
@@ -60,16 +61,12 @@ std::vector<char> regions_named(const PlanarDomain& domain, const LayerSpec& spe
       throw InputError(
           fmt::format("{}: no region has the name '{}'{}", spec.where, name, suggestion_or_all(name, known)));
     for (std::size_t r = 0; r < regions.size(); ++r)
-      if (has_name(regions[r], name)) into[r] = 1;
+      if (is_named(regions[r], name)) into[r] = 1;
   }
   return into;
 }
 
 }  // namespace
-
-std::string curve_title(const Entity& curve) {
-  return curve.names.empty() ? fmt::format("curve {}", curve.tag) : "'" + curve.names[0] + "'";
-}
 
 int CurveLayers::at(int curve, int region) const {
   if (curve < 0) return -1;
@@ -96,7 +93,7 @@ CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSp
       bool is_beside = specs[s].into.empty();  // one of the regions
       for (std::size_t c = 0; c < curves.size(); ++c) {
         std::vector<int>& here = layers.of_curve[c];
-        if (!has_name(curves[c], name)) continue;
+        if (!is_named(curves[c], name)) continue;
         for (const int r : regions[c]) is_beside = is_beside || goes_into(s, r);
         if (std::ranges::find(here, static_cast<int>(s)) != here.end()) continue;
         if (!bounds[c])

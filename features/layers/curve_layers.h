@@ -20,7 +20,4 @@ struct CurveLayers {
 /// for those without a region, with the same one on both sides or with none of those that were named.
 CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSpec> specs);
 
-/// For messages: its first name, or its number.
-std::string curve_title(const Entity& curve);
-
 }  // namespace delquad

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "delquad/error.h"
 #include "features/layers/layer_walls.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

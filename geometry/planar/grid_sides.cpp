@@ -10,6 +10,7 @@
 #include "base/box.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {
@@ -103,15 +104,6 @@ std::string why_no_grid(const FaceOutline& outline) {
 }
 
 }  // namespace
-
-std::string region_label(const Entity& region) {
-  return region.names.empty() ? fmt::format("region_{}", region.tag) : region.names[0];
-}
-
-bool has_name(const Entity& region, const std::string& name) {
-  return name == fmt::format("region_{}", region.tag) ||
-         std::ranges::find(region.names, name) != region.names.end();
-}
 
 GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& regions, const NamedPlaces& points)
     : spec_(spec) {

@@ -58,12 +58,6 @@ class GridFinder {
   std::vector<Corners> corners_;
 };
 
-/// What messages call a region.
-std::string region_label(const Entity& region);
-
-/// Whether a region has that name, or number as in files: "region_2".
-bool has_name(const Entity& region, const std::string& name);
-
 /// Chooses numbers of edges, see balance_counts(). `around`: of each face its curves, each as often as it
 /// lies beside; `leader`: of each curve the one whose number it has. Faces that are not asked for become free
 /// where the others cannot agree with them.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 
 namespace delquad {
 namespace {

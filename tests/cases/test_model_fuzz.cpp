@@ -9,8 +9,8 @@
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "patches/prepared.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 

@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "cases/problem.h"
-#include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "patches/prepared.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"

@@ -1,4 +1,4 @@
-#include "mesher/lift_bad_quads.h"
+#include "algorithms/finish/lift_bad_quads.h"
 
 #include <gtest/gtest.h>
 

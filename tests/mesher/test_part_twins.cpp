@@ -1,4 +1,4 @@
-#include "mesher/part_twins.h"
+#include "algorithms/finish/part_twins.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "cases/case_file.h"
 #include "cases/problem.h"
 #include "io/mesh_io.h"
-#include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "patches/prepared.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

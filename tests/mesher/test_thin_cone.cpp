@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "cases/problem.h"
-#include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "patches/prepared.h"
 #include "tests/support/surfaces.h"
 #include "tests/support/temporary_folder.h"
 

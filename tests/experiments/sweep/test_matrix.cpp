@@ -2,7 +2,7 @@
 
 #include "cases/problem.h"
 #include "experiments/sweep/experiment.h"
-#include "mesher/prepare.h"
+#include "patches/prepared.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 

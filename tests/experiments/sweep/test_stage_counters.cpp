@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "algorithms/cleanup/cleanup.h"
+#include "algorithms/finish/lift_bad_quads.h"
+#include "algorithms/finish/part_twins.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
 #include "algorithms/recombination/recombine.h"

@@ -1,0 +1,344 @@
+#include "algorithms/finish/lift_bad_quads.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "base/parallel.h"
+#include "metrics/shape.h"
+#include "metrics/surface/face_normals.h"
+#include "patches/prepared.h"
+#include "smoothing/relocation/quad_relocation.h"
+#include "smoothing/surface/surface_lift.h"
+#include "smoothing/surface/surface_tracks.h"
+
+namespace delquad {
+namespace {
+
+/// Quads below this eta in space are lifted, in so many sweeps.
+constexpr double kPoorInSpace = 0.3;
+constexpr int kLiftSweeps = 20;
+/// Quads of this eta and less are flat: hardly better than inverted.
+constexpr double kFlat = 1e-3;
+/// Rings are put around what is bad so many times at most.
+constexpr int kRingPasses = 3;
+/// Changes of quads around what is bad still: in all, quads in all the meshes of these, and of one quad.
+constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
+/// Places of vertices that are tried in all, see lift_worst_on_surface(): some ten seconds.
+constexpr long long kMostCost = 8'000'000;
+
+/// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
+constexpr int kUnsound = 1000;
+
+/// How bad quads are.
+class Badness {
+ public:
+  explicit Badness(const Mesh& fine) : fine_(fine) {}
+
+  /// `around`: sum of the unit normals of the quads around the corners. A quad that agrees with these is
+  /// taken to look the right way, for to ask the model takes long.
+  int operator()(const std::array<Vec3, 4>& corners, const Vec3& around, int face) const {
+    constexpr double kAgrees = 0.5;  // a cosine
+    const Vec3 area = area_vector(corners);
+    const ElementShape<4> shape = element_shape(corners, area);
+    if (!is_readable(corners, area, shape) || quad_warp(corners) > kFold) return kUnsound;
+    if (dot(area, around) < kAgrees * norm(area) * norm(around) && is_turned(corners, area, face))
+      return kUnsound;
+    return eta_of(shape.angle) > kFlat ? 0 : 1;
+  }
+
+ private:
+  bool is_turned(const std::array<Vec3, 4>& corners, const Vec3& area, int face) const {
+    std::call_once(is_asked_, [&] { normals_.emplace(fine_); });
+    Vec3 centre;
+    double reach = 0;
+    for (const Vec3& x : corners) centre = centre + 0.25 * x;
+    for (const Vec3& x : corners) reach = std::max(reach, norm(x - centre));
+    return normals_->all_point_away({centre, face}, area, reach);
+  }
+
+  const Mesh& fine_;
+  mutable std::once_flag is_asked_;
+  mutable std::optional<FaceNormals> normals_;
+};
+
+/// The patches that take part.
+std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < in.patches.size(); ++i)
+    if (in.patches[i].form == PatchForm::kQuads && !in.left_out[i]) which.push_back(i);
+  return which;
+}
+
+/// Returns how many vertices moved.
+int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, Budget& trials,
+             const LiftedBall& ball = {}) {
+  const PreparedSurface& surface = *in.prepared.surface;
+  std::vector<SurfaceTracks::Patch> lifted;
+  for (const std::size_t i : which)
+    lifted.push_back({&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &in.patches[i].quads,
+                      &in.patches[i].inside});
+  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(lifted));
+  std::vector<Vec3> places = tracks.points();
+  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, trials, ball);
+  if (moved > 0) tracks.store(places);
+  return moved;
+}
+
+struct BadQuad {
+  int badness;
+  std::size_t patch;
+  int quad;
+  LiftedBall around;  ///< what a change of it may move
+};
+
+/// Around the middle of a quad, so many times as far as its corners.
+LiftedBall ball_around(const std::array<Vec3, 4>& corners) {
+  constexpr double kReach = 5;
+  LiftedBall ball{0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 0};
+  for (const Vec3& x : corners) ball.radius = std::max(ball.radius, kReach * norm(x - ball.centre));
+  return ball;
+}
+
+/// The places of a patch's vertices in space.
+std::vector<Vec3> places_of(const AllPatches& in, std::size_t patch) {
+  std::vector<Vec3> places;
+  for (const int node : in.prepared.patches[patch].boundary.point_node)
+    places.push_back(in.nodes.points[node]);
+  const std::vector<Vec3>& inside = in.patches[patch].inside;
+  places.insert(places.end(), inside.begin(), inside.end());
+  return places;
+}
+
+/// Of these patches the one, those that reach into the ball, and all that have nodes with these in common:
+/// lifting there touches no others.
+std::vector<std::size_t> patches_near(const AllPatches& in, const std::vector<std::size_t>& which,
+                                      std::size_t one, const LiftedBall& ball) {
+  const auto nodes_of = [&](std::size_t p) -> const std::vector<int>& {
+    return in.prepared.patches[p].boundary.point_node;
+  };
+  const auto reaches_in = [&](const Vec3& x) { return norm(x - ball.centre) < ball.radius; };
+  std::vector<char> near(in.nodes.points.size(), 0);
+  for (const std::size_t p : which)
+    if (p == one || std::ranges::any_of(places_of(in, p), reaches_in))
+      for (const int node : nodes_of(p)) near[node] = 1;
+  std::vector<std::size_t> found;
+  std::ranges::copy_if(which, std::back_inserter(found), [&](std::size_t p) {
+    return std::ranges::any_of(nodes_of(p), [&](int node) { return near[node] != 0; });
+  });
+  return found;
+}
+
+/// The bad quads of a patch, in space.
+std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, std::size_t patch) {
+  const QuadPatch& mesh = in.patches[patch].quads;
+  const std::vector<Vec3> place = places_of(in, patch);
+  const auto corners = [&](std::size_t q) {
+    const auto& [a, b, c, d] = mesh.quads[q];
+    return std::array{place[a], place[b], place[c], place[d]};
+  };
+  std::vector<Vec3> around(mesh.points.size());
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const Vec3 area = area_vector(corners(q));
+    if (!(norm(area) > 0)) continue;
+    for (const int v : mesh.quads[q]) around[v] = around[v] + (1 / norm(area)) * area;
+  }
+  std::vector<BadQuad> bad;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const auto& [a, b, c, d] = mesh.quads[q];
+    const int badness = badness_of(corners(q), around[a] + around[b] + around[c] + around[d],
+                                   in.prepared.patches[patch].region);
+    if (badness > 0) bad.push_back({badness, patch, static_cast<int>(q), ball_around(corners(q))});
+  }
+  return bad;
+}
+
+/// The worst come first.
+std::vector<BadQuad> all_bad_quads(const AllPatches& in, const Badness& badness_of,
+                                   const std::vector<std::size_t>& which) {
+  std::vector<std::vector<BadQuad>> found(which.size());
+  parallel_for(
+      which.size(), [&](std::size_t k) { found[k] = bad_quads(in, badness_of, which[k]); },
+      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
+  std::vector<BadQuad> bad;
+  for (const auto& of_patch : found) bad.insert(bad.end(), of_patch.begin(), of_patch.end());
+  std::ranges::stable_sort(bad, std::greater<>(), &BadQuad::badness);
+  return bad;
+}
+
+int total(const std::vector<BadQuad>& bad) {
+  int sum = 0;
+  for (const BadQuad& b : bad) sum += b.badness;
+  return sum;
+}
+
+/// All that a change of quads touches, to come back to.
+class State {
+ public:
+  State(const AllPatches& in, const std::vector<std::size_t>& which)
+      : in_(in), which_(which), nodes_(in.nodes) {
+    for (const std::size_t i : which) patches_.push_back(in.patches[i]);
+  }
+  void restore() const {
+    for (std::size_t k = 0; k < which_.size(); ++k) in_.patches[which_[k]] = patches_[k];
+    in_.nodes = nodes_;
+  }
+
+ private:
+  const AllPatches& in_;
+  const std::vector<std::size_t>& which_;
+  SurfaceNodes nodes_;
+  std::vector<PatchMesh> patches_;
+};
+
+/// Writes a patch's quads back, and places in space: those of vertices that were there stay.
+void store(const AllPatches& in, std::size_t p, const QuadTopology& mesh) {
+  const PreparedSurface& surface = *in.prepared.surface;
+  PatchMesh& patch = in.patches[p];
+  const int n_boundary = static_cast<int>(in.prepared.patches[p].boundary.point_node.size());
+  const int n_before = n_boundary + static_cast<int>(patch.inside.size());
+  std::vector<Vec3> inside;
+  int hint = -1;
+  for (int v = n_boundary; v < mesh.vertex_slots(); ++v)
+    if (mesh.vertex_alive(v))
+      inside.push_back(v < n_before ? patch.inside[v - n_boundary]
+                                    : lift(surface.domain.patches[p], surface.model, mesh.point(v), hint));
+  patch.inside = std::move(inside);
+  patch.quads = mesh.to_patch();
+}
+
+/// Lets the vertices from slot `first` on settle in the plane.
+void settle(const QuadTopology& mesh, QuadRelocation& relocation, int first) {
+  constexpr int kSweeps = 8;
+  relocation.adopt_new_vertices(first);
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int v = first; v < mesh.vertex_slots(); ++v) relocation.step(v);
+}
+
+/// Puts a ring inside each unsound quad. Returns how many.
+int add_rings(const AllPatches& in, const std::vector<BadQuad>& bad) {
+  std::map<std::size_t, std::vector<int>> quads_of;  // by patch
+  for (const BadQuad& b : bad)
+    if (b.badness == kUnsound) quads_of[b.patch].push_back(b.quad);
+  int rings = 0;
+  for (const auto& [p, quads] : quads_of) {
+    QuadTopology mesh(in.patches[p].quads);
+    QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
+    for (const int q : quads) {
+      const std::array<int, 1> quad{q};
+      if (!mesh.can_pillow(quad)) continue;
+      const int first = mesh.vertex_slots();
+      mesh.pillow(quad);
+      settle(mesh, relocation, first);
+      ++rings;
+    }
+    store(in, p, mesh);
+  }
+  return rings;
+}
+
+/// The changes around a quad that are tried: it is merged away, an edge of it turns, opens to two more quads,
+/// or it gets a ring. False where that cannot be.
+bool change(QuadTopology& mesh, int quad, int way) {
+  const int h = 4 * quad + way % 4, kind = way / 4;
+  const bool counterclockwise = kind % 2 == 0, is_inner = mesh.twin(h) >= 0;
+  if (kind == 0 && mesh.can_collapse(h)) return mesh.collapse(h), true;
+  if ((kind == 1 || kind == 2) && is_inner && mesh.can_rotate(h, counterclockwise))
+    return mesh.rotate(h, counterclockwise), true;
+  if ((kind == 3 || kind == 4) && is_inner && mesh.can_open(h)) return mesh.open(h, counterclockwise), true;
+  const std::array<int, 1> ring{quad};
+  if (way == kWays - 1 && mesh.can_pillow(ring)) return mesh.pillow(ring), true;
+  return false;
+}
+
+/// The bad quads once those of the patches `changed` are others.
+std::vector<BadQuad> with_changed(std::vector<BadQuad> bad, const std::vector<std::size_t>& changed,
+                                  const std::vector<BadQuad>& now) {
+  std::erase_if(bad, [&](const BadQuad& b) { return std::ranges::binary_search(changed, b.patch); });
+  bad.insert(bad.end(), now.begin(), now.end());
+  std::ranges::sort(bad, {}, [](const BadQuad& b) { return std::tuple(-b.badness, b.patch, b.quad); });
+  return bad;
+}
+
+/// Changes the quads around the first of the bad ones that this helps, and lifts. False where nothing does.
+bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
+              std::vector<BadQuad>& bad, int& trials, Budget& cost, LiftingSummary& summary) {
+  for (const auto& [badness, p, quad, around] : bad) {
+    if (trials <= 0 || cost.is_spent()) return false;
+    const std::vector<std::size_t> near = patches_near(in, which, p, around);
+    const State before(in, near);
+    for (int way = 0; way < kWays && trials > 0; ++way) {
+      QuadTopology mesh(in.patches[p].quads);
+      QuadRelocation relocation(mesh, *in.prepared.patches[p].size);
+      const int first = mesh.vertex_slots();
+      if (!change(mesh, quad, way)) continue;
+      --trials;
+      settle(mesh, relocation, first);
+      store(in, p, mesh);
+      const int moved = lift_all(in, near, cost, around);
+      std::vector<BadQuad> left = with_changed(bad, near, all_bad_quads(in, badness_of, near));
+      if (total(left) < total(bad)) {
+        summary.moved += moved;
+        ++summary.mended;
+        bad = std::move(left);
+        return true;
+      }
+      before.restore();
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+LiftingSummary lift_bad_quads(const AllPatches& in) {
+  LiftingSummary summary;
+  const std::vector<std::size_t> which = patches_of_quads(in);
+  parallel_for(
+      which.size(),
+      [&](std::size_t k) {
+        PatchMesh& patch = in.patches[which[k]];
+        const DoingFace face = doing_patch(in.prepared, which[k]);
+        if (patch.inside.empty()) patch.inside = places_inside(in.prepared, which[k], patch, in.nodes.points);
+      },
+      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.points.size()); });
+  Budget cost(kMostCost);
+  summary.moved = lift_all(in, which, cost);
+
+  const Badness badness_of(in.prepared.surface->model.fine);
+  std::vector<BadQuad> bad = all_bad_quads(in, badness_of, which);
+  std::size_t n_quads = 1;
+  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
+  const int most = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
+  int trials = most;
+  // Rings make a mesh less regular: one that was given gets them last.
+  if (in.prepared.given_entities)
+    while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  trials = most;
+  for (int pass = 0; pass < kRingPasses && total(bad) >= kUnsound; ++pass) {
+    const State before(in, which);
+    const int rings = add_rings(in, bad);
+    if (rings == 0) break;
+    const int moved = lift_all(in, which, cost);
+    std::vector<BadQuad> left = all_bad_quads(in, badness_of, which);
+    if (total(left) >= total(bad)) {
+      before.restore();
+      break;
+    }
+    summary.moved += moved;
+    summary.rings += rings;
+    bad = std::move(left);
+  }
+  while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  summary.cost = kMostCost - cost.left();
+  if (cost.is_spent() && !bad.empty())
+    summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;
+  return summary;
+}
+
+}  // namespace delquad

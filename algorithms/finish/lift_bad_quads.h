@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "base/counters.h"
+#include "patches/all_patches.h"
+
+namespace delquad {
+
+/// What became of quads that were bad in space, at the end.
+struct LiftingSummary {
+  int moved = 0;       ///< vertices
+  int rings = 0;       ///< of quads, put inside those that stayed inverted or folded
+  int mended = 0;      ///< changes of the quads around those
+  long long cost = 0;  ///< places of vertices that were tried, those on CAD ten times
+  int stopped = 0;     ///< the tag of the face with the worst quad, where it may not cost more; 0: it ended
+  double seconds = 0;
+};
+
+template <>
+struct Counters<LiftingSummary> {
+  using S = LiftingSummary;
+  static constexpr const char* step = "lift_bad_quads";
+  static constexpr auto all = std::tuple{counter("moved", &S::moved),     counter("rings", &S::rings),
+                                         counter("mended", &S::mended),   counter("cost", &S::cost),
+                                         counter("stopped", &S::stopped), counter("seconds", &S::seconds)};
+};
+
+/// Quads of a surface may be worse in space than in the plane in which they were treated, and nodes on curves
+/// may have to give way: lifts those that are poor in space, see lift_worst_on_surface(). What is inverted,
+/// folded or turned away from the model then gets a ring of quads inside, which is lifted again and kept if
+/// fewer are bad. Last, quads are merged, and edges turned or opened, around what is bad still or flat, one
+/// at a time, and what helps is kept. Patches of quads hold their places in space afterwards. Returns what
+/// was done, without the time.
+LiftingSummary lift_bad_quads(const AllPatches& in);
+
+}  // namespace delquad

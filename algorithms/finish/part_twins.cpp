@@ -1,0 +1,341 @@
+#include "algorithms/finish/part_twins.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <functional>
+#include <map>
+#include <numbers>
+
+#include "patches/prepared.h"
+#include "smoothing/relocation/quad_relocation.h"
+
+namespace delquad {
+namespace {
+
+/// An edge of a patch between two points of its boundary.
+struct PartEdge {
+  std::array<int, 2> nodes;  ///< ascending
+  bool is_chord;             ///< it lies inside
+  int patch;
+  std::array<int, 2> ends;  ///< points of the patch
+  friend auto operator<=>(const PartEdge&, const PartEdge&) = default;
+};
+
+template <std::size_t N>
+void add_sides(const std::vector<std::array<int, N>>& elements, int n_boundary,
+               std::vector<std::array<int, 2>>& sides) {
+  for (const auto& element : elements)
+    for (std::size_t k = 0; k < N; ++k) {
+      const int a = element[k], b = element[(k + 1) % N];
+      if (a < n_boundary && b < n_boundary) sides.push_back({std::min(a, b), std::max(a, b)});
+    }
+}
+
+/// A patch, with its nodes or with those of its image.
+struct PatchNodes {
+  int patch;
+  std::vector<int> node;  ///< of the points of its boundary
+};
+
+/// Those that take part, and then their images. Nodes of curves inside of faces, which have none, are less
+/// than 0 there.
+std::vector<PatchNodes> patches_and_images(const AllPatches& in) {
+  std::vector<PatchNodes> all;
+  for (std::size_t p = 0; p < in.patches.size(); ++p)
+    if (!in.left_out[p]) all.push_back({static_cast<int>(p), in.prepared.patches[p].boundary.point_node});
+  const std::size_t n_patches = all.size();
+  for (const PeriodicFaces& pair : in.prepared.boundary.periodic_faces) {
+    std::map<int, int> image;
+    for (const auto& [node, of] : pair.nodes) image[of] = node;
+    for (std::size_t i = 0; i < n_patches; ++i) {
+      if (in.prepared.patches[all[i].patch].region != pair.master) continue;
+      PatchNodes copy = all[i];
+      for (int& v : copy.node) {
+        const auto at = image.find(v);
+        v = at != image.end() ? at->second : -1 - v;
+      }
+      all.push_back(std::move(copy));
+    }
+  }
+  return all;
+}
+
+void add_edges(const AllPatches& in, const PatchNodes& nodes, std::vector<PartEdge>& edges) {
+  const auto& [p, node] = nodes;
+  const PatchMesh& patch = in.patches[p];
+  const int n_boundary = static_cast<int>(node.size());
+  std::vector<std::array<int, 2>> sides, rim;
+  for (const auto& [a, b] : in.prepared.patches[p].boundary.edges)
+    rim.push_back({std::min(a, b), std::max(a, b)});
+  std::ranges::sort(rim);
+  add_sides(patch.triangles.triangles, n_boundary, sides);
+  add_sides(patch.quads.quads, n_boundary, sides);
+  add_sides(patch.quads.triangles, n_boundary, sides);
+  std::ranges::sort(sides);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool is_twice = i + 1 < sides.size() && sides[i + 1] == sides[i];
+    const bool is_chord = is_twice && !std::ranges::binary_search(rim, sides[i]);  // a slit may be one edge
+    const auto [a, b] = sides[i];
+    edges.push_back({{std::min(node[a], node[b]), std::max(node[a], node[b])}, is_chord, p, {a, b}});
+    i += is_twice;
+  }
+}
+
+/// By patch, the ends of the chords that have to go.
+std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in) {
+  std::vector<PartEdge> edges;
+  for (const PatchNodes& patch : patches_and_images(in)) add_edges(in, patch, edges);
+  std::ranges::sort(edges);
+  std::map<int, std::vector<std::array<int, 2>>> chords;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].is_chord && edges[i - 1].nodes == edges[i].nodes)
+      if (auto& of = chords[edges[i].patch]; std::ranges::find(of, edges[i].ends) == of.end())
+        of.push_back(edges[i].ends);
+  return chords;
+}
+
+void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
+  const auto corner_after = [&](int t, int v) {
+    return static_cast<int>(std::ranges::find(mesh.triangles[t], v) - mesh.triangles[t].begin() + 1) % 3;
+  };
+  const auto has_side = [&](const std::array<int, 3>& t) {
+    for (int k = 0; k < 3; ++k)
+      if (t[k] == ends[0] && t[(k + 1) % 3] == ends[1]) return true;
+    return false;
+  };
+  const auto [a, b] = ends;
+  const int left = static_cast<int>(std::ranges::find_if(mesh.triangles, has_side) - mesh.triangles.begin());
+  const int k = (corner_after(left, b)) % 3, right = mesh.neighbours[left][k];
+  const int c = mesh.triangles[left][k], l = corner_after(right, a), d = mesh.triangles[right][l];
+  const int m = static_cast<int>(mesh.points.size()), n = static_cast<int>(mesh.triangles.size());
+  const auto across = [&](int t, int v) {
+    return mesh.neighbours[t][std::ranges::find(mesh.triangles[t], v) - mesh.triangles[t].begin()];
+  };
+  const int bc = across(left, a), ca = across(left, b), ad = across(right, b), db = across(right, a);
+  mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+  // Around m: (m, c, a), (m, a, d), (m, d, b), (m, b, c).
+  const std::array<int, 4> fan{left, right, n, n + 1}, rim{c, a, d, b}, outside{ca, ad, db, bc};
+  const std::array<int, 4> before{left, right, right, left};
+  mesh.triangles.resize(n + 2);
+  mesh.neighbours.resize(n + 2);
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4, last = (i + 3) % 4;
+    mesh.triangles[fan[i]] = {m, rim[i], rim[next]};
+    mesh.neighbours[fan[i]] = {outside[i], fan[next], fan[last]};
+    if (outside[i] >= 0 && before[i] != fan[i])
+      std::ranges::replace(mesh.neighbours[outside[i]], before[i], fan[i]);
+  }
+}
+
+/// A corner is not opened where that leaves a quad below this eta, or this part of the sine that it had.
+constexpr double kOpenCornerEta = 0.1, kOpenCornerPart = 0.3;
+
+/// The worst of the quads around the vertices from slot `first` on, once these have settled.
+double worst_once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
+  constexpr int kSweeps = 8;
+  const int end = mesh.vertex_slots();
+  relocation.adopt_new_vertices(first);
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int v = first; v < end; ++v) relocation.step(v);
+  double worst = 1;
+  for (int v = first; v < end; ++v)
+    mesh.for_each_out(v, [&](int g) { worst = std::min(worst, least_sine(mesh, QuadTopology::element(g))); });
+  return worst;
+}
+
+double worst_once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
+  const int first = mesh.vertex_slots();
+  mesh.open(h, counterclockwise);
+  return worst_once_settled(mesh, relocation, first);
+}
+
+double worst_with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
+  const int first = mesh.vertex_slots();
+  mesh.pillow(std::array<int, 1>{quad});
+  return worst_once_settled(mesh, relocation, first);
+}
+
+/// A node between two faces that has one quad of each: these share two sides. Its places on both boundaries.
+/// Or the end of a cut with one quad around it, whose sides there are one edge in space: one place, twice.
+struct TwinCorner {
+  std::array<int, 2> patch, point;
+};
+
+std::vector<TwinCorner> twin_corners(const AllPatches& in) {
+  struct Corner {
+    int node;
+    std::array<int, 2> beside;  ///< nodes at the other ends of the quad's sides there, ascending
+    int patch, point;
+    auto operator<=>(const Corner&) const = default;
+  };
+  std::vector<Corner> corners;
+  std::vector<TwinCorner> twins;
+  for (const auto& [p, node] : patches_and_images(in)) {
+    if (in.patches[p].form != PatchForm::kQuads) continue;
+    const auto is_inside = [&](int v) { return v >= static_cast<int>(node.size()); };
+    for (const auto& quad : in.patches[p].quads.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int before = quad[(k + 3) % 4], v = quad[k], after = quad[(k + 1) % 4];
+        if (is_inside(before) || is_inside(v) || is_inside(after)) continue;
+        if (node[before] == node[after]) twins.push_back({{p, p}, {v, v}});
+        const auto [low, high] = std::minmax(node[before], node[after]);
+        corners.push_back({node[v], {low, high}, p, v});
+      }
+  }
+  std::ranges::sort(corners);
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Corner &a = corners[i - 1], &b = corners[i];
+    if (a.node == b.node && a.beside == b.beside) twins.push_back({{a.patch, b.patch}, {a.point, b.point}});
+  }
+  return twins;
+}
+
+/// Of the k-th face at the corner, in its plane.
+double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
+  const QuadPatch& mesh = in.patches[corner.patch[k]].quads;
+  const int v = corner.point[k];
+  for (const auto& quad : mesh.quads) {
+    const auto i = std::ranges::find(quad, v) - quad.begin();
+    if (i == 4) continue;
+    const Vec2 out = mesh.points[quad[(i + 1) % 4]] - mesh.points[v];
+    const Vec2 in_ = mesh.points[quad[(i + 3) % 4]] - mesh.points[v];
+    const double angle = std::atan2(cross(out, in_), dot(out, in_));
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+  }
+  return 0;
+}
+
+/// Gives a boundary vertex with one quad a second one, where that leaves no bad quads: opens one of the sides
+/// that do not touch it, or puts a ring inside the quad.
+bool open_corner(QuadPatch& patch, int v, const ParametricSize& size) {
+  QuadTopology mesh(patch);
+  if (mesh.valence(v) != 1) return true;  // it has been opened already
+  QuadRelocation relocation(mesh, size);
+  relocation.keep_convex_corners();
+  const int quad = QuadTopology::element(mesh.out(v)), side = mesh.next(mesh.out(v));
+  struct Way {
+    bool possible;
+    std::function<double()> take;  ///< returns the worst sine
+  };
+  const int after = mesh.next(side);
+  const Way ways[] = {
+      {mesh.twin(side) >= 0 && mesh.can_open(side),
+       [&] { return worst_once_open(mesh, relocation, side, false); }},
+      {mesh.twin(after) >= 0 && mesh.can_open(after),
+       [&] { return worst_once_open(mesh, relocation, after, true); }},
+      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return worst_with_ring(mesh, relocation, quad); }}};
+  const Way* best = nullptr;
+  double worst = std::min(sine_of_eta(kOpenCornerEta), kOpenCornerPart * least_sine(mesh, quad));
+  const int n_vertices = mesh.vertex_slots();
+  for (const Way& way : ways) {
+    if (!way.possible) continue;
+    const auto start = mesh.mark();
+    const double sine = way.take();
+    mesh.rollback(start);
+    if (sine > worst) worst = sine, best = &way;
+  }
+  if (best == nullptr) return false;
+  best->take();
+  mesh.commit();
+  for (int w = n_vertices; w < mesh.vertex_slots(); ++w) relocation.activate(w);
+  relocation.relax(0.01, 30);
+  patch = mesh.to_patch();
+  return true;
+}
+
+/// Returns how many were opened.
+int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords, const ParametricSize& size) {
+  int opened = 0;
+  QuadTopology mesh(patch);
+  QuadRelocation relocation(mesh, size);
+  relocation.keep_convex_corners();
+  for (const auto [a, b] : chords) {
+    int chord = -1;
+    mesh.for_each_out(a, [&](int h) {
+      if (mesh.target(h) == b) chord = h;
+    });
+    if (chord < 0 || !mesh.can_open(chord)) continue;
+    double worst[2];
+    for (const bool counterclockwise : {false, true}) {
+      const auto start = mesh.mark();
+      worst[counterclockwise] = worst_once_open(mesh, relocation, chord, counterclockwise);
+      mesh.rollback(start);
+    }
+    worst_once_open(mesh, relocation, chord, worst[1] > worst[0]);
+    mesh.commit();
+    ++opened;
+    for (const int v : {mesh.vertex_slots() - 2, mesh.vertex_slots() - 1}) relocation.activate(v);
+  }
+  relocation.relax(0.01, 30);
+  patch = mesh.to_patch();
+  return opened;
+}
+
+/// The patches that are one quad each on nodes on which a patch before is one quad.
+std::vector<int> twin_quads(const AllPatches& in) {
+  std::vector<std::pair<std::array<int, 4>, int>> quads;
+  for (const auto& [p, node] : patches_and_images(in)) {
+    const QuadPatch& mesh = in.patches[p].quads;
+    if (mesh.quads.size() != 1 || !mesh.triangles.empty()) continue;
+    std::array<int, 4> nodes = mesh.quads[0];
+    for (int& v : nodes) v = node[v];
+    std::ranges::sort(nodes);
+    quads.emplace_back(nodes, p);
+  }
+  std::ranges::sort(quads);
+  std::vector<int> twins;
+  for (std::size_t i = 1; i < quads.size(); ++i)
+    if (quads[i].first == quads[i - 1].first && std::ranges::count(twins, quads[i].second) == 0)
+      twins.push_back(quads[i].second);
+  return twins;
+}
+
+void put_ring_inside(QuadPatch& patch, const ParametricSize& size) {
+  QuadTopology mesh(patch);
+  QuadRelocation relocation(mesh, size);
+  const int first = mesh.vertex_slots();
+  mesh.pillow(std::array<int, 1>{0});
+  relocation.adopt_new_vertices(first);
+  relocation.activate_all();
+  relocation.relax(0.01, 30);
+  patch = mesh.to_patch();
+}
+
+}  // namespace
+
+PartingSummary part_twins(const AllPatches& in) {
+  PartingSummary summary;
+  for (const auto& [p, chords] : twin_chords(in)) {
+    PatchMesh& patch = in.patches[p];
+    patch.inside.clear();
+    const int all = static_cast<int>(chords.size());
+    int parted = all;
+    if (patch.form == PatchForm::kQuads) {
+      parted = open_chords(patch.quads, chords, *in.prepared.patches[p].size);
+    } else {
+      for (const auto& chord : chords) part_chord(patch.triangles, chord);
+    }
+    summary.chords += parted;
+    summary.left += all - parted;
+  }
+  for (const int p : twin_quads(in)) {
+    in.patches[p].inside.clear();
+    put_ring_inside(in.patches[p].quads, *in.prepared.patches[p].size);
+    ++summary.rings;
+  }
+  for (const TwinCorner& corner : twin_corners(in)) {
+    const auto open = [&](int k) {
+      PatchMesh& patch = in.patches[corner.patch[k]];
+      patch.inside.clear();
+      return open_corner(patch.quads, corner.point[k], *in.prepared.patches[corner.patch[k]].size);
+    };
+    // The wider angle has more room for two.
+    const int first = angle_at(in, corner, 0) >= angle_at(in, corner, 1) ? 0 : 1;
+    ++(open(first) || open(1 - first) ? summary.corners : summary.corners_left);
+  }
+  return summary;
+}
+
+}  // namespace delquad

@@ -1,0 +1,396 @@
+#include "features/given/given_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/box_tree.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/surface/orient_triangles.h"
+#include "geometry/surface/triangulated_model.h"
+#include "metrics/shape.h"
+
+namespace delquad {
+namespace {
+
+/// Rounding of coordinates, in diagonals of the mesh.
+constexpr double kGivenRounding = 1e-9;
+/// Angles below this, in radians, leave an element no area.
+constexpr double kFlatAngle = 1e-9;
+
+std::string text_of_place(const Vec3& p) { return fmt::format("({:.10g}, {:.10g}, {:.10g})", p.x, p.y, p.z); }
+
+[[noreturn]] void refuse_element(const GivenMesh& given, const Vec3& at, const char* why) {
+  throw InputError(fmt::format("{}: an element at {} {}", given.source, text_of_place(at), why));
+}
+
+/// The least angle of a triangle, less than 0 where it is turned against `up`.
+double least_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& up) {
+  const std::array<Vec3, 3> p{a, b, c};
+  const double sign = dot(cross(b - a, c - a), up) < 0 ? -1 : 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
+    least = std::min(least, sign * std::atan2(norm(cross(u, w)), dot(u, w)));
+  }
+  return least;
+}
+
+using Halves = std::array<std::array<int, 3>, 2>;  ///< corners of a quad
+
+/// By the diagonal that leaves the better worst angle, if both are free; turned over where neither leaves a
+/// good one.
+std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p, bool first_is_free,
+                                          bool second_is_free) {
+  constexpr Halves kFirst{{{0, 1, 2}, {0, 2, 3}}}, kSecond{{{0, 1, 3}, {1, 2, 3}}};
+  const Vec3 up = cross(p[2] - p[0], p[3] - p[1]);
+  const auto worst = [&](const Halves& halves) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : halves) least = std::min(least, least_angle(p[a], p[b], p[c], up));
+    return least;
+  };
+  const double first = worst(kFirst), second = worst(kSecond);
+  const bool takes_first = first_is_free == second_is_free ? first >= second : first_is_free;
+  return takes_first ? std::pair{kFirst, first} : std::pair{kSecond, second};
+}
+
+/// Refuses what no word can begin from, element by element.
+void check_given_elements(const GivenMesh& given) {
+  const Mesh& mesh = given.mesh;
+  std::vector<std::pair<std::array<int, 4>, int>> by_corners;
+  for_each_element(mesh, [&](int element, const auto& v) {
+    std::array<int, 4> corners{-1, -1, -1, -1};
+    std::ranges::copy(v, corners.begin());
+    std::ranges::sort(corners);
+    const Vec3& at = mesh.points[v[0]];
+    for (const int i : v)
+      if (const Vec3& p = mesh.points[i]; !std::isfinite(p.x + p.y + p.z))
+        refuse_element(given, p, "has a coordinate that is not finite");
+    if (std::ranges::adjacent_find(corners.end() - static_cast<std::ptrdiff_t>(v.size()), corners.end()) !=
+        corners.end())
+      refuse_element(given, at, "has a corner twice");
+    by_corners.emplace_back(corners, element);
+  });
+  std::ranges::sort(by_corners);
+  const auto twin = std::ranges::adjacent_find(by_corners, {}, &std::pair<std::array<int, 4>, int>::first);
+  if (twin != by_corners.end()) refuse_element(given, mesh.points[twin->first.back()], "is there twice");
+}
+
+/// An edge of one element must not have nodes of others between its ends.
+void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> sides) {
+  const Mesh& mesh = given.mesh;
+  std::vector<std::array<int, 2>> edges;
+  std::set<int> ends;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 1) return;
+    edges.push_back({edge[0].lo, edge[0].hi});
+    ends.insert({edge[0].lo, edge[0].hi});
+  });
+  const std::vector<int> nodes(ends.begin(), ends.end());
+  std::vector<Box<Vec3>> boxes;
+  for (const int v : nodes) boxes.push_back({mesh.points[v], mesh.points[v]});
+  const BoxTree<Vec3> tree(boxes);
+  const double tolerance = kGivenRounding * diagonal(mesh);
+  for (const auto& [a, b] : edges) {
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b], along = q - p, middle = 0.5 * (p + q);
+    const double length = norm(along), limit = length * length / 4;
+    if (!(length > 0))
+      throw InputError(fmt::format("{}: the edge at {} has no length", given.source, text_of_place(p)));
+    tree.nearest(middle, limit, [&](int i) {
+      const Vec3 from_start = mesh.points[nodes[i]] - p;
+      const double s = dot(from_start, along) / length;
+      if (s <= tolerance || s >= length - tolerance) return;
+      if (norm(from_start - (s / length) * along) > tolerance) return;
+      throw InputError(fmt::format(
+          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node",
+          given.source, text_of_place(mesh.points[nodes[i]]), text_of_place(p), text_of_place(q)));
+    });
+  }
+}
+
+/// Lines that are edges, once each, and points of elements. Tells of what goes.
+void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> sides, Mesh& mesh,
+                              std::vector<Warning>& warnings) {
+  std::set<std::pair<int, int>> seen;
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto [a, b] = mesh.lines[l];
+    if (sides_of_edge(sides, a, b).empty() || !seen.insert(std::minmax({a, b})).second) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  if (kept < mesh.lines.size())
+    warnings.push_back(
+        fmt::format("{}: {} lines are left out: they are no edges of elements, or are there twice",
+                    given.source, mesh.lines.size() - kept));
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  mesh.periodic.clear();
+  if (const int unused = drop_unused_points(mesh); unused > 0)
+    warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
+}
+
+/// Below 0 the more a quad is inverted or folded, else its scaled Jacobian.
+double soundness_of(const Mesh& mesh, int q) {
+  const auto corners = corners_of(mesh, mesh.quads[q]);
+  return std::min(element_shape(corners, area_vector(corners)).scaled_jacobian, kFold - quad_warp(corners));
+}
+
+/// Moves nodes of quads that are inverted, folded or without area towards the middle of their neighbours,
+/// over the other elements. Nodes on lines, at named points, between regions, and on edges sharper than the
+/// feature angle stay.
+class BadQuadOpening {
+ public:
+  BadQuadOpening(double feature_angle, Mesh& mesh)
+      : mesh_(mesh), stays_(mesh.points.size(), 0), around_(stays_.size()), quads_at_(stays_.size()) {
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+      if (const int i = static_cast<int>(q); !(soundness_of(mesh, i) > kLeastJacobian)) bad_.push_back(i);
+    if (bad_.empty()) return;
+    find_neighbours();
+    find_facets(feature_angle * std::numbers::pi / 180);
+  }
+
+  void run(const std::string& source, std::vector<Warning>& warnings) {
+    if (bad_.empty()) return;
+    constexpr int kSweeps = 20;
+    const Vec3 first = mesh_.points[mesh_.quads[bad_[0]][0]];
+    bool moves = facets_.has_value();
+    for (int sweep = 0; sweep < kSweeps && moves; ++sweep) {
+      moves = false;
+      for (const int q : bad_)
+        for (const int v : mesh_.quads[q]) moves = (!stays_[v] && improve(v)) || moves;
+    }
+    const auto left =
+        std::ranges::count_if(bad_, [&](int q) { return !(soundness_of(mesh_, q) > kLeastJacobian); });
+    warnings.push_back(fmt::format(
+        "{}: {} quads are inverted, folded or without area, the first at {}: {} of them are no more so once "
+        "their nodes are moved",
+        source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
+  }
+
+ private:
+  void find_neighbours() {
+    const auto region = [&](int element) {
+      const auto t = mesh_.triangles.size(), e = static_cast<std::size_t>(element);
+      return e < t ? mesh_.triangle_region[e] : mesh_.quad_region[e - t];
+    };
+    for_each_edge(sorted_half_edges(mesh_), [&](std::span<const HalfEdge> edge) {
+      const int a = edge[0].lo, b = edge[0].hi;
+      around_[a].push_back(b);
+      around_[b].push_back(a);
+      if (edge.size() != 2 || region(edge[0].element) != region(edge[1].element)) stays_[a] = stays_[b] = 1;
+    });
+    for (const auto& line : mesh_.lines)
+      for (const int v : line) stays_[v] = 1;
+    for (const NamedPoint& named : mesh_.named_points) stays_[named.point] = 1;
+    for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
+      for (const int v : mesh_.quads[q]) quads_at_[v].push_back(static_cast<int>(q));
+  }
+  void find_facets(double feature_angle) {
+    std::vector<std::array<int, 3>> facets = mesh_.triangles;
+    for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
+      if (const auto [a, b, c, d] = mesh_.quads[q]; !std::ranges::binary_search(bad_, static_cast<int>(q)))
+        facets.insert(facets.end(), {{a, b, c}, {a, c, d}});
+    std::vector<std::vector<Vec3>> normals(mesh_.points.size());
+    for (const auto& facet : facets)
+      for (const int v : facet) normals[v].push_back(area_vector(corners_of(mesh_, facet)));
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      for (const Vec3& n : normals[v])
+        // Elements may run either way round.
+        if (std::atan2(norm(cross(n, normals[v][0])), std::abs(dot(n, normals[v][0]))) > feature_angle)
+          stays_[v] = 1;
+    if (!facets.empty()) facets_.emplace(mesh_.points, std::move(facets));
+  }
+  double worst_around(int v) const {
+    double worst = 1;
+    for (const int q : quads_at_[v]) worst = std::min(worst, soundness_of(mesh_, q));
+    return worst;
+  }
+  /// Tries places on the way to the middle of the neighbours.
+  bool improve(int v) {
+    Vec3 middle;
+    for (const int w : around_[v])
+      middle = middle + (1.0 / static_cast<double>(around_[v].size())) * mesh_.points[w];
+    const Vec3 start = mesh_.points[v];
+    Vec3 best = start;
+    double worst = worst_around(v);
+    for (const double part : {1.0, 0.5, 0.25}) {
+      const auto found = facets_->find(start + part * (middle - start));
+      const auto& [a, b, c] = facets_->triangle(found.triangle);
+      mesh_.points[v] =
+          found.weights[0] * at_first_[a] + found.weights[1] * at_first_[b] + found.weights[2] * at_first_[c];
+      if (const double now = worst_around(v); now > worst) worst = now, best = mesh_.points[v];
+    }
+    mesh_.points[v] = best;
+    return norm(best - start) > 0;
+  }
+
+  Mesh& mesh_;
+  const std::vector<Vec3> at_first_ = mesh_.points;
+  std::vector<char> stays_;
+  std::vector<std::vector<int>> around_, quads_at_;
+  std::vector<int> bad_;  ///< quads, ascending
+  std::optional<NearestTriangle> facets_;
+};
+
+/// The elements as triangles, and what these are of them.
+class Triangulation {
+ public:
+  Triangulation(const GivenMesh& given, const Mesh& elements) : source_(given.source), mesh_(elements) {
+    mesh_.triangles.clear();
+    mesh_.triangle_region.clear();
+    mesh_.quads.clear();
+    mesh_.quad_region.clear();
+    for (std::size_t t = 0; t < elements.triangles.size(); ++t) {
+      const auto& v = elements.triangles[t];
+      const Vec3 &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
+      if (!(least_angle(a, b, c, cross(b - a, c - a)) > kFlatAngle)) refuse_element(given, a, "has no area");
+      add({0, 1, 2}, v, elements.triangle_region[t]);
+      n_corners_.push_back(3);
+    }
+    const std::vector<HalfEdge> sides = sorted_half_edges(elements);
+    std::set<std::pair<int, int>> diagonals;
+    for (std::size_t q = 0; q < elements.quads.size(); ++q) {
+      const auto& v = elements.quads[q];
+      const std::array<Vec3, 4> p{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]],
+                                  mesh_.points[v[3]]};
+      const auto is_free = [&](int k) {
+        return sides_of_edge(sides, v[k], v[k + 2]).empty() &&
+               !diagonals.contains(std::minmax({v[k], v[k + 2]}));
+      };
+      const auto [halves, angle] = halves_in_space(p, is_free(0), is_free(1));
+      if (!(std::abs(angle) > kFlatAngle)) refuse_element(given, p[0], "has no area");
+      diagonals.insert(std::minmax({v[halves[1][0]], v[halves[0][2]]}));
+      for (const auto& half : halves) add(half, v, elements.quad_region[q]);
+      n_corners_.push_back(4);
+    }
+  }
+
+  /// Neighbours agree afterwards; elements may run either way round.
+  void turn() {
+    const std::vector<std::array<int, 3>> before = mesh_.triangles;
+    std::vector<Warning> turned;
+    orient_triangles(mesh_, source_, turned);
+    for (std::size_t t = 0; t < before.size(); ++t)
+      if (mesh_.triangles[t][1] != before[t][1]) {
+        is_turned_[t] = 1;
+        std::swap(corner_of_[t][1], corner_of_[t][2]);
+      }
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  const std::vector<int>& element() const { return element_; }
+  /// See GivenSurface. `fine` has the same triangles, perhaps on other points.
+  std::vector<std::array<int, 4>> corners_in(const Mesh& fine) const {
+    std::vector<std::array<int, 4>> corners(n_corners_.size(), {-1, -1, -1, -1});
+    for (std::size_t t = 0; t < element_.size(); ++t)
+      for (int k = 0; k < 3; ++k) corners[element_[t]][corner_of_[t][k]] = fine.triangles[t][k];
+    for (std::size_t t = 0; t < element_.size(); ++t) {
+      if (!is_turned_[t] || (t > 0 && element_[t] == element_[t - 1])) continue;
+      auto& v = corners[element_[t]];
+      std::reverse(v.begin(), v.begin() + n_corners_[element_[t]]);
+    }
+    return corners;
+  }
+
+ private:
+  void add(const std::array<int, 3>& corners, const auto& v, int region) {
+    mesh_.triangles.push_back({v[corners[0]], v[corners[1]], v[corners[2]]});
+    mesh_.triangle_region.push_back(region);
+    element_.push_back(static_cast<int>(n_corners_.size()));
+    corner_of_.push_back(corners);
+    is_turned_.push_back(0);
+  }
+
+  const std::string& source_;
+  Mesh mesh_;
+  std::vector<int> element_;                   ///< of each triangle
+  std::vector<std::array<int, 3>> corner_of_;  ///< of each triangle, which corners of its element it has
+  std::vector<char> is_turned_;                ///< by triangle
+  std::vector<int> n_corners_;                 ///< of each element
+};
+
+}  // namespace
+
+bool is_in_space(const Mesh& mesh) {
+  const double tolerance = kGivenRounding * diagonal(mesh);
+  bool differs = false;
+  double z = std::numeric_limits<double>::quiet_NaN();
+  for_each_element(mesh, [&](int, const auto& v) {
+    for (const int i : v) {
+      if (std::isnan(z)) z = mesh.points[i].z;
+      differs = differs || std::abs(mesh.points[i].z - z) > tolerance;
+    }
+  });
+  return differs;
+}
+
+GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
+  check_given_elements(given);
+  Mesh mesh = given.mesh;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  refuse_hanging_nodes(given, sides);
+  std::vector<Warning> warnings;
+  drop_what_no_element_has(given, sides, mesh, warnings);
+  BadQuadOpening(feature_angle, mesh).run(given.source, warnings);
+  Triangulation fine(given, mesh);
+  fine.turn();
+
+  GivenSurface surface;
+  TriangulatedOptions options;
+  options.source = given.source;
+  options.feature_angle = feature_angle;
+  KeptModel kept = make_kept_model(fine.mesh(), fine.element(), options);
+  surface.model = std::move(kept.model);
+  surface.model.fine.unit = given.mesh.unit;
+  surface.model.warnings.insert(surface.model.warnings.begin(), warnings.begin(), warnings.end());
+  surface.given_curve = std::move(kept.given_curve);
+  surface.given_region = std::move(kept.given_region);
+  surface.corners = fine.corners_in(surface.model.fine);
+  surface.element = fine.element();
+  return surface;
+}
+
+QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside) {
+  const TriPatch& flat = patch.map.flat;
+  QuadPatch result;
+  result.points = patch.boundary.points;
+  result.n_boundary = static_cast<int>(result.points.size());
+  std::vector<int> point(flat.points.size(), -1);
+  int next = 0;
+  for (const auto& loop : patch.outline)
+    for (const CurveSide& side : loop) point[side.from] = next++;
+  for (std::size_t i = 0; i < flat.points.size(); ++i) {
+    if (point[i] >= 0) continue;
+    point[i] = static_cast<int>(result.points.size());
+    result.points.push_back(flat.points[i]);
+    inside.push_back(surface.model.fine.points[patch.map.fine_node[i]]);
+  }
+  // Both halves of a quad are here.
+  std::map<int, std::array<int, 4>> elements;
+  for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
+    const int element = surface.element[patch.map.fine_triangle[t]];
+    auto& v = elements.try_emplace(element, std::array{-1, -1, -1, -1}).first->second;
+    for (const int i : flat.triangles[t]) {
+      const auto& corners = surface.corners[element];
+      v[std::ranges::find(corners, patch.map.fine_node[i]) - corners.begin()] = point[i];
+    }
+  }
+  for (const auto& [element, v] : elements)
+    if (v[3] < 0)
+      result.triangles.push_back({v[0], v[1], v[2]});
+    else
+      result.quads.push_back(v);
+  return result;
+}
+
+}  // namespace delquad

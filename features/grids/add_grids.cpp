@@ -1,0 +1,142 @@
+#include "features/grids/add_grids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/parallel.h"
+#include "delquad/error.h"
+#include "features/grids/mapped_grid.h"
+#include "geometry/mesh/entity_names.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/planar/grid_sides.h"
+#include "metrics/shape.h"
+#include "metrics/size_efficiency.h"
+#include "patches/all_patches.h"
+
+namespace delquad {
+namespace {
+
+/// What is found of itself is a grid where eta is at least so much in the mean, and at worst, and the lengths
+/// of edges fit the size so well in the mean: about what a free mesh has.
+constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
+
+struct GridQuality {
+  double mean = 0, worst = 1;
+  double fit = 0;  ///< of the sides: length / delta, or its inverse where that is less
+  bool pays() const { return mean >= kLeastMeanEta && worst >= kLeastEta && fit >= kLeastFit; }
+};
+
+class GridOfPatch {
+ public:
+  GridOfPatch(const MappedPatch& mapped, const PreparedProblem& p)
+      : mapped_(mapped), problem_(p), patch_(p.patches[mapped.patch]) {}
+
+  /// The grid; nothing where it would fold, at `fold`, or where it is not asked for and would be bad.
+  std::optional<QuadPatch> make(Vec2& fold) const {
+    const std::vector<double> layers =
+        mapped_.corners.empty() ? ring_layers(patch_.boundary, *patch_.size) : std::vector<double>{};
+    const auto flat = interpolated_grid(patch_.boundary, patch_.boundary.points, mapped_.corners, layers);
+    if (!flat) return std::nullopt;
+    QuadPatch grid;
+    grid.points = flat->points;
+    grid.quads = flat->quads;
+    grid.n_boundary = static_cast<int>(patch_.boundary.points.size());
+    if (problem_.surface)
+      if (auto other = by_space(grid, layers)) grid = std::move(*other);
+    if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
+      smooth_grid(grid, *patch_.cross, *patch_.size);
+    if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
+    if (!mapped_.is_asked && !quality_of(grid).pays()) return std::nullopt;
+    return grid;
+  }
+
+  Vec3 place(Vec2 u) const {
+    int hint = -1;
+    return patch_.lift(u, hint);
+  }
+
+ private:
+  /// The grid by interpolation in space, where it is better.
+  std::optional<QuadPatch> by_space(const QuadPatch& flat, const std::vector<double>& layers) const {
+    const FlatPatch& map = problem_.surface->domain.patches[mapped_.patch].map;
+    const Mesh& fine = problem_.surface->model.fine;
+    std::vector<Vec3> nodes, points;
+    for (const int node : patch_.boundary.point_node) nodes.push_back(problem_.boundary.points[node]);
+    const auto grid = interpolated_grid(patch_.boundary, nodes, mapped_.corners, layers);
+    if (!grid) return std::nullopt;
+    for (const int v : map.fine_node) points.push_back(fine.points[v]);
+    const NearestTriangle nearest(points, map.flat.triangles);
+    QuadPatch moved = flat;
+    int guess = -1;
+    for (std::size_t i = nodes.size(); i < moved.points.size(); ++i) {
+      const auto found = nearest.find_from(guess, grid->points[i]);
+      guess = found.triangle;
+      moved.points[i] = {};
+      for (const int k : {0, 1, 2})
+        moved.points[i] = moved.points[i] + found.weights[k] * map.flat.points[nearest.triangle(guess)[k]];
+    }
+    if (!are_convex(moved.points, moved.quads)) return std::nullopt;
+    if (are_convex(flat.points, flat.quads) && quality_of(moved).mean < quality_of(flat).mean)
+      return std::nullopt;
+    return moved;
+  }
+
+  GridQuality quality_of(const QuadPatch& grid) const {
+    PatchMesh mesh = grid_as(PatchForm::kQuads, grid);
+    std::vector<Vec3> places;
+    for (const int node : patch_.boundary.point_node) places.push_back(problem_.boundary.points[node]);
+    for (const Vec3& x :
+         places_inside(problem_, static_cast<std::size_t>(mapped_.patch), mesh, problem_.boundary.points))
+      places.push_back(x);
+    GridQuality quality;
+    for (const auto& [a, b, c, d] : grid.quads) {
+      const std::array corners{places[a], places[b], places[c], places[d]};
+      const double eta = eta_of(element_shape(corners, area_vector(corners)).angle);
+      quality.mean += eta / static_cast<double>(grid.quads.size());
+      quality.worst = std::min(quality.worst, eta);
+      for (const int k : {0, 1, 2, 3}) {
+        const double length = adimensional_length(corners[k], corners[(k + 1) % 4], *problem_.size);
+        quality.fit += std::min(length, 1 / length) / static_cast<double>(4 * grid.quads.size());
+      }
+    }
+    return quality;
+  }
+
+  const MappedPatch& mapped_;
+  const PreparedProblem& problem_;
+  const PreparedPatch& patch_;
+};
+
+}  // namespace
+
+void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, PreparedProblem& p) {
+  std::vector<std::optional<QuadPatch>> grids(mapped.size());
+  parallel_for(
+      mapped.size(),
+      [&](std::size_t i) {
+        const DoingFace face = doing_patch(p, static_cast<std::size_t>(mapped[i].patch));
+        const GridOfPatch maker(mapped[i], p);
+        Vec2 fold;
+        grids[i] = maker.make(fold);
+        if (grids[i] || !mapped[i].is_asked) return;
+        const Vec3 at = maker.place(fold);
+        throw InputError(fmt::format(
+            "{}: '{}' cannot be a grid: it would fold at ({:.6g}, {:.6g}, {:.6g})", spec.where,
+            region_label(p.boundary.regions[p.patches[mapped[i].patch].region]), at.x, at.y, at.z));
+      },
+      [&](std::size_t i) { return static_cast<double>(p.patches[mapped[i].patch].boundary.points.size()); });
+  for (std::size_t i = 0; i < mapped.size(); ++i) {
+    PreparedPatch& patch = p.patches[mapped[i].patch];
+    patch.grid = std::move(grids[i]);
+    patch.grid_stays = mapped[i].is_asked;
+    if (!patch.grid || !patch.grid_stays || p.curve_places.empty()) continue;
+    for (const int node : patch.boundary.point_node) p.curve_places[node] = {};
+  }
+  const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
+  if (spec.automatic && std::ranges::none_of(p.patches, has_grid))
+    p.warnings.push_back(spec.where + ": no face pays as a grid: all are free");
+}
+
+}  // namespace delquad

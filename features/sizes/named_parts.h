@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/sizes/fine_spots.h"
+#include "geometry/planar/planar_model.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// What has names in a model, as segments (of points, without length) and triangles. What has none goes by
+/// its number, as in files: curve_7, region_3.
+class NamedParts {
+ public:
+  /// Lines, triangles and named points of a mesh.
+  explicit NamedParts(const Mesh& mesh);
+  /// Curves and points of a model, and the regions of a domain that was made from it.
+  NamedParts(const PlanarModel& model, const PlanarDomain& domain);
+  /// Lines and named points of a domain, and its regions.
+  explicit NamedParts(const PlanarDomain& domain);
+
+  /// Lines and points that are yet to be imprinted, straight.
+  explicit NamedParts(const std::vector<LooseLine>& loose);
+
+  /// Those of a mesh from this curve and this named point on.
+  void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
+  /// What is asked of sizes by names. Throws InputError for a name that nothing has.
+  std::vector<FineSpot> spots(const std::vector<NamedSize>& wanted) const;
+  /// Without those that nothing has.
+  std::vector<FineSpot> known_spots(const std::vector<NamedSize>& wanted) const;
+
+ private:
+  struct Part {
+    Vec3 a, b;
+    std::optional<Vec3> c;
+  };
+  void add(const std::string& kind, const Entity& entity, const Part& part);
+  void add_regions(const PlanarDomain& domain);
+
+  std::map<std::string, std::vector<Part>> parts_;
+};
+
+/// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".
+std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
+                                const std::string& name);
+
+}  // namespace delquad

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "base/warning.h"
+#include "features/sizes/named_parts.h"
+#include "fields/fields.h"
+#include "fields/surface/surface_size.h"
+#include "geometry/planar/planar_model.h"
+#include "patches/prepared.h"
+
+namespace delquad {
+
+/// Fewer edges than this to a full turn of a circle or fillet are said: a hole of six edges has lost 17 % of
+/// its area, one of twelve 5 %.
+inline constexpr double kFewPerTurn = 12;
+
+/// Tells of each size that was asked for by name and is larger than the size at all of that: smaller ones
+/// win.
+void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& parts, const SizeField& size,
+                        std::vector<Warning>& warnings);
+
+/// Says so when the size is larger than the model at all of its points.
+void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings);
+
+/// Tells in one line how many curves of the model got few edges to a full turn, and what would help.
+void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
+                          std::vector<Warning>& warnings);
+
+/// The same for the curves and faces of a CAD model.
+void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
+                          std::vector<Warning>& warnings);
+
+}  // namespace delquad

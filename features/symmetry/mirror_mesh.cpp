@@ -1,0 +1,167 @@
+#include "features/symmetry/mirror_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace delquad {
+namespace {
+
+template <std::size_t N>
+std::array<int, N> image_of(std::array<int, N> element, const std::vector<int>& image, bool runs_back) {
+  for (int& v : element) v = image[v];
+  if (runs_back) std::reverse(element.begin() + 1, element.end());
+  return element;
+}
+
+class MeshMirror {
+ public:
+  MeshMirror(const MirroredSurface& mirrored, Mesh part)
+      : m_(mirrored), mesh_(std::move(part)), planes_(m_.node_planes), first_cut_(m_.first_cut) {
+    planes_.resize(mesh_.points.size(), 0);
+    const auto put_in_plane = [&](const auto& elements, const std::vector<int>& regions) {
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        for (const int v : elements[e]) planes_[v] |= m_.face_planes[regions[e]];
+    };
+    put_in_plane(mesh_.triangles, mesh_.triangle_region);
+    put_in_plane(mesh_.quads, mesh_.quad_region);
+  }
+
+  Mesh run() {
+    take_curves_of_whole();
+    for (std::size_t v = 0; v < planes_.size(); ++v)
+      mesh_.points[v] = m_.planes.put_on_all(planes_[v], mesh_.points[v]);
+    for (int k = 0; k < m_.planes.count(); ++k) add_image(k);
+    name_points();
+    return std::move(mesh_);
+  }
+
+ private:
+  void take_curves_of_whole() {
+    std::size_t kept = 0;
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      const int curve = mesh_.line_curve[l];
+      if (m_.whole_curve[curve] < 0) continue;
+      mesh_.lines[kept] = mesh_.lines[l];
+      mesh_.line_curve[kept++] = m_.whole_curve[curve];
+      line_planes_.push_back(m_.curve_planes[curve]);
+    }
+    mesh_.lines.resize(kept);
+    mesh_.line_curve.resize(kept);
+    mesh_.curves = m_.whole.fine.curves;
+    mesh_.named_points.clear();
+  }
+
+  void add_image(int plane) {
+    const std::size_t n_points = mesh_.points.size();
+    std::vector<int> image(n_points);
+    for (std::size_t v = 0; v < n_points; ++v) {
+      image[v] = static_cast<int>(v);
+      if (planes_[v] >> plane & 1) continue;
+      image[v] = static_cast<int>(mesh_.points.size());
+      mesh_.points.push_back(m_.planes.reflect(plane, mesh_.points[v]));
+      planes_.push_back(int(planes_[v]));
+    }
+    add_elements(plane, image, mesh_.triangles, mesh_.triangle_region);
+    add_elements(plane, image, mesh_.quads, mesh_.quad_region);
+    const std::size_t n_lines = mesh_.lines.size();
+    for (std::size_t l = 0; l < n_lines; ++l) {
+      if (line_planes_[l] >> plane & 1) continue;
+      const std::array<int, 2> line{image[mesh_.lines[l][0]], image[mesh_.lines[l][1]]};
+      mesh_.lines.push_back(line);
+      mesh_.line_curve.push_back(image_curve(plane, mesh_.line_curve[l], line));
+      line_planes_.push_back(int(line_planes_[l]));
+    }
+  }
+
+  template <std::size_t N>
+  void add_elements(int plane, const std::vector<int>& image, std::vector<std::array<int, N>>& elements,
+                    std::vector<int>& regions) const {
+    const std::size_t n = elements.size();
+    for (std::size_t e = 0; e < n; ++e) {
+      const int face = regions[e];
+      if (m_.face_planes[face] >> plane & 1) continue;
+      elements.push_back(image_of(std::array(elements[e]), image, !m_.matches[plane].turned[face]));
+      regions.push_back(m_.matches[plane].face[face]);
+    }
+  }
+
+  int image_curve(int plane, int curve, const std::array<int, 2>& line) {
+    if (curve >= first_cut_) return curve + (1 << plane);
+    const std::vector<int>& among = m_.matches[plane].curves[curve];
+    if (among.empty()) return curve;
+    if (among.size() == 1) return among[0];
+    // A curve of the whole has several images where ends of others on it have none.
+    if (lines_of_.empty()) {
+      lines_of_.resize(m_.whole.fine.curves.size());
+      for (std::size_t l = 0; l < m_.whole.fine.lines.size(); ++l)
+        lines_of_[m_.whole.fine.line_curve[l]].push_back(m_.whole.fine.lines[l]);
+    }
+    const Vec3 middle = 0.5 * (mesh_.points[line[0]] + mesh_.points[line[1]]);
+    int nearest = among[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (const int other : among)
+      for (const auto& [a, b] : lines_of_[other]) {
+        const Vec3 p = m_.whole.fine.points[a], d = m_.whole.fine.points[b] - p;
+        const double t = dot(d, d) > 0 ? std::clamp(dot(middle - p, d) / dot(d, d), 0.0, 1.0) : 0;
+        const double distance = norm(p + t * d - middle);
+        if (distance < least) least = distance, nearest = other;
+      }
+    return nearest;
+  }
+
+  void name_points() {
+    for (const NamedPoint& named : m_.whole.fine.named_points) {
+      const Vec3 x = m_.whole.fine.points[named.point];
+      int nearest = -1;
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& line : mesh_.lines)
+        for (const int v : line)
+          if (const double distance = norm(mesh_.points[v] - x); distance < least)
+            least = distance, nearest = v;
+      if (nearest >= 0) mesh_.named_points.push_back({nearest, named.entity});
+    }
+  }
+
+  const MirroredSurface& m_;
+  Mesh mesh_;
+  std::vector<int> planes_;       // of each node
+  std::vector<int> line_planes_;  // of each line
+  int first_cut_;
+  std::vector<std::vector<std::array<int, 2>>> lines_of_;  // of each curve of the whole
+};
+
+}  // namespace
+
+int image_face(const MirroredSurface& mirrored, int planes, int face) {
+  for (int k = 0; k < mirrored.planes.count(); ++k)
+    if (planes >> k & 1) face = mirrored.matches[k].face[face];
+  return face;
+}
+
+std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char> faces) {
+  const std::vector<char> before = faces;
+  for (std::size_t f = 0; f < before.size(); ++f)
+    for (int mask = 1; before[f] && mask < 1 << mirrored.planes.count(); ++mask)
+      faces[image_face(mirrored, mask, static_cast<int>(f))] = 1;
+  return faces;
+}
+
+void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFailure>& failures) {
+  const std::vector<FaceFailure> before = failures;
+  for (const FaceFailure& failure : before)
+    for (int mask = 1; failure.face >= 0 && mask < 1 << mirrored.planes.count(); ++mask) {
+      const int face = image_face(mirrored, mask, failure.face);
+      if (std::ranges::find(failures, face, &FaceFailure::face) != failures.end()) continue;
+      failures.push_back({face, fmt::format("face {} is the mirror image of another: {}",
+                                            mirrored.whole.fine.regions[face].tag, failure.reason)});
+    }
+}
+
+Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part) {
+  return MeshMirror(mirrored, std::move(part)).run();
+}
+
+}  // namespace delquad

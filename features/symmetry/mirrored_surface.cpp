@@ -1,0 +1,245 @@
+#include "features/symmetry/mirrored_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "delquad/error.h"
+#include "features/symmetry/mirror_mesh.h"
+#include "features/symmetry/symmetric_size.h"
+#include "geometry/planar/curve_divisions.h"
+#include "geometry/surface/find_planes.h"
+#include "geometry/surface/surface_messages.h"
+
+namespace delquad {
+namespace {
+
+std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const SymmetryPlanes& planes,
+                                    const std::vector<SymmetryPlane>& given, const std::string& where) {
+  std::vector<MirrorMatch> matches;
+  for (int k = 0; k < planes.count(); ++k) {
+    matches.push_back(matcher.match(planes, k));
+    if (!matches.back().failure.empty())
+      throw InputError(
+          fmt::format("{}: the model is not symmetric at the plane through {} with the normal {}: {}", where,
+                      show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
+  }
+  return matches;
+}
+
+/// Seams without an image, which are only where a surface was cut open, go.
+void drop_loose_seams(SurfaceModel& model, const std::vector<MirrorMatch>& matches) {
+  Mesh& mesh = model.fine;
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const int curve = mesh.line_curve[l];
+    if (std::ranges::any_of(matches, [&](const MirrorMatch& m) { return m.is_loose_seam[curve] != 0; }))
+      continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = curve;
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+}
+
+std::vector<double> lengths_of_curves(const Mesh& mesh) {
+  std::vector<double> lengths(mesh.curves.size(), 0);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    lengths[mesh.line_curve[l]] += norm(mesh.points[mesh.lines[l][1]] - mesh.points[mesh.lines[l][0]]);
+  return lengths;
+}
+
+/// The divisions of a curve of the whole, as those of its pieces.
+class DivisionSharing {
+ public:
+  explicit DivisionSharing(const CutSurface& surface)
+      : surface_(surface),
+        whole_lengths_(lengths_of_curves(surface.whole.fine)),
+        part_lengths_(lengths_of_curves(surface.half.model.fine)),
+        pieces_(surface.whole.fine.curves.size()) {
+    for (std::size_t i = 0; i < surface.half.whole_curve.size(); ++i)
+      if (const int c = surface.half.whole_curve[i]; c >= 0) pieces_[c].push_back(static_cast<int>(i));
+  }
+
+  void add(const CurveDivision& division) {
+    const std::vector<Entity>& curves = surface_.whole.fine.curves;
+    bool found = false;
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      if (!names_curve(division, curves[c].names, curves[c].tag)) continue;
+      found = true;
+      asked_.emplace(static_cast<int>(c), division);
+      if (!pieces_[c].empty()) share(division, static_cast<int>(c));
+    }
+    if (!found) result.push_back(division);
+  }
+
+  /// Curves behind a plane are divided as those before it.
+  void check_images() const {
+    for (const auto& [curve, division] : asked_) {
+      if (!pieces_[curve].empty()) continue;
+      const int image = image_of(curve);
+      const auto other = asked_.find(image);
+      if (other != asked_.end() && other->second.edges == division.edges &&
+          other->second.progression == division.progression && other->second.bump == division.bump)
+        continue;
+      throw InputError(
+          fmt::format("{}: curve {} is divided, and not as curve {}, of which it is the mirror image",
+                      division.where, tag(curve), tag(image)));
+    }
+  }
+
+  std::vector<CurveDivision> result;
+
+ private:
+  int tag(int curve) const { return surface_.whole.fine.curves[curve].tag; }
+
+  int image_of(int curve) const {
+    std::vector<int> reached{curve};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      if (!pieces_[reached[i]].empty()) return reached[i];
+      for (const MirrorMatch& match : surface_.matches)
+        for (const int other : match.curves[reached[i]])
+          if (std::ranges::find(reached, other) == reached.end()) reached.push_back(other);
+    }
+    return curve;
+  }
+
+  void share(const CurveDivision& division, int curve) {
+    const std::vector<int>& pieces = pieces_[curve];
+    double length = 0;
+    for (const int p : pieces) length += part_lengths_[p];
+    const int shares = static_cast<int>(std::lround(whole_lengths_[curve] / length));
+    const int n_pieces = static_cast<int>(pieces.size()), least = shares * n_pieces;
+    if (division.edges % shares != 0 || division.edges < least) {
+      const int below = division.edges / shares * shares, above = below + shares;
+      throw InputError(fmt::format(
+          "{}: {} edges for curve {}, of which planes of symmetry make {} equal parts: expected {}",
+          division.where, division.edges, tag(curve), shares,
+          below >= least ? fmt::format("{} or {}", below, above) : fmt::format("at least {}", least)));
+    }
+    if (least > 1 && (division.progression != 1 || division.bump != 1))
+      throw InputError(
+          fmt::format("{}: curve {} goes through a plane of symmetry: expected edges of equal length",
+                      division.where, tag(curve)));
+    int rest = division.edges / shares, left = n_pieces;
+    double ahead = length;
+    for (const int p : pieces) {
+      CurveDivision own = division;
+      own.name = fmt::format("curve_{}", surface_.half.model.fine.curves[p].tag);
+      own.edges = left == 1 ? rest
+                            : std::clamp(static_cast<int>(std::lround(rest * part_lengths_[p] / ahead)), 1,
+                                         rest - left + 1);
+      rest -= own.edges;
+      ahead -= part_lengths_[p];
+      --left;
+      result.push_back(std::move(own));
+    }
+  }
+
+  const CutSurface& surface_;
+  std::vector<double> whole_lengths_, part_lengths_;
+  std::vector<std::vector<int>> pieces_;
+  std::map<int, CurveDivision> asked_;  // by curve of the whole
+};
+
+}  // namespace
+
+std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel& model,
+                                        std::shared_ptr<const SizeField>& size) {
+  const SymmetrySpec& spec = problem.symmetry;
+  if (!spec.automatic && spec.planes.empty()) return std::nullopt;
+  if (!problem.periodic.empty())
+    throw InputError(spec.where + ": symmetry does not go with periodic sides: expected one of these");
+  const MirrorMatcher matcher(model);
+  const auto [given, spoiled] =
+      spec.automatic ? find_symmetry_planes(model, matcher) : FoundPlanes{spec.planes, {}};
+  if (given.empty())
+    model.warnings.push_back(spec.where + ": no plane of symmetry was found: all of the model is meshed" +
+                             (spoiled.empty() ? "" : "; " + spoiled));
+  else if (!spoiled.empty())
+    model.warnings.push_back(spec.where + ": " + spoiled);
+  if (given.empty()) return std::nullopt;
+  const SymmetryPlanes planes = given_planes(given, spec.where);
+  std::vector<MirrorMatch> matches = matches_at(matcher, planes, given, spec.where);
+  drop_loose_seams(model, matches);
+  size = least_of_images(std::move(size), planes);
+  SymmetricHalf half = cut_symmetric(
+      model, planes, matches, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); },
+      spec.where);
+  if (half.model.fine.triangles.empty())
+    throw InputError(spec.where + ": nothing of the model lies on the positive sides of the planes");
+  return CutSurface{std::move(model), planes, std::move(matches), std::move(half)};
+}
+
+std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& divisions,
+                                             const CutSurface& surface) {
+  DivisionSharing sharing(surface);
+  for (const CurveDivision& division : divisions) sharing.add(division);
+  sharing.check_images();
+  return std::move(sharing.result);
+}
+
+std::vector<double> most_of_faces(std::vector<double> values, const CutSurface& surface) {
+  for (const MirrorMatch& match : surface.matches) {
+    const std::vector<double> own = values;
+    for (std::size_t f = 0; f < own.size(); ++f) values[f] = std::max(own[f], own[match.face[f]]);
+  }
+  return values;
+}
+
+std::vector<double> most_of_curves(const std::vector<double>& values, const CutSurface& surface) {
+  std::vector<double> most = values;
+  for (const MirrorMatch& match : surface.matches) {
+    const std::vector<double> own = most;
+    for (std::size_t c = 0; c < own.size(); ++c)
+      for (const int image : match.curves[c]) most[c] = std::max(most[c], own[image]);
+  }
+  std::vector<double> of_part;
+  for (const int c : surface.half.whole_curve) of_part.push_back(c >= 0 ? most[c] : 0);
+  return of_part;
+}
+
+MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface) {
+  const int first_cut = static_cast<int>(cut.whole.fine.curves.size());
+  MirroredSurface m{std::move(cut.whole),
+                    first_cut,
+                    {},
+                    cut.planes,
+                    std::move(cut.matches),
+                    std::move(cut.half.whole_curve),
+                    std::move(cut.half.curve_planes),
+                    std::move(cut.half.face_planes),
+                    {}};
+  // The images of each cut follow each other, by the bits of the planes.
+  const int images = 1 << m.planes.count();
+  int tag = 0;
+  for (const Entity& e : m.whole.fine.curves) tag = std::max(tag, e.tag);
+  for (std::size_t c = m.whole_curve.size(); c < surface.model.fine.curves.size(); ++c) {
+    const auto at = std::ranges::find(surface.cuts, static_cast<int>(c), &SurfaceCut::curve);
+    const int face = at != surface.cuts.end() ? at->face : 0;
+    m.whole_curve.push_back(static_cast<int>(m.whole.fine.curves.size()));
+    m.curve_planes.push_back(m.face_planes[face]);
+    for (int mask = 0; mask < images; ++mask) {
+      m.whole.fine.curves.push_back({++tag, {}});
+      if (at == surface.cuts.end()) continue;
+      SurfaceCut image = *at;
+      image.curve = static_cast<int>(m.whole.fine.curves.size()) - 1;
+      image.face = image_face(m, mask, face);
+      m.cuts.push_back(image);
+    }
+  }
+  const SurfaceDomain& domain = surface.domain;
+  m.node_planes.assign(domain.boundary.points.size(), 0);
+  for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    for (const CurveNode& node : domain.nodes.on_curve[c])
+      m.node_planes[node.node] |= m.curve_planes[domain.chains[c].curve];
+  for (const SymmetricHalf::Place& place : cut.half.touching)
+    for (std::size_t v = 0; v < m.node_planes.size(); ++v)
+      if (domain.boundary.points[v] == place.at) m.node_planes[v] |= place.planes;
+  return m;
+}
+
+}  // namespace delquad

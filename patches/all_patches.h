@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/counters.h"
+#include "delquad/extend.h"
+#include "patches/prepared.h"
+
+namespace delquad {
+
+/// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.
+std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
+                                const std::vector<Vec3>& nodes);
+
+/// What a word has made of all patches so far.
+struct AllPatches {
+  const PreparedProblem& prepared;
+  const Options& options;
+  std::vector<PatchMesh>& patches;
+  const std::vector<char>& left_out;  ///< by patch
+  SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
+  bool began_from_quads = false;      ///< that were given
+};
+
+/// Adds what a step counted to the log.
+template <class Summary>
+void add_summary(StageLog& log, const Summary& summary) {
+  log.summaries.add(Counters<Summary>::step, fields_of(summary));
+}
+
+}  // namespace delquad

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/activity.h"
+#include "base/warning.h"
+#include "delquad/mesher.h"
+#include "fields/fields.h"
+#include "geometry/planar/planar_model.h"
+#include "geometry/surface/symmetric_half.h"
+#include "patches/surface_domain.h"
+
+namespace delquad {
+
+struct LayerReport;
+
+/// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
+struct PreparedPatch {
+  PatchBoundary boundary;
+  int region = 0;  ///< index into PreparedProblem::boundary.regions
+  std::shared_ptr<const CrossField> cross;
+  std::shared_ptr<const ParametricSize> size;
+  std::function<Vec3(Vec2, int& hint)> lift;
+  /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
+  std::optional<PatchImage> image = {};
+  std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, whose quads no stage changes
+  bool grid_stays = false;             ///< nor its points: it was asked for
+  QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
+  std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
+  bool given_stays = false;             ///< no stage changes them
+};
+
+/// The curves and regions of a given mesh in space, which its words divide for their work.
+struct GivenEntities {
+  std::vector<Entity> curves, regions;
+  std::vector<int> curve_of, region_of;  ///< of each of PreparedProblem::boundary; -1: no line of the mesh
+};
+
+/// A surface of which one part is meshed, and the rest is its mirror image.
+struct MirroredSurface {
+  SurfaceModel whole;            ///< its curves end with the images of the cuts
+  int first_cut;                 ///< the first of these
+  std::vector<SurfaceCut> cuts;  ///< of the whole
+  SymmetryPlanes planes;
+  std::vector<MirrorMatch> matches;  ///< of each plane
+  std::vector<int> whole_curve;      ///< of each curve of the part; -1: a section, which is none of the whole
+  std::vector<int> curve_planes, face_planes;  ///< as in SymmetricHalf, with cuts
+  std::vector<int>
+      node_planes;  ///< of the nodes on curves, the bits of the planes where they are their images
+};
+
+/// What the patches of a surface were made from.
+struct PreparedSurface {
+  SurfaceModel model;
+  SurfaceDomain domain;
+  std::vector<SurfaceCut> cuts;
+  std::shared_ptr<const SurfaceSize> size;
+  std::optional<MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+
+  const SurfaceModel& whole() const { return mirrored ? mirrored->whole : model; }
+  const std::vector<SurfaceCut>& all_cuts() const { return mirrored ? mirrored->cuts : cuts; }
+};
+
+/// The maps of all patches.
+std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
+
+/// A singularity of the cross field, as in Singularity, in space.
+struct PlacedSingularity {
+  Vec3 at;
+  int index;
+};
+
+/// What every pipeline on a case starts from.
+struct PreparedProblem {
+  std::string name, where;  ///< as in MeshProblem, and so
+  Options options;
+  long long max_elements = 0;
+  bool keep_going = false;
+  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
+  int order = 1;  ///< of the elements, see Mesh::order
+  /// Of each curve of a planar domain those of the model that lie there; empty where the lines are kept.
+  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
+  std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
+  std::vector<PreparedPatch> patches;
+  std::vector<PatchBoundary> outlines;  ///< of the patches with their layers; empty: there are no layers
+  std::shared_ptr<const LayerReport> layers;  ///< null: none
+  std::shared_ptr<const SizeField> size;
+  std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
+  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...
+  std::vector<SymmetryPlane> symmetry;               ///< planes that were given or found
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
+  std::vector<PlacedSingularity> singularities;      ///< of a boundary-aligned or size-aware cross field
+  /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
+  /// it, in quarters.
+  std::optional<std::pair<int, int>> index_sum_and_expected;
+  /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
+  /// of it.
+  std::optional<std::pair<double, double>> dislocations;
+  std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
+  std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
+  std::shared_ptr<const SurfaceModel> cad;         ///< as it was read; null of other models
+  std::optional<GivenEntities> given_entities;     ///< of a GivenMesh in space
+  std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
+  double expected_quads = 0;                       ///< integral of dA/delta^2
+  std::vector<Warning> warnings;
+  /// By step ("read", "maps", "curves", "fields"), as in StageLog.
+  StepTimes times;
+};
+
+/// Tells that this thread works on a patch.
+inline DoingFace doing_patch(const PreparedProblem& prepared, std::size_t patch) {
+  return DoingFace(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
+                   prepared.surface ? "face" : "region");
+}
+
+}  // namespace delquad
