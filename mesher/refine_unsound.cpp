@@ -21,8 +21,9 @@ constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
 /// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
-/// about as long: at least so many, some 30 seconds; of large meshes so many times those of the first.
-constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300;
+/// about as long, and with the steps that its curves took: at least so many, some 30 seconds; of large meshes
+/// so many times those of the first.
+constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
@@ -81,11 +82,12 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
       prepared.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
 }
 
-long long quads_of(const RunResult& result) {
+long long quads_of(const PreparedProblem& prepared, const RunResult& result) {
   const long long cost = result.log.summaries.has("lift_bad_quads")
                              ? static_cast<long long>(result.log.summaries.number("lift_bad_quads", "cost"))
                              : 0;
-  return static_cast<long long>(result.mesh.quads.size()) + cost / kCostPerQuad;
+  const long long steps = prepared.surface ? prepared.surface->domain.steps : 0;
+  return static_cast<long long>(result.mesh.quads.size()) + cost / kCostPerQuad + steps / kStepsPerQuad;
 }
 
 /// Where it is not sound, the first hundred for each reason.
@@ -109,8 +111,8 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   Refinement refinement{.cad = prepared.cad};
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
-  Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(result)));
-  quads.spend(quads_of(result));
+  Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(prepared, result)));
+  quads.spend(quads_of(prepared, result));
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
   int rounds = 0, idle = 0;  // in all, and since the best
@@ -128,7 +130,7 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
       PreparedProblem finer = prepare_anew(refinement);
       RunResult run = run_word(finer, word);
       seconds += run.seconds;
-      quads.spend(quads_of(run));
+      quads.spend(quads_of(finer, run));
       add_spots(finer, run.soundness, refinement.spots);
       const bool is_better =
           run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));

@@ -35,10 +35,9 @@ constexpr long long kMostSteps = 200'000'000;
 PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                        const AcrossView& across, CurveDemands& wanted,
                                        const SurfaceSize& size, const MatchingSolver& solver,
-                                       const MappedSpec& spec, double price,
+                                       const MappedSpec& spec, double price, Budget& steps,
                                        std::vector<MappedFace>& mapped) {
   Agreement agreement{price};
-  Budget steps(kMostSteps);
   for (int attempt = 0, kept = 0;;) {
     PatchBoundaries placed =
         place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, steps, mapped);
@@ -63,6 +62,12 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
                                                   can_change ? "however fine its curves are"
                                                              : "with the edges that its curves are given"));
   }
+}
+
+Warning warn_of_spent_steps() {
+  return {"steps that were stopped before their end", 0,
+          "the numbers and places of nodes on curves were compared no longer, as that would take too long: "
+          "more vertices than need be may be irregular; fewer and wider faces, or a larger size, help"};
 }
 
 /// Refuses divisions that leave a patch with an odd boundary.
@@ -286,8 +291,11 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
   if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  Budget steps(kMostSteps);
   PatchBoundaries placed =
-      place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, grids);
+      place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, steps, grids);
+  domain.steps = kMostSteps - steps.left();
+  if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
   domain.mapped = grid_patches(grids, curves, placed.counts);
   check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
   for (const int p : placed.odd_patches)
