@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "mesher/keep_better.h"
+#include "mesher/better_mesh.h"
 #include "mesher/prepare_surface.h"
-#include "mesher/repair_options.h"
 
 namespace delquad {
 namespace {
@@ -24,10 +23,8 @@ constexpr std::array kDearer = {8.0, 4.0};
 constexpr double kMostDear = 100;
 /// Quads of a cavity, at least: they reach from one to another.
 constexpr long long kFarQuads = 1000;
-/// What is made with other cuts is not worse than what there was, or than kGoodTau (%) and kCleanupFloorEta.
-/// A worst eta below kGoodEta is worth a third run.
-constexpr double kGoodEta = 0.6, kGoodTau = 91;
-constexpr double kRounding = 1e-9;
+/// A worst eta below this is worth a third run.
+constexpr double kGoodEta = 0.6;
 
 using NodePlaces = std::set<std::array<double, 3>>;
 using Stages = std::vector<const Stage*>;
@@ -166,41 +163,28 @@ UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
-  UncutMesh made = without_cuts(*again.surface, put_together(again, none, state));
+  Finishing on{again, state, none};
+  UncutMesh made = without_cuts(*again.surface, put_together(on));
   put_back_entities(*again.given_entities, made.mesh);
   return made;
 }
 
-Stages with_letters(const Stages& stages, const std::string& letters) {
+/// Those that move nodes of curves, all patches together.
+Stages that_move_nodes(const Stages& stages) {
   Stages found;
-  for (const Stage* stage : stages)
-    if (letters.find(stage->letter) != std::string::npos) found.push_back(stage);
+  std::ranges::copy_if(stages, std::back_inserter(found),
+                       [](const Stage* stage) { return bool(stage->finish); });
   return found;
 }
 
-/// Not below both what is good and what there was.
-bool is_kept(const char* key, double good, const RunResult& after, const RunResult& before) {
-  return after.metrics.values.at(key) > std::min(good, before.metrics.values.at(key)) - kRounding;
-}
-
-/// With fewer irregular vertices, and as near to its size.
-bool is_more_regular(const RunResult& after, const RunResult& before) {
-  return after.metrics.values.at("n_irregular") < before.metrics.values.at("n_irregular") &&
-         is_kept("tau", kGoodTau, after, before);
-}
-
 /// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
-bool is_better(const RunResult& after, const RunResult& before, bool is_given) {
+bool is_to_be_taken(const RunResult& after, const RunResult& before, bool is_given) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
-  const auto value = [](const RunResult& run, const char* key) { return run.metrics.values.at(key); };
-  const auto score = [&](const RunResult& run) {
-    return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
-  };
-  if (is_given) return score(after) > score(before) && !is_worse(after, before);
-  return is_more_regular(after, before) && is_kept("eta_worst", kCleanupFloorEta, after, before);
+  if (is_given) return is_better(after, before);
+  return is_more_regular(after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
 }
 
-/// What Q may do in the second run.
+/// What may be done in cavities in the second run.
 Options with_dearer(const Options& options, double dearer) {
   Options more = options;
   more.set("regularity.tolerance", std::min(dearer * options.number("regularity.tolerance"), kMostDear));
@@ -209,36 +193,32 @@ Options with_dearer(const Options& options, double dearer) {
 }
 
 /// `again`: what was made before, with other cuts.
-RunResult made_across_cuts(const PreparedProblem& prepared, PreparedProblem& again, const Stages& of_quads,
-                           const Options& options, const std::vector<char>& regions,
-                           const std::vector<char>& left_out, const RunResult& before) {
+RunResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Options& options,
+                           const std::vector<char>& regions) {
+  const PreparedProblem& prepared = f.prepared;
   const bool is_given = prepared.given_entities.has_value() && repair_options(prepared.options).keep_given;
-  UncutMesh made = run_stages(again, of_quads, options, is_given);
+  UncutMesh made = run_stages(again, f.state.of_quads, options, is_given);
   RunResult after;
   after.mesh = made.mesh;
-  measure(prepared, left_out, after);
-  const Stages moving = with_letters(of_quads, "O");
-  if (prepared.given_entities || moving.empty() || !is_more_regular(after, before) ||
-      is_kept("eta_worst", kGoodEta, after, before))
+  measure(prepared, f.left_out, after);
+  const Stages moving = that_move_nodes(f.state.of_quads);
+  if (prepared.given_entities || moving.empty() || !is_more_regular(after, f.result) ||
+      keeps_worst_eta(kGoodEta, after, f.result))
     return after;
   // Nodes on these cuts could not go anywhere.
   PreparedProblem third = with_other_cuts(prepared, regions, made);
   made = run_stages(third, moving, options, is_given);
   after.mesh = std::move(made.mesh);
-  measure(prepared, left_out, after);
+  measure(prepared, f.left_out, after);
   return after;
 }
 
 /// Whether what is made is better, and taken.
-bool take_across_cuts(const PreparedProblem& prepared, PreparedProblem& again, const Stages& of_quads,
-                      const Options& options, const std::vector<char>& regions,
-                      const std::vector<char>& left_out, RunResult& result) {
-  RunResult after = made_across_cuts(prepared, again, of_quads, options, regions, left_out, result);
-  if (!is_better(after, result, prepared.given_entities.has_value())) return false;
-  result.mesh = std::move(after.mesh);
-  result.metrics = std::move(after.metrics);
-  result.soundness = std::move(after.soundness);
-  result.surface = std::move(after.surface);
+bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& options,
+                      const std::vector<char>& regions) {
+  RunResult after = made_across_cuts(on, again, options, regions);
+  if (!is_to_be_taken(after, on.result, on.prepared.given_entities.has_value())) return false;
+  take_mesh(std::move(after), on.result);
   return true;
 }
 
@@ -255,32 +235,28 @@ struct Counters<AcrossCutsSummary> {
 
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
   if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
-  return prepared.given_entities ? !of_quads.empty() : !with_letters(of_quads, "Q").empty();
+  return prepared.given_entities ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
 }
 
-void run_across_cuts(const PreparedProblem& prepared, const Stages& of_quads,
-                     const std::vector<char>& left_out, RunResult& result) {
+bool run_across_cuts(Finishing& on) {
+  const PreparedProblem& prepared = on.prepared;
   const std::vector<char> regions = regions_across_cuts(prepared);
-  const auto irregular = [&] { return static_cast<int>(result.metrics.values.at("n_irregular")); };
+  const auto irregular = [&] { return static_cast<int>(on.result.metrics.values.at("n_irregular")); };
   AcrossCutsSummary summary{.irregular_before = irregular()};
-  if (result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
-  const Stopwatch watch;
+  if (on.result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
   if (summary.faces > 0) try {
       PreparedProblem again =
-          with_other_cuts(prepared, regions, without_cuts(*prepared.surface, result.mesh));
-      const auto take = [&](const Options& options) {
-        summary.taken = take_across_cuts(prepared, again, of_quads, options, regions, left_out, result);
-      };
-      if (prepared.given_entities) take(prepared.options);
+          with_other_cuts(prepared, regions, without_cuts(*prepared.surface, on.result.mesh));
+      if (prepared.given_entities) summary.taken = take_across_cuts(on, again, prepared.options, regions);
       for (const double dearer : kDearer)
-        if (!prepared.given_entities && summary.taken == 0) take(with_dearer(prepared.options, dearer));
+        if (!prepared.given_entities && summary.taken == 0)
+          summary.taken = take_across_cuts(on, again, with_dearer(prepared.options, dearer), regions);
     } catch (const InputError&) {
       summary.faces = 0;  // what there was stays
     }
   summary.irregular_after = irregular();
-  result.seconds += watch.seconds();
-  result.log.add_time("other cuts", watch.time());
-  add_summary(result.log, summary);
+  add_summary(on.result.log, summary);
+  return summary.taken != 0;
 }
 
 }  // namespace delquad

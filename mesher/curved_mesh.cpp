@@ -8,9 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "base/activity.h"
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "features/curved/bernstein.h"
 #include "features/curved/curve_corners.h"
 #include "features/curved/flat_corners.h"
@@ -174,17 +172,14 @@ int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes
   return part_flat_corners(mesh, *geometry_behind(prepared, nodes, given));
 }
 
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, int rings, RunResult& result) {
+bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result) {
   Mesh& mesh = result.mesh;
   if (prepared.order == 1 || !result.soundness.sound()) return false;
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("{}: elements of order {} need a mesh of quads alone: {} triangles are left",
                                  prepared.where, prepared.order, mesh.triangles.size()));
-  const Stopwatch watch;
-  const DoingStage curving("curving");
   CurvingSummary summary;
   summary.order = prepared.order;
-  summary.rings = rings;
   const Mesh straight = mesh;
   const auto geometry = geometry_behind(prepared, nodes, straight);
   summary.distance_straight = distance_to_model(straight, *geometry);
@@ -204,9 +199,7 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, int 
   count_low(bounds, limits.allowed, prepared.name, summary, result);
   summary.distance = distance_to_model(mesh, *geometry);
   tell_unproven(mesh, bounds, result.soundness);
-  summary.seconds = watch.work_seconds();
   add_summary(result.log, summary);
-  result.log.add_time("curving", watch.time());
   return untangled.moved_vertices;
 }
 

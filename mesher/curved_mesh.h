@@ -7,7 +7,6 @@ namespace delquad {
 /// How a mesh got curved elements.
 struct CurvingSummary {
   int order = 1;
-  int rings = 0;                  ///< quads with flat corners that got a ring of quads
   int poor = 0, improved = 0;     ///< see UntanglingSummary
   int unproven = 0;               ///< elements whose scaled Jacobian is not proven to be positive
   int unproven_elsewhere = 0;     ///< those that no narrow corner of the model explains
@@ -17,7 +16,6 @@ struct CurvingSummary {
   double mean_jacobian = 1;       ///< the mean of the proven ones
   double distance = 0;            ///< the greatest from curved elements to the model, in its diagonals
   double distance_straight = 0;   ///< the same of the straight ones
-  double seconds = 0;
 };
 
 template <>
@@ -25,7 +23,6 @@ struct Counters<CurvingSummary> {
   using S = CurvingSummary;
   static constexpr const char* step = "curving";
   static constexpr auto all = std::tuple{counter("order", &S::order),
-                                         counter("rings", &S::rings),
                                          counter("poor", &S::poor),
                                          counter("improved", &S::improved),
                                          counter("unproven", &S::unproven),
@@ -36,8 +33,7 @@ struct Counters<CurvingSummary> {
                                          counter("in_corners", &S::in_corners),
                                          counter("mean_jacobian", &S::mean_jacobian),
                                          counter("distance", &S::distance),
-                                         counter("distance_straight", &S::distance_straight),
-                                         counter("seconds", &S::seconds)};
+                                         counter("distance_straight", &S::distance_straight)};
 };
 
 /// Parts quads of the straight mesh that have flat corners, where the problem asks for curved elements; see
@@ -45,9 +41,9 @@ struct Counters<CurvingSummary> {
 int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh);
 
 /// Gives a sound mesh the elements of the problem's order. Those that are not proven to be positive are a
-/// reason why it is not sound. `rings`: what part_flat_corners() returned. Returns whether vertices of the
-/// straight mesh moved. Throws InputError where triangles are left.
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, int rings, RunResult& result);
+/// reason why it is not sound. Returns whether vertices of the straight mesh moved. Throws InputError where
+/// triangles are left.
+bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result);
 
 /// The mesh of straight elements with the same vertices.
 Mesh straight_form(const Mesh& curved);

@@ -9,7 +9,7 @@
 #include "base/box.h"
 #include "base/budget.h"
 #include "delquad/error.h"
-#include "mesher/repair_options.h"
+#include "mesher/finish_steps.h"
 
 namespace delquad {
 namespace {
@@ -83,11 +83,9 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
 }
 
 long long quads_of(const PreparedProblem& prepared, const RunResult& result) {
-  const long long cost = result.log.summaries.has("lift_bad_quads")
-                             ? static_cast<long long>(result.log.summaries.number("lift_bad_quads", "cost"))
-                             : 0;
   const long long steps = prepared.surface ? prepared.surface->domain.steps : 0;
-  return static_cast<long long>(result.mesh.quads.size()) + cost / kCostPerQuad + steps / kStepsPerQuad;
+  return static_cast<long long>(result.mesh.quads.size()) + result.lifting_cost / kCostPerQuad +
+         steps / kStepsPerQuad;
 }
 
 /// Where it is not sound, the first hundred for each reason.
@@ -113,6 +111,8 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   if (refinement.spots.empty()) return;
   Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(prepared, result)));
   quads.spend(quads_of(prepared, result));
+  const MeshWorth before = worth_of(result);
+  bool is_other = false;
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
   int rounds = 0, idle = 0;  // in all, and since the best
@@ -136,6 +136,7 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
           run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));
       idle = is_better ? 0 : idle + 1;
       if (is_better) {
+        is_other = true;
         add_summary(run.log, RefinementSummary{rounds, static_cast<int>(spots.size())});
         run.warnings.push_back(warning_of(finer, spots));
         std::swap(prepared, finer);
@@ -150,6 +151,10 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   }
   result.seconds = seconds;
   add_times(lost.times, result.log);
+  double lost_seconds = 0;
+  for (const auto& [step, time] : lost.times) lost_seconds += time.work;
+  note_seconds(Counters<RefinementSummary>::step, lost_seconds, result.log.summaries);
+  if (is_other) note_worth(Counters<RefinementSummary>::step, before, worth_of(result), result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 

@@ -14,6 +14,13 @@ const OptionTable<RepairOptions>& repair_table() {
           .add({.name = "lift_bad_quads",
                 .help = "of surfaces: whether quads that are bad in space are lifted there"},
                &RepairOptions::lift_bad_quads)
+          .add({.name = "flat_corners",
+                .help = "of curved elements: whether quads with flat corners get a ring of quads"},
+               &RepairOptions::flat_corners)
+          .add({.name = "across_cuts",
+                .help =
+                    "of surfaces: whether stages run once more with other cuts, where these were in the way"},
+               &RepairOptions::across_cuts)
           .add({.name = "refine_unsound",
                 .help = "whether sizes are made smaller where the mesh would not be sound"},
                &RepairOptions::refine_unsound)

@@ -4,13 +4,14 @@
 
 namespace delquad {
 
-/// What is done beside the stages of a pipeline, but for the last on surfaces.
+/// What is done beside the stages of a pipeline: see finish_steps().
 struct RepairOptions {
-  bool part_twins = true;  ///< after each stage: see part_twins()
-  /// At the end, after a treatment: quads that are bad in space slide over the surface.
+  bool part_twins = true;
   bool lift_bad_quads = true;
-  bool refine_unsound = true;  ///< after that: see refine_unsound()
-  bool keep_given = true;      ///< see keep_better(), and hold_worst() in stages.cpp
+  bool flat_corners = true;
+  bool across_cuts = true;
+  bool refine_unsound = true;
+  bool keep_given = true;  ///< see hold_worst() in stages.cpp, too
 };
 
 OptionGroup repair_group();

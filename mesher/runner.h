@@ -23,7 +23,8 @@ struct RunResult {
   int bad_in_corners = 0, bad_elsewhere = 0;
   std::vector<FaceFailure> failures;     ///< by face; empty unless problem.keep_going
   std::optional<SurfaceReport> surface;  ///< of surfaces
-  double seconds = 0;                    ///< meshing: the stages of the word
+  double seconds = 0;                    ///< meshing: the stages of the word, and what finishes it
+  long long lifting_cost = 0;            ///< see LiftingSummary::cost
   long long peak_memory = 0;             ///< bytes, the most that the process has held so far
 };
 
@@ -41,15 +42,23 @@ struct MeshingState {
 MeshingState begin_meshing(const PreparedProblem& prepared);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
-/// Lifts bad quads and puts the patches together. `left_out`: by region.
-Mesh put_together(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshingState& state);
+struct Finishing;
+/// The finish steps on patches, and these as one mesh.
+Mesh put_together(Finishing& on);
 /// Metrics of the mesh and, at the same time, the report of a surface and what is sound. `left_out`: by
 /// region.
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result);
+/// The same of a curved mesh, after its vertices moved: adds what is not sound of its straight form.
+void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
+                           RunResult& result);
 /// The mesh gets the curves and regions that were given, and no other lines.
 void put_back_entities(const GivenEntities& given, Mesh& mesh);
-/// Puts the patches together, measures the mesh and says whether it is sound; what runs across cuts is done
-/// here. `label` names the case and pipeline in warnings. Given quads do not become worse: see keep_better().
+/// Of a step that would have taken too long, and the tag of a face.
+Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face);
+/// By patch: those whose mesh no step edits.
+std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state);
+/// Puts the patches together, measures the mesh and says whether it is sound, with all finish steps but
+/// refine_unsound(). `label` names the case and pipeline in warnings.
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
 
 /// Throws UnsoundError when the mesh is not accepted, naming the case and pipeline by `label`.

@@ -1,5 +1,7 @@
 #include "mesher/stages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -39,6 +41,9 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
   options.max_points = in.max_points;
   patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
   patch.form = PatchForm::kTriangles;
+  if (summary.termination == FrontalTermination::kMaxPoints)
+    throw InputError(fmt::format("insertion stopped at {} points, the most that are allowed (max-elements)",
+                                 summary.inserted));
   add_summary(log, summary);
   log.add_time("insertion", watch.time());
 }
@@ -302,7 +307,7 @@ std::deque<Stage>& stages() {
       {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
       {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
-      {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities},
+      {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities, {}, false, true},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},
   };
   return all;

@@ -209,14 +209,20 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   return evaluate_metrics(mesh, size, given, options, sorted_half_edges(mesh));
 }
 
-MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                             const Options& options, std::span<const HalfEdge> sides,
-                             const std::vector<char>& in_layers) {
+MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides) {
   MeshMetrics metrics;
   for (const Metric& m : metric_registry()) metrics.values[m.key] = std::numeric_limits<double>::quiet_NaN();
   metrics.eta = {0, 1, std::vector<long long>(20, 0)};
   metrics.angle = {0, 360, std::vector<long long>(36, 0)};
+  measure_shapes(mesh, metrics);
+  measure_topology(mesh, sides, metrics);
+  return metrics;
+}
 
+MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                             const Options& options, std::span<const HalfEdge> sides,
+                             const std::vector<char>& in_layers) {
+  MeshMetrics metrics = evaluate_shapes(mesh, sides);
   const double n_quads = static_cast<double>(mesh.quads.size());
   const double n_elements = n_quads + static_cast<double>(mesh.triangles.size());
   metrics.values["n_quads"] = n_quads;
@@ -224,9 +230,7 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
   metrics.values["n_elements"] = n_elements;
   if (n_elements > 0) metrics.values["percent_quads"] = 100 * n_quads / n_elements;
 
-  measure_shapes(mesh, metrics);
   measure_proportions(mesh, in_layers, metrics.values);
-  measure_topology(mesh, sides, metrics);
   measure_regularity(mesh, sides, metrics);
   if (size != nullptr) {
     const bool has_layers = std::ranges::find(in_layers, 1) != in_layers.end();

@@ -15,6 +15,9 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
                              const Options& options, std::span<const HalfEdge> sides,
                              const std::vector<char>& in_layers = {});
 
+/// Of these the measures of the elements' shapes and of vertices' valences alone.
+MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides);
+
 /// The measures from outside, with their keys.
 struct OwnMetric {
   std::string key;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/parallel.h"
 #include "patches/places_inside.h"
 
 namespace delquad {
@@ -15,7 +16,7 @@ std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
 std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes) {
   const bool of_triangles = mesh.form == PatchForm::kTriangles;
-  const std::vector<Vec2>& points = of_triangles ? mesh.triangles.points : mesh.quads.points;
+  const std::vector<Vec2>& points = points_of(mesh);
   if (!prepared.surface) {
     std::vector<Vec3> lifted;
     int hint = -1;
@@ -32,6 +33,18 @@ std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t pat
   add_sides(mesh.quads.quads);
   const PreparedSurface& surface = *prepared.surface;
   return places_inside(surface.domain.patches[patch], surface.model, points, sides, nodes);
+}
+
+void place_inside(const AllPatches& all) {
+  parallel_for(
+      all.patches.size(),
+      [&](std::size_t i) {
+        PatchMesh& patch = all.patches[i];
+        if (patch.form != PatchForm::kQuads || all.left_out[i] || !patch.inside.empty()) return;
+        const DoingFace face = doing_patch(all.prepared, i);
+        patch.inside = places_inside(all.prepared, i, patch, all.nodes.points);
+      },
+      [&](std::size_t i) { return static_cast<double>(all.patches[i].quads.points.size()); });
 }
 
 }  // namespace delquad

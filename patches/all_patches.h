@@ -9,6 +9,10 @@
 
 namespace delquad {
 
+inline const std::vector<Vec2>& points_of(const PatchMesh& patch) {
+  return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
+}
+
 /// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.
 std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes);
@@ -22,6 +26,9 @@ struct AllPatches {
   SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
   bool began_from_quads = false;      ///< that were given
 };
+
+/// Patches of quads that are not left out get the places of their points inside, where they have none yet.
+void place_inside(const AllPatches& all);
 
 /// Adds what a step counted to the log.
 template <class Summary>

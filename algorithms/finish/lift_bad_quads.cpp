@@ -299,14 +299,7 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
 LiftingSummary lift_bad_quads(const AllPatches& in) {
   LiftingSummary summary;
   const std::vector<std::size_t> which = patches_of_quads(in);
-  parallel_for(
-      which.size(),
-      [&](std::size_t k) {
-        PatchMesh& patch = in.patches[which[k]];
-        const DoingFace face = doing_patch(in.prepared, which[k]);
-        if (patch.inside.empty()) patch.inside = places_inside(in.prepared, which[k], patch, in.nodes.points);
-      },
-      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.points.size()); });
+  place_inside(in);
   Budget cost(kMostCost);
   summary.moved = lift_all(in, which, cost);
 

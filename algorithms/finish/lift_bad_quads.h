@@ -14,16 +14,15 @@ struct LiftingSummary {
   int mended = 0;      ///< changes of the quads around those
   long long cost = 0;  ///< places of vertices that were tried, those on CAD ten times
   int stopped = 0;     ///< the tag of the face with the worst quad, where it may not cost more; 0: it ended
-  double seconds = 0;
 };
 
 template <>
 struct Counters<LiftingSummary> {
   using S = LiftingSummary;
   static constexpr const char* step = "lift_bad_quads";
-  static constexpr auto all = std::tuple{counter("moved", &S::moved),     counter("rings", &S::rings),
-                                         counter("mended", &S::mended),   counter("cost", &S::cost),
-                                         counter("stopped", &S::stopped), counter("seconds", &S::seconds)};
+  static constexpr auto all =
+      std::tuple{counter("moved", &S::moved), counter("rings", &S::rings), counter("mended", &S::mended),
+                 counter("cost", &S::cost), counter("stopped", &S::stopped)};
 };
 
 /// Quads of a surface may be worse in space than in the plane in which they were treated, and nodes on curves
@@ -31,7 +30,7 @@ struct Counters<LiftingSummary> {
 /// folded or turned away from the model then gets a ring of quads inside, which is lifted again and kept if
 /// fewer are bad. Last, quads are merged, and edges turned or opened, around what is bad still or flat, one
 /// at a time, and what helps is kept. Patches of quads hold their places in space afterwards. Returns what
-/// was done, without the time.
+/// was done.
 LiftingSummary lift_bad_quads(const AllPatches& in);
 
 }  // namespace delquad

@@ -12,7 +12,6 @@ struct PartingSummary {
   int rings = 0;         ///< of quads, put inside of faces of one quad
   int corners = 0;       ///< nodes with two quads in all, of which one face got a second one
   int corners_left = 0;  ///< those where that would have left bad quads
-  double seconds = 0;
 };
 
 template <>
@@ -21,8 +20,7 @@ struct Counters<PartingSummary> {
   static constexpr const char* step = "part_twins";
   static constexpr auto all =
       std::tuple(counter("chords", &S::chords), counter("left", &S::left), counter("rings", &S::rings),
-                 counter("corners", &S::corners), counter("corners_left", &S::corners_left),
-                 counter("seconds", &S::seconds));
+                 counter("corners", &S::corners), counter("corners_left", &S::corners_left));
 };
 
 /// Parts what two patches of a surface have in common besides the curves between them.
@@ -34,7 +32,7 @@ struct Counters<PartingSummary> {
 /// QuadTopology::open, and left where the quads beside do not allow it. Of two faces that are one quad each
 /// on the same nodes, one gets a ring of quads. A node with one quad of each of two faces, which share two
 /// sides then, gets a third by an opening, as readers take two sides in common for an error. Returns what was
-/// done, without the time.
+/// done.
 PartingSummary part_twins(const AllPatches& in);
 
 }  // namespace delquad

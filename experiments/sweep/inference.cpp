@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kSecondsTotal = "seconds_total";
 constexpr const char* kTauGiven = "tau_given";
-constexpr int kTimeDigits = 2;
+constexpr int kTimeDigits = 2, kFinishDigits = 4;
 /// What the paper's tables show, with the counts, and what eta cannot see.
 const std::vector<std::pair<const char*, int>> kColumns = {
     {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0},   {"eta_worst", 3},
@@ -72,10 +72,11 @@ Interval range_of(const std::string& key) {
 
 void add_times(const StudyFile& study, std::vector<TableColumn>& columns) {
   const bool repeated = study.repeat_times > 0;
-  if (study.step_times)
+  if (study.step_times) {
     for (const StepTime& step : step_times_of_tables())
       columns.push_back({step.key, step.title, kTimeDigits});
-  else
+    columns.push_back({kFinishSeconds, "finish s", kTimeDigits});
+  } else
     columns.push_back({kSeconds, repeated ? "s, median" : "s", kTimeDigits});
   if (repeated)
     columns.push_back({kLeastTime, study.step_times ? "total s, least" : "s, least", kTimeDigits});
@@ -101,6 +102,8 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
     if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
     if (key == kRowEnds) columns.push_back({key, "row ends", 0});
+    if (key == kFinishSeconds) columns.push_back({key, "finish s", kTimeDigits});
+    if (key == kFinishEta) columns.push_back({key, "finish eta", kFinishDigits});
     if (const auto metric = metric_of(key, own)) columns.push_back({key, metric->title, metric->digits});
     for (const StepTime& step : step_times_of_tables())
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});

@@ -86,6 +86,10 @@ CellRecord parse(const Json& json) {
   record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
   record.values[kRowEnds] = number(json.value("/cross_field/row_ends"_json_pointer, Json()));
+  if (const auto finish = json.find("finish"); finish != json.end()) {
+    record.values[kFinishSeconds] = finish->at("seconds");
+    record.values[kFinishEta] = number(finish->value("eta_mean", Json(0)));
+  }
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);

@@ -137,6 +137,7 @@ struct Stage {
   /// What it then does to all patches together. May be empty.
   std::function<void(const AllPatches&, StageLog&)> finish = {};
   bool leaves_triangles = false;  ///< among its quads, however even the boundary is
+  bool fills_cavities = false;    ///< of quads: cuts of a face are in its way
 };
 
 /// Every stage.

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "features/layers/planar_layers.h"
+#include "features/periodic/face_images.h"
+#include "features/symmetry/mirror_mesh.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/half_edges.h"
+#include "mesher/curved_mesh.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+namespace {
+
+/// Mesh node of each point of a patch; nodes are made for the points inside.
+std::vector<int> add_points(const std::vector<Vec3>& inside, const PreparedPatch& patch, Mesh& mesh) {
+  std::vector<int> node = patch.boundary.point_node;
+  for (const Vec3& x : inside) {
+    node.push_back(static_cast<int>(mesh.points.size()));
+    mesh.points.push_back(x);
+  }
+  return node;
+}
+
+template <std::size_t N>
+void add_elements(const std::vector<std::array<int, N>>& elements, const std::vector<int>& node, int region,
+                  std::vector<std::array<int, N>>& target, std::vector<int>& target_region) {
+  target.reserve(target.size() + elements.size());
+  for (std::array<int, N> element : elements) {
+    for (int& v : element) v = node[v];
+    target.push_back(element);
+    target_region.push_back(region);
+  }
+}
+
+/// Adds the quads around tips of cones, where meshes are still of triangles each as two.
+void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches,
+              const std::vector<char>& left_out, Mesh& mesh) {
+  for (const auto& [patch, cap] : domain.caps) {
+    const int region = domain.patches[patch].map.face;
+    if (left_out[region]) continue;
+    for (const auto& [a, b, c, d] : cap.quads) {
+      if (patches[patch].form == PatchForm::kTriangles) {
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+        mesh.triangle_region.insert(mesh.triangle_region.end(), 2, region);
+      } else {
+        mesh.quads.push_back({a, b, c, d});
+        mesh.quad_region.push_back(region);
+      }
+    }
+  }
+}
+
+/// Takes out lines that are on no element, and points that nothing uses then.
+void drop_stray_lines(Mesh& mesh) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty()) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = mesh.line_curve[l];
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  drop_unused_points(mesh);
+}
+
+}  // namespace
+
+Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
+              const std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog* log) {
+  const Stopwatch projection;
+  const DoingStage projecting("projection");
+  std::vector<std::vector<Vec3>> inside(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        if (left_out[prepared.patches[i].region]) return;
+        const DoingFace face = doing_patch(prepared, i);
+        inside[i] =
+            patches[i].inside.empty() ? places_inside(prepared, i, patches[i], nodes) : patches[i].inside;
+      },
+      [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
+  Mesh mesh = prepared.boundary;
+  mesh.points = nodes;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PatchMesh& patch = patches[i];
+    const int region = prepared.patches[i].region;
+    if (left_out[region]) continue;
+    const auto node = add_points(inside[i], prepared.patches[i], mesh);
+    if (patch.form == PatchForm::kTriangles) {
+      add_elements(patch.triangles.triangles, node, region, mesh.triangles, mesh.triangle_region);
+    } else {
+      add_elements(patch.quads.triangles, node, region, mesh.triangles, mesh.triangle_region);
+      add_elements(patch.quads.quads, node, region, mesh.quads, mesh.quad_region);
+    }
+  }
+  if (prepared.surface) {
+    const SurfaceDomain& domain = prepared.surface->domain;
+    add_caps(domain, patches, left_out, mesh);
+    add_face_images(left_out, mesh);
+    if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
+    if (!domain.caps.empty()) drop_unused_points(mesh);
+  }
+  if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
+  if (log != nullptr) log->add_time("projection", projection.time());
+  return mesh;
+}
+
+void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
+  const DoingStage measuring("report");
+  TimeSpent metrics_time, report_time, soundness_time;
+  // A place that is not finite is nowhere near a surface.
+  const bool has_report = prepared.surface && has_finite_points(result.mesh);
+  const Stopwatch sorting;
+  const std::vector<HalfEdge> sides = sorted_half_edges(result.mesh);
+  const TimeSpent sorted = sorting.time();
+  const std::function<void()> parts[] = {
+      [&] {
+        const Stopwatch watch;
+        result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(),
+                                          prepared.options, sides, quads_in_layers(prepared, result.mesh));
+        metrics_time = watch.time();
+      },
+      [&] {
+        const Stopwatch watch;
+        if (has_report) {
+          const PreparedSurface& surface = *prepared.surface;
+          result.surface =
+              report_surface(surface.whole(), surface.all_cuts(),
+                             surface.mirrored ? with_images(*surface.mirrored, left_out) : left_out,
+                             result.mesh, sides, surface.mirrored ? prepared.size.get() : surface.size.get());
+          report_time = watch.time();
+        }
+        const Stopwatch checking;
+        result.soundness =
+            check_soundness(prepared, result.mesh, result.surface ? &*result.surface : nullptr, sides);
+        soundness_time = checking.time();
+      }};
+  parallel_for(std::size(parts), [&](std::size_t i) { parts[i](); });
+  result.log.add_time("metrics", sorted + metrics_time);
+  if (has_report) result.log.add_time("surface report", report_time);
+  result.log.add_time("soundness", soundness_time);
+}
+
+/// Of a curved mesh, after its vertices moved.
+void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
+                           RunResult& result) {
+  RunResult straight;
+  straight.mesh = straight_form(result.mesh);
+  measure(prepared, left_out, straight);
+  result.log.add(straight.log);
+  result.metrics = std::move(straight.metrics);
+  result.surface = std::move(straight.surface);
+  for (std::string& reason : straight.soundness.reasons)
+    result.soundness.reasons.push_back(std::move(reason));
+  result.soundness.places.insert(result.soundness.places.end(), straight.soundness.places.begin(),
+                                 straight.soundness.places.end());
+}
+
+void put_back_entities(const GivenEntities& given, Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const int curve = given.curve_of[mesh.line_curve[l]];
+    if (curve < 0) continue;
+    mesh.lines[kept] = mesh.lines[l];
+    mesh.line_curve[kept++] = curve;
+  }
+  mesh.lines.resize(kept);
+  mesh.line_curve.resize(kept);
+  for (auto* regions : {&mesh.triangle_region, &mesh.quad_region})
+    for (int& region : *regions) region = given.region_of[region];
+  mesh.curves = given.curves;
+  mesh.regions = given.regions;
+}
+
+}  // namespace delquad

@@ -1,0 +1,192 @@
+#include "mesher/finish_steps.h"
+
+#include <utility>
+
+#include "algorithms/finish/lift_bad_quads.h"
+#include "algorithms/finish/part_twins.h"
+#include "base/activity.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "mesher/across_cuts.h"
+#include "mesher/curved_mesh.h"
+#include "mesher/keep_better.h"
+#include "mesher/recombination_options.h"
+#include "mesher/soundness.h"
+
+namespace delquad {
+namespace {
+
+bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }
+bool is_curved(const Finishing& f) { return f.prepared.order > 1; }
+bool was_given(const Finishing& f) { return !f.state.given.empty(); }
+/// Before a treatment quads are bad in the plane, too.
+bool is_treated(const Finishing& f) {
+  return is_surface(f) && recombination_options(f.prepared.options).treatment == Treatment::kPaper;
+}
+/// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
+bool is_worth_other_cuts(const Finishing& f) {
+  return are_cuts_in_the_way(f.prepared, f.state.of_quads) &&
+         (f.result.soundness.sound() || f.prepared.given_entities);
+}
+
+bool part(Finishing& on) {
+  const std::vector<char> left_out = without_edits(on.prepared, on.state);
+  const PartingSummary parted =
+      part_twins({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+  add_summary(on.result.log, parted);
+  return parted.chords + parted.rings + parted.corners > 0;
+}
+
+/// By patch.
+std::vector<char> without_lifting(const Finishing& f) {
+  std::vector<char> left_out;
+  for (const PreparedPatch& patch : f.prepared.patches)
+    left_out.push_back(f.left_out[patch.region] || (patch.grid && patch.grid_stays) || patch.given_stays);
+  return left_out;
+}
+
+bool lift(Finishing& on) {
+  const std::vector<char> left_out = without_lifting(on);
+  const LiftingSummary lifted =
+      lift_bad_quads({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+  if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
+  on.result.lifting_cost = lifted.cost;
+  add_summary(on.result.log, lifted);
+  return lifted.moved + lifted.rings + lifted.mended > 0;
+}
+
+bool part_corners(Finishing& on) {
+  const int rings = part_flat_corners(on.prepared, on.state.nodes, on.result.mesh);
+  on.result.log.summaries.add("flat_corners", {{"rings", static_cast<long long>(rings)}});
+  return rings > 0;
+}
+
+bool curve(Finishing& on) {
+  if (!curve_mesh(on.prepared, on.state.nodes, on.result)) return false;
+  measure_straight_form(on.prepared, on.left_out, on.result);
+  return true;
+}
+
+MeshWorth worth_of_mesh(const PreparedProblem& prepared, const Mesh& mesh) {
+  const auto values = evaluate_shapes(mesh, sorted_half_edges(mesh)).values;
+  return {values.at("eta_mean"), values.at("eta_worst"), values.at("n_irregular"),
+          static_cast<double>(check_elements(prepared, mesh).places.size())};
+}
+
+/// A mesh as a step finds it, as far as that step changes it.
+class Snapshot {
+ public:
+  Snapshot(FinishAt at, const Finishing& f) : at_(at) {
+    if (at == FinishAt::kMeasured) measured_ = worth_of(f.result);
+    if (at == FinishAt::kMesh) mesh_ = f.result.mesh;
+    if (at != FinishAt::kEveryStage && at != FinishAt::kPatches) return;
+    patches_ = f.state.patches;
+    nodes_ = f.state.nodes.points;
+  }
+  MeshWorth worth(const Finishing& f) const {
+    if (at_ == FinishAt::kMeasured) return measured_;
+    return worth_of_mesh(f.prepared, at_ == FinishAt::kMesh ? mesh_ : joined(f));
+  }
+
+ private:
+  /// Points inside of patches that have no places yet lie on the fine triangulation.
+  Mesh joined(const Finishing& f) const {
+    std::vector<PatchMesh> patches = patches_;
+    const PreparedSurface& surface = *f.prepared.surface;
+    parallel_for(
+        patches.size(),
+        [&](std::size_t i) {
+          const std::vector<Vec2>& points = patches[i].quads.points;
+          if (!patches[i].inside.empty()) return;
+          int hint = -1;
+          for (std::size_t v = f.prepared.patches[i].boundary.points.size(); v < points.size(); ++v)
+            patches[i].inside.push_back(
+                fine_place(surface.domain.patches[i], surface.model.fine, points[v], hint));
+        },
+        [&](std::size_t i) { return static_cast<double>(patches[i].quads.points.size()); });
+    return assemble(f.prepared, nodes_, patches, f.left_out);
+  }
+
+  FinishAt at_;
+  MeshWorth measured_ = {};
+  Mesh mesh_;
+  std::vector<PatchMesh> patches_;
+  std::vector<Vec3> nodes_;
+};
+
+void run(const FinishStep& step, Finishing& on) {
+  const DoingStage doing(step.time);
+  // Of triangles there is no worth yet.
+  const bool is_of_quads =
+      step.at != FinishAt::kEveryStage || std::ranges::none_of(on.state.patches, [](const PatchMesh& patch) {
+        return patch.form == PatchForm::kTriangles;
+      });
+  std::optional<Snapshot> before;
+  if (is_of_quads) before.emplace(step.at, on);
+  const Stopwatch watch;
+  const bool changed = step.run(on);
+  const TimeSpent time = watch.time();
+  if (step.at == FinishAt::kMeasured) on.result.seconds += watch.seconds();
+  on.result.log.add_time(step.time, time);
+  note_seconds(step.name, time.work, on.result.log.summaries);
+  if (changed && before)
+    note_worth(step.name, before->worth(on), Snapshot(step.at, on).worth(on), on.result.log.summaries);
+}
+
+}  // namespace
+
+const std::vector<FinishStep>& finish_steps() {
+  using R = RepairOptions;
+  static const std::vector<FinishStep> all = {
+      {"part_twins", "parting", &R::part_twins, "edges and quads that two faces have in common",
+       FinishAt::kEveryStage, is_surface, part},
+      {"lift_bad_quads", "lifting", &R::lift_bad_quads, "quads that are bad in space", FinishAt::kPatches,
+       is_treated, lift},
+      {"flat_corners", "flat corners", &R::flat_corners, "quads with flat corners, where elements get curved",
+       FinishAt::kMesh, is_curved, part_corners},
+      {"across_cuts", "other cuts", &R::across_cuts, "irregular vertices that cuts of faces left",
+       FinishAt::kMeasured, is_worth_other_cuts, run_across_cuts},
+      {"keep_given", "keeping", &R::keep_given, "given quads that became worse", FinishAt::kMeasured,
+       was_given, keep_better},
+      {"curving", "curving", nullptr, "all elements, which get nodes on the model", FinishAt::kMeasured,
+       is_curved, curve},
+      {"refine_unsound", "refining", &R::refine_unsound, "sizes around places where the mesh is not sound",
+       FinishAt::kProblem, nullptr, nullptr},
+  };
+  return all;
+}
+
+void run_finish_steps(FinishAt at, Finishing& on) {
+  const RepairOptions options = repair_options(on.prepared.options);
+  if (at == FinishAt::kPatches && options.lift_bad_quads && is_treated(on)) {
+    const Stopwatch watch;
+    const std::vector<char> left_out = without_lifting(on);
+    place_inside({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+    on.result.log.add_time("projection", watch.time());
+  }
+  for (const FinishStep& step : finish_steps())
+    if (step.at == at && (step.option == nullptr || options.*step.option) && step.applies(on)) run(step, on);
+}
+
+MeshWorth worth_of(const RunResult& measured) {
+  const auto& values = measured.metrics.values;
+  return {values.at("eta_mean"), values.at("eta_worst"), values.at("n_irregular"),
+          static_cast<double>(measured.soundness.places.size())};
+}
+
+void note_seconds(const char* step, double seconds, Summaries& summaries) {
+  for (const char* of : {step, "finish"}) summaries.add(of, {{"seconds", seconds}});
+}
+
+void note_worth(const char* step, const MeshWorth& before, const MeshWorth& after, Summaries& summaries) {
+  const auto add = [&](const char* key, double MeshWorth::*value) {
+    summaries.add(step, {{key, std::vector<std::vector<double>>{{before.*value, after.*value}}}});
+    summaries.add("finish", {{key, after.*value - before.*value}});
+  };
+  add("eta_mean", &MeshWorth::eta_mean);
+  add("eta_worst", &MeshWorth::eta_worst);
+  add("irregular", &MeshWorth::irregular);
+  add("failing", &MeshWorth::failing);
+}
+
+}  // namespace delquad

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+#include "features/symmetry/mirror_mesh.h"
+#include "mesher/finish_steps.h"
+#include "mesher/poor_quads.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+namespace {
+
+long long peak_memory() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
+}
+
+/// Adds the faces of the patches that have a reason to be left out; marks all that are.
+std::vector<char> collect_failures(const PreparedProblem& prepared, const std::vector<std::string>& reasons,
+                                   RunResult& result) {
+  result.failures = prepared.failures;
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
+  if (prepared.surface && prepared.surface->mirrored)
+    add_failures_of_images(*prepared.surface->mirrored, result.failures);
+  for (const PeriodicFaces& pair : prepared.boundary.periodic_faces)
+    if (std::ranges::count(result.failures, pair.master, &FaceFailure::face) > 0)
+      result.failures.push_back(
+          {pair.face, fmt::format("face {}: it has the mesh of face {}, which is left out",
+                                  prepared.boundary.regions[pair.face].tag,
+                                  prepared.boundary.regions[pair.master].tag)});
+  std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
+  std::vector<char> left_out(prepared.boundary.regions.size(), 0);
+  for (const FaceFailure& failure : result.failures)
+    if (failure.face >= 0) left_out[failure.face] = 1;
+  if (std::ranges::none_of(prepared.patches, [&](const PreparedPatch& p) { return !left_out[p.region]; }))
+    throw InputError("no face can be meshed: " + result.failures.at(0).reason);
+  return left_out;
+}
+
+}  // namespace
+
+Mesh put_together(Finishing& on) {
+  run_finish_steps(FinishAt::kPatches, on);
+  return assemble(on.prepared, on.state.nodes.points, on.state.patches, on.left_out, &on.result.log);
+}
+
+RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
+  Finishing on{prepared, state, {}, {}, label};
+  RunResult& result = on.result;
+  const Stopwatch watch;
+  on.left_out = collect_failures(prepared, state.reasons, result);
+  result.warnings = std::move(state.warnings);
+  result.log = std::move(state.log);
+  result.mesh = put_together(on);
+  state.patches.clear();
+  run_finish_steps(FinishAt::kMesh, on);
+  result.seconds = state.seconds + watch.seconds();
+  measure(prepared, on.left_out, result);
+  run_finish_steps(FinishAt::kMeasured, on);
+  result.peak_memory = peak_memory();
+  judge_quads(prepared, label, result);
+  if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);
+  return std::move(on.result);
+}
+
+RunResult run_word(const PreparedProblem& prepared, const Word& word,
+                   const std::function<void(const std::string& stage)>& begins) {
+  MeshingState state = begin_meshing(prepared);
+  for (const Stage* stage : word.stages) {
+    if (begins) begins(stage->name);
+    run_stage(*stage, prepared, state);
+  }
+  if (begins) begins("metrics");
+  return finish_meshing(prepared, prepared.name + " " + word.text, std::move(state));
+}
+
+}  // namespace delquad

@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <stdexcept>
+
+#include "base/activity.h"
+#include "base/located.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+#include "features/given/given_domain.h"
+#include "features/grids/mapped_grid.h"
+#include "features/layers/add_layers.h"
+#include "features/symmetry/patch_image.h"
+#include "mesher/finish_steps.h"
+#include "mesher/runner.h"
+
+namespace delquad {
+namespace {
+
+/// max_elements bounds what is inserted, too: a quad mesh has about as many points as quads.
+long long most_points(const PreparedProblem& prepared) {
+  constexpr long long kPointsPerElement = 4;
+  return kPointsPerElement * prepared.max_elements;
+}
+
+template <std::size_t N>
+bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, int least = 0) {
+  return std::ranges::all_of(elements, [&](const auto& element) {
+    return std::ranges::all_of(element, [&](int i) { return i >= least && i < static_cast<int>(n); });
+  });
+}
+
+/// Stages from outside may leave anything: what the next ones rely on, as far as they would crash.
+void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh) {
+  const auto refuse = [&](const char* what) {
+    throw std::runtime_error(fmt::format("stage {} ({}) left {}", stage.letter, stage.name, what));
+  };
+  if (mesh.form != stage.to) refuse("a mesh of another form than it says");
+  if (mesh.form == PatchForm::kBoundary) return;
+  const bool of_triangles = mesh.form == PatchForm::kTriangles;
+  const std::vector<Vec2>& points = points_of(mesh);
+  if ((of_triangles ? mesh.triangles.n_boundary : mesh.quads.n_boundary) !=
+          static_cast<int>(boundary.points.size()) ||
+      points.size() < boundary.points.size() ||
+      !std::equal(boundary.points.begin(), boundary.points.end(), points.begin()))
+    refuse("a mesh whose first points are not those of the boundary");
+  const TriPatch& tri = mesh.triangles;
+  if (of_triangles
+          ? !are_below(tri.triangles, points.size())
+          : !are_below(mesh.quads.quads, points.size()) || !are_below(mesh.quads.triangles, points.size()))
+    refuse("an element with a corner that is no point");
+  if (of_triangles &&
+      (tri.neighbours.size() != tri.triangles.size() || !are_below(tri.neighbours, tri.triangles.size(), -1)))
+    refuse("triangles without neighbours");
+}
+
+/// What a word begins from with this stage.
+PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
+  if (patch.given.points.empty())
+    throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
+                                 prepared.where, stage.letter));
+  const auto has_quads = [](const PreparedPatch& other) { return !other.given.quads.empty(); };
+  PatchMesh start;
+  // In space regions may be small, and cuts may part triangles from quads: they stay.
+  if (prepared.surface && stage.from == PatchForm::kQuads &&
+      std::ranges::any_of(prepared.patches, has_quads)) {
+    start.form = PatchForm::kQuads;
+    start.quads = patch.given;
+  } else {
+    start = located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+  }
+  start.inside = patch.given_inside;
+  return start;
+}
+
+/// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
+std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
+                         StageLog& log) {
+  const PreparedPatch& patch = prepared.patches[i];
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
+  const auto run = [&] {
+    if (mesh.form != stage.from) {
+      mesh = given_to(stage, prepared, patch);
+      mesh.inside.clear();
+    }
+    stage.run(input, mesh, log);
+    check_stage_result(stage, patch.boundary, mesh);
+  };
+  if (!prepared.surface) {
+    located(prepared.where, run);
+    return "";
+  }
+  const std::string title =
+      fmt::format("face {}: {}: ", prepared.boundary.regions[patch.region].tag, stage.name);
+  try {
+    run();
+    return "";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const InputError& error) {
+    if (!prepared.keep_going) throw InputError(prepared.where + ": " + title + error.what());
+    return title + error.what();
+  } catch (const std::exception& error) {
+    if (!prepared.keep_going) throw std::runtime_error(prepared.where + ": " + title + error.what());
+    return title + error.what();
+  }
+}
+
+/// Area over the square of a mean boundary edge.
+double rough_quads(const PatchBoundary& boundary) {
+  double double_area = 0, length = 0;
+  for (const auto& [i, j] : boundary.edges) {
+    const Vec2 a = boundary.points[i], b = boundary.points[j];
+    double_area += cross(a, b);
+    length += norm(b - a);
+  }
+  const double edge = length / static_cast<double>(boundary.edges.size());
+  return double_area / 2 / (edge * edge);
+}
+
+void count_grids(const PreparedProblem& prepared, StageLog& log) {
+  long long faces = 0, asked = 0, quads = 0;
+  for (const PreparedPatch& patch : prepared.patches) {
+    if (!patch.grid) continue;
+    ++faces;
+    asked += patch.grid_stays;
+    quads += static_cast<long long>(patch.grid->quads.size());
+  }
+  if (faces > 0) log.summaries.add("grids", {{"faces", faces}, {"asked", asked}, {"quads", quads}});
+}
+
+/// Of each patch; tells what was stopped.
+void add_logs(const PreparedProblem& prepared, const std::vector<StageLog>& logs, MeshingState& state) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (const char* step : {"treatment", "cleanup"})
+      if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
+        state.warnings.push_back(
+            stopped_early(prepared, step, prepared.boundary.regions[prepared.patches[i].region].tag));
+    state.log.add(logs[i]);
+  }
+}
+
+/// By region.
+std::vector<char> regions_left_out(const PreparedProblem& prepared, const std::vector<std::string>& reasons) {
+  std::vector<char> left_out(prepared.boundary.regions.size(), 0);
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (!reasons[i].empty()) left_out[prepared.patches[i].region] = 1;
+  return left_out;
+}
+
+}  // namespace
+
+Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face) {
+  return {"steps that were stopped before their end", 0,
+          fmt::format("{}: {} of face {} was stopped before its end, as it would take too long: quads there "
+                      "may be poor; a model without slivers and spikes there, or a smaller size, helps",
+                      prepared.name, step, face)};
+}
+
+std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state) {
+  std::vector<char> left_out;
+  for (std::size_t i = 0; i < state.patches.size(); ++i) {
+    const PreparedPatch& patch = prepared.patches[i];
+    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image || patch.given_stays);
+  }
+  return left_out;
+}
+
+MeshingState begin_meshing(const PreparedProblem& prepared) {
+  MeshingState state;
+  state.patches.resize(prepared.patches.size());
+  state.reasons.resize(prepared.patches.size());
+  if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
+  state.nodes.points = prepared.boundary.points;
+  if (prepared.layers) add_summary(state.log, prepared.layers->count);
+  count_grids(prepared, state.log);
+  return state;
+}
+
+void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+  const Stopwatch watch;
+  const DoingStage running(stage.name.c_str());
+  if (stage.from == PatchForm::kQuads) state.of_quads.push_back(&stage);
+  std::vector<PatchMesh>& patches = state.patches;
+  if (stage.from == PatchForm::kQuads && patches[0].form == PatchForm::kBoundary)
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      state.given.push_back(given_to(stage, prepared, prepared.patches[i]));
+  std::vector<StageLog> logs(patches.size());
+  parallel_for(
+      patches.size(),
+      [&](std::size_t i) {
+        std::string& reason = state.reasons[i];
+        const DoingFace face = doing_patch(prepared, i);
+        patches[i].inside.clear();
+        if (prepared.patches[i].image) return;
+        if (prepared.patches[i].given_stays) {
+          if (patches[i].form != stage.to) patches[i] = given_to(stage, prepared, prepared.patches[i]);
+          return;
+        }
+        if (const auto& grid = prepared.patches[i].grid) {
+          if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
+          return;
+        }
+        if (reason.empty()) reason = run_on_patch(stage, prepared, i, patches[i], logs[i]);
+      },
+      [&](std::size_t i) {
+        return patches[i].form == PatchForm::kBoundary ? rough_quads(prepared.patches[i].boundary)
+                                                       : static_cast<double>(points_of(patches[i]).size());
+      });
+  add_logs(prepared, logs, state);
+  Finishing finishing{prepared, state, regions_left_out(prepared, state.reasons)};
+  run_finish_steps(FinishAt::kEveryStage, finishing);
+  state.log.add(finishing.result.log);
+  if (stage.finish) {
+    std::vector<char> held = without_edits(prepared, state);
+    // When points of quads move, those of most grids do, too.
+    for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
+      if (const PreparedPatch& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
+        held[i] = 0;
+    stage.finish({prepared, prepared.options, patches, held, state.nodes, !state.given.empty()}, state.log);
+  }
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (const auto& image = prepared.patches[i].image) {
+      patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);
+      move_image_nodes(prepared, *image, state.nodes.points);
+      state.reasons[i] = state.reasons[image->master];
+    }
+  state.seconds += watch.seconds();
+}
+
+}  // namespace delquad
