@@ -39,10 +39,10 @@ std::vector<CrossGlyph> sample_crosses(const PreparedProblem& p) {
     for (int i = 0; i < across; ++i) {
       const Vec2 u = low + Vec2{(i + 0.5) * step, (j + 0.5) * step};
       if (u.x > high.x || u.y > high.y) continue;
-      const BackgroundMesh::Location at = p.background->locate(u, where);
-      const Vec2 inside = position(*p.background, at);
+      const BackgroundMesh::Location at = p.plane.background->locate(u, where);
+      const Vec2 inside = position(*p.plane.background, at);
       if (norm(inside - u) > 1e-9 * step * across) continue;  // outside: the location is the nearest one
-      const CrossField& cross = *p.patches[p.background->triangle_patch()[at.triangle]].cross;
+      const CrossField& cross = *p.patches[p.plane.background->triangle_patch()[at.triangle]].cross;
       int hint = -1;
       glyphs.push_back({u, cross.at(u, hint).angle(), 0.8 * step});
     }
@@ -89,12 +89,13 @@ void refine(std::vector<Vec2>& points, std::vector<std::array<int, 3>>& triangle
 
 void draw_case(const PreparedProblem& prepared, const std::string& name,
                const std::filesystem::path& folder) {
-  if (!prepared.background) return;  // fields of surfaces live in the parameter planes of their patches
+  if (!prepared.plane.background) return;  // fields of surfaces live in the parameter planes of their patches
   std::vector<SingularityMark> marks;
-  for (const PlacedSingularity& s : prepared.singularities) marks.push_back({{s.at.x, s.at.y}, s.index});
+  for (const PlacedSingularity& s : prepared.crosses.singularities)
+    marks.push_back({{s.at.x, s.at.y}, s.index});
   draw_crosses(folder / "cross.svg", prepared.boundary, sample_crosses(prepared), marks,
                name + ": cross field");
-  TriPatch tri = prepared.background->triangles();
+  TriPatch tri = prepared.plane.background->triangles();
   refine(tri.points, tri.triangles, diagonal(prepared.boundary) / kSamplesAcross);
   Mesh samples;
   samples.triangles = std::move(tri.triangles);
@@ -104,7 +105,7 @@ void draw_case(const PreparedProblem& prepared, const std::string& name,
   int hint = -1;
   for (const Vec2& u : tri.points) {
     samples.points.push_back({u.x, u.y, 0});
-    sizes.push_back(prepared.size->at(samples.points.back(), hint));
+    sizes.push_back(prepared.size.field->at(samples.points.back(), hint));
   }
   if (std::ranges::all_of(sizes, [&](double size) { return size == sizes[0]; }))
     draw_crosses(folder / "size.svg", prepared.boundary, {}, {},

@@ -128,7 +128,7 @@ UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
 /// be curved.
 std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
   std::vector<char> regions(prepared.boundary.regions.size(), 0);
-  if (prepared.surface->mirrored || prepared.order > 1 || !prepared.boundary.periodic.empty() ||
+  if (prepared.surface->mirrored || prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
       !prepared.boundary.periodic_faces.empty())
     return regions;
   for (const SurfaceCut& cut : prepared.surface->cuts) regions[cut.face] = 1;
@@ -141,31 +141,31 @@ std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
 /// were given first; nodes on curves stay. Throws InputError where that cannot be.
 PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vector<char>& regions,
                                 const UncutMesh& start) {
-  GivenSurface given = make_given_surface({start.mesh, prepared.name}, kNoFeatures);
+  GivenSurface given = make_given_surface({start.mesh, prepared.settings.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
     given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
   given.model.projector = projector_onto(prepared.surface->model, given.given_region);
   MeshProblem problem;
-  problem.name = prepared.name;
-  problem.where = prepared.where;
-  problem.max_elements = prepared.max_elements;
+  problem.name = prepared.settings.name;
+  problem.where = prepared.settings.where;
+  problem.max_elements = prepared.settings.max_elements;
   PreparedProblem again =
-      prepare_given_surface(problem, std::move(given), start.mesh, prepared.size, [](double) {});
+      prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field, [](double) {});
   for (PreparedPatch& patch : again.patches)
-    patch.given_stays = regions[again.given_entities->region_of[patch.region]] == 0;
+    patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;
   return again;
 }
 
 /// `is_given`: what there was before the stages is to be kept where it would become worse.
 UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options& options, bool is_given) {
-  again.options = options;
-  again.options.set("repair.keep_given", is_given);
+  again.settings.options = options;
+  again.settings.options.set("repair.keep_given", is_given);
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
   Finishing on{again, state, none};
   UncutMesh made = without_cuts(*again.surface, put_together(on));
-  put_back_entities(*again.given_entities, made.mesh);
+  put_back_entities(*again.surface->given, made.mesh);
   return made;
 }
 
@@ -196,13 +196,14 @@ Options with_dearer(const Options& options, double dearer) {
 RunResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Options& options,
                            const std::vector<char>& regions) {
   const PreparedProblem& prepared = f.prepared;
-  const bool is_given = prepared.given_entities.has_value() && repair_options(prepared.options).keep_given;
+  const bool is_given =
+      prepared.surface->given.has_value() && repair_options(prepared.settings.options).keep_given;
   UncutMesh made = run_stages(again, f.state.of_quads, options, is_given);
   RunResult after;
   after.mesh = made.mesh;
   measure(prepared, f.left_out, after);
   const Stages moving = that_move_nodes(f.state.of_quads);
-  if (prepared.given_entities || moving.empty() || !is_more_regular(after, f.result) ||
+  if (prepared.surface->given || moving.empty() || !is_more_regular(after, f.result) ||
       keeps_worst_eta(kGoodEta, after, f.result))
     return after;
   // Nodes on these cuts could not go anywhere.
@@ -217,7 +218,7 @@ RunResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Opt
 bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& options,
                       const std::vector<char>& regions) {
   RunResult after = made_across_cuts(on, again, options, regions);
-  if (!is_to_be_taken(after, on.result, on.prepared.given_entities.has_value())) return false;
+  if (!is_to_be_taken(after, on.result, on.prepared.surface->given.has_value())) return false;
   take_mesh(std::move(after), on.result);
   return true;
 }
@@ -235,7 +236,7 @@ struct Counters<AcrossCutsSummary> {
 
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
   if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
-  return prepared.given_entities ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
+  return prepared.surface->given ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
 }
 
 bool run_across_cuts(Finishing& on) {
@@ -247,10 +248,12 @@ bool run_across_cuts(Finishing& on) {
   if (summary.faces > 0) try {
       PreparedProblem again =
           with_other_cuts(prepared, regions, without_cuts(*prepared.surface, on.result.mesh));
-      if (prepared.given_entities) summary.taken = take_across_cuts(on, again, prepared.options, regions);
+      if (prepared.surface->given)
+        summary.taken = take_across_cuts(on, again, prepared.settings.options, regions);
       for (const double dearer : kDearer)
-        if (!prepared.given_entities && summary.taken == 0)
-          summary.taken = take_across_cuts(on, again, with_dearer(prepared.options, dearer), regions);
+        if (!prepared.surface->given && summary.taken == 0)
+          summary.taken =
+              take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
     } catch (const InputError&) {
       summary.faces = 0;  // what there was stays
     }

@@ -122,18 +122,19 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
-        result.metrics = evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(),
-                                          prepared.options, sides, quads_in_layers(prepared, result.mesh));
+        result.metrics =
+            evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
+                             prepared.settings.options, sides, quads_in_layers(prepared, result.mesh));
         metrics_time = watch.time();
       },
       [&] {
         const Stopwatch watch;
         if (has_report) {
           const PreparedSurface& surface = *prepared.surface;
-          result.surface =
-              report_surface(surface.whole(), surface.all_cuts(),
-                             surface.mirrored ? with_images(*surface.mirrored, left_out) : left_out,
-                             result.mesh, sides, surface.mirrored ? prepared.size.get() : surface.size.get());
+          result.surface = report_surface(
+              surface.whole(), surface.all_cuts(),
+              surface.mirrored ? with_images(*surface.mirrored, left_out) : left_out, result.mesh, sides,
+              surface.mirrored ? prepared.size.field.get() : surface.size.get());
           report_time = watch.time();
         }
         const Stopwatch checking;

@@ -29,12 +29,12 @@ class PlanarGeometry final : public ModelGeometry {
  public:
   PlanarGeometry(const PreparedProblem& prepared, const SurfaceNodes& nodes, const Mesh& mesh)
       : mesh_(mesh), tolerance_(kOnCurve * diagonal(mesh)) {
-    for (std::size_t i = 0; i < prepared.curve_places.size(); ++i)
-      if (prepared.curve_places[i].curve) sliding_.insert(place_of(nodes.points[i]));
+    for (std::size_t i = 0; i < prepared.plane.curve_places.size(); ++i)
+      if (prepared.plane.curve_places[i].curve) sliding_.insert(place_of(nodes.points[i]));
     std::map<const Curve*, int> known;
     std::vector<std::shared_ptr<const Curve>> curves;
     std::vector<int> edges;
-    for (const auto& shapes : prepared.curve_shapes) {
+    for (const auto& shapes : prepared.plane.curve_shapes) {
       std::vector<int>& of_curve = searches_of_.emplace_back();
       for (const auto& shape : shapes) {
         const auto [at, is_new] = known.try_emplace(shape.get(), static_cast<int>(curves.size()));

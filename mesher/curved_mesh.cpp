@@ -167,23 +167,23 @@ void tell_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, 
 }  // namespace
 
 int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh) {
-  if (prepared.order == 1 || !mesh.triangles.empty() || !has_finite_points(mesh)) return 0;
+  if (prepared.settings.order == 1 || !mesh.triangles.empty() || !has_finite_points(mesh)) return 0;
   const Mesh given = mesh;
   return part_flat_corners(mesh, *geometry_behind(prepared, nodes, given));
 }
 
 bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result) {
   Mesh& mesh = result.mesh;
-  if (prepared.order == 1 || !result.soundness.sound()) return false;
+  if (prepared.settings.order == 1 || !result.soundness.sound()) return false;
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("{}: elements of order {} need a mesh of quads alone: {} triangles are left",
-                                 prepared.where, prepared.order, mesh.triangles.size()));
+                                 prepared.settings.where, prepared.settings.order, mesh.triangles.size()));
   CurvingSummary summary;
-  summary.order = prepared.order;
+  summary.order = prepared.settings.order;
   const Mesh straight = mesh;
   const auto geometry = geometry_behind(prepared, nodes, straight);
   summary.distance_straight = distance_to_model(straight, *geometry);
-  raise_order(mesh, prepared.order, *geometry);
+  raise_order(mesh, prepared.settings.order, *geometry);
   pair_curved_lines(mesh);
   std::vector<JacobianBounds> bounds = jacobian_bounds(mesh);
   const std::vector<CurveCorner> corners = curve_corners(straight, *geometry);
@@ -196,7 +196,7 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunR
   summary.unproven = proven.unproven;
   summary.least_jacobian = proven.least;
   summary.mean_jacobian = proven.mean;
-  count_low(bounds, limits.allowed, prepared.name, summary, result);
+  count_low(bounds, limits.allowed, prepared.settings.name, summary, result);
   summary.distance = distance_to_model(mesh, *geometry);
   tell_unproven(mesh, bounds, result.soundness);
   add_summary(result.log, summary);

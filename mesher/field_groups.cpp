@@ -17,7 +17,7 @@ namespace {
 std::vector<std::optional<double>> alignments(const PreparedProblem& prepared) {
   std::vector<std::optional<double>> of_curve(prepared.boundary.curves.size());
   if (!prepared.surface) return of_curve;
-  const CurveOptions options = curve_options(prepared.options);
+  const CurveOptions options = curve_options(prepared.settings.options);
   const std::vector<char> smooth = tangent_curves(prepared.surface->model);
   for (std::size_t c = 0; c < of_curve.size() && c < smooth.size(); ++c)
     if (smooth[c]) of_curve[c] = options.alignment;

@@ -17,22 +17,22 @@ namespace delquad {
 namespace {
 
 bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }
-bool is_curved(const Finishing& f) { return f.prepared.order > 1; }
+bool is_curved(const Finishing& f) { return f.prepared.settings.order > 1; }
 bool was_given(const Finishing& f) { return !f.state.given.empty(); }
 /// Before a treatment quads are bad in the plane, too.
 bool is_treated(const Finishing& f) {
-  return is_surface(f) && recombination_options(f.prepared.options).treatment == Treatment::kPaper;
+  return is_surface(f) && recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
 }
 /// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
 bool is_worth_other_cuts(const Finishing& f) {
   return are_cuts_in_the_way(f.prepared, f.state.of_quads) &&
-         (f.result.soundness.sound() || f.prepared.given_entities);
+         (f.result.soundness.sound() || f.prepared.surface->given);
 }
 
 bool part(Finishing& on) {
   const std::vector<char> left_out = without_edits(on.prepared, on.state);
   const PartingSummary parted =
-      part_twins({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+      part_twins({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   add_summary(on.result.log, parted);
   return parted.chords + parted.rings + parted.corners > 0;
 }
@@ -48,7 +48,7 @@ std::vector<char> without_lifting(const Finishing& f) {
 bool lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
   const LiftingSummary lifted =
-      lift_bad_quads({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+      lift_bad_quads({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
   on.result.lifting_cost = lifted.cost;
   add_summary(on.result.log, lifted);
@@ -157,11 +157,11 @@ const std::vector<FinishStep>& finish_steps() {
 }
 
 void run_finish_steps(FinishAt at, Finishing& on) {
-  const RepairOptions options = repair_options(on.prepared.options);
+  const RepairOptions options = repair_options(on.prepared.settings.options);
   if (at == FinishAt::kPatches && options.lift_bad_quads && is_treated(on)) {
     const Stopwatch watch;
     const std::vector<char> left_out = without_lifting(on);
-    place_inside({on.prepared, on.prepared.options, on.state.patches, left_out, on.state.nodes});
+    place_inside({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
     on.result.log.add_time("projection", watch.time());
   }
   for (const FinishStep& step : finish_steps())

@@ -26,7 +26,7 @@ RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   Finishing on{f.prepared, state, f.left_out};
   on.result.mesh = put_together(on);
   measure(f.prepared, f.left_out, on.result);
-  if (repair_options(f.prepared.options).across_cuts && are_cuts_in_the_way(f.prepared, stages))
+  if (repair_options(f.prepared.settings.options).across_cuts && are_cuts_in_the_way(f.prepared, stages))
     run_across_cuts(on);
   return std::move(on.result);
 }

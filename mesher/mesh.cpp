@@ -39,7 +39,7 @@ MeshResult result_of(const PreparedProblem& prepared, RunResult run) {
   for (const StepTimes* times : {&prepared.times, &std::as_const(run.log.times)})
     for (const auto& [step, time] : *times) result.seconds.emplace_back(step, time.work);
   result.wall_seconds = run.seconds;
-  result.expected_quads = prepared.expected_quads;
+  result.expected_quads = prepared.size.expected_quads;
   return result;
 }
 

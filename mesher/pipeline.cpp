@@ -64,7 +64,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   run_finish_steps(FinishAt::kMeasured, on);
   result.peak_memory = peak_memory();
   judge_quads(prepared, label, result);
-  if (prepared.given_entities) put_back_entities(*prepared.given_entities, result.mesh);
+  if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);
 }
 
@@ -76,7 +76,7 @@ RunResult run_word(const PreparedProblem& prepared, const Word& word,
     run_stage(*stage, prepared, state);
   }
   if (begins) begins("metrics");
-  return finish_meshing(prepared, prepared.name + " " + word.text, std::move(state));
+  return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
 }
 
 }  // namespace delquad

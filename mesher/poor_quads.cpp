@@ -97,8 +97,8 @@ class PoorQuads {
       if (!on_purpose[q]) {
         for (int k = 0; k < 4; ++k) shortest = std::min(shortest, norm(corners[(k + 1) % 4] - corners[k]));
         quad.aspect = quad_aspect(corners);
-        quad.edge =
-            shortest / prepared.size->at(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), hint);
+        quad.edge = shortest /
+                    prepared.size.field->at(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), hint);
       }
       if (quad.badness() <= 1) continue;
       explain(shape, shortest / quad.edge, quad);
@@ -129,7 +129,7 @@ class PoorQuads {
           in_corner(shape.angle[k], shape.angle[k] / (std::numbers::pi / 2),
                     {mesh_.curves[before].tag, mesh_.curves[after].tag}))
         return;
-      for (const SharpCorner& c : prepared_.sharp_corners)
+      for (const SharpCorner& c : sharp_corners_)
         if (is_at(c, mesh_.points[v[k]]) && in_corner(c.angle, c.eta_bound,
                                                       {prepared_.boundary.curves[c.curves[0]].tag,
                                                        prepared_.boundary.curves[c.curves[1]].tag}))
@@ -144,7 +144,7 @@ class PoorQuads {
 
  public:
   static bool is_triangulated(const PreparedProblem& prepared) {
-    return prepared.surface && !prepared.given_entities && !prepared.surface->model.projector;
+    return prepared.surface && !prepared.surface->given && !prepared.surface->model.projector;
   }
 
  private:
@@ -178,6 +178,7 @@ class PoorQuads {
   const PreparedProblem& prepared_;
   const Mesh& mesh_;
   CurveEdges edges_;
+  std::vector<SharpCorner> sharp_corners_ = prepared_.sharp_corners();
 };
 
 bool is_given(const PreparedProblem& prepared) {
@@ -338,7 +339,7 @@ void judge_quads(const PreparedProblem& prepared, const std::string& label, RunR
     warn_of_poor_quads(prepared, label, quads, result);
   }
   warn_of_single_precision(label, mesh, sides, result.warnings);
-  hold_to_limits(limit_table().read(prepared.options), mesh, sides, on_purpose, result.soundness);
+  hold_to_limits(limit_table().read(prepared.settings.options), mesh, sides, on_purpose, result.soundness);
 }
 
 }  // namespace delquad

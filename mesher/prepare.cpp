@@ -169,7 +169,7 @@ std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarMod
 PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
                            const std::vector<SizeSpot>& spots, PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
-  p.size = make_size(spec, {box_of(model)}, p.warnings, [&] {
+  p.size.field = make_size(spec, {box_of(model)}, p.warnings, [&] {
     return largest_size(
         spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
   });
@@ -177,43 +177,43 @@ PlanarDomain prepare_model(const MeshProblem& problem, const PlanarModel& model,
   const auto with_images = [&](std::shared_ptr<const SizeField> size) {
     return p.symmetry.empty() ? size : least_of_images(std::move(size), SymmetryPlanes(p.symmetry));
   };
-  p.size = with_images(std::move(p.size));
-  check_count_early(problem, model, p.size);
-  PlanarDomain domain = mesh_model(problem, model, p.size);
+  p.size.field = with_images(std::move(p.size.field));
+  check_count_early(problem, model, p.size.field);
+  PlanarDomain domain = mesh_model(problem, model, p.size.field);
   // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
-  const std::shared_ptr<const SizeField> base = p.size;
+  const std::shared_ptr<const SizeField> base = p.size.field;
   for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
     const NamedParts parts(model, domain);
     if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
-    p.size = with_images(finer_near(base, parts.spots(spec.named)));
-    check_count_early(problem, model, p.size);
-    domain = mesh_model(problem, model, p.size);
+    p.size.field = with_images(finer_near(base, parts.spots(spec.named)));
+    check_count_early(problem, model, p.size.field);
+    domain = mesh_model(problem, model, p.size.field);
   }
   if (spec.gradation > 0) {
-    p.background = std::make_shared<BackgroundMesh>(domain.patches);
-    p.size = limit_gradation(p.size, p.background, spec.gradation);
-    check_count_early(problem, model, p.size);
-    domain = mesh_model(problem, model, p.size);
+    p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+    p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
+    check_count_early(problem, model, p.size.field);
+    domain = mesh_model(problem, model, p.size.field);
   }
   if (!problem.divisions.empty()) {
-    p.given_size = p.size;
-    p.size = as_near(p.size, edges_of(domain, divided_curves(model, problem.divisions)));
-    p.size_adapted_to.push_back("given edges");
-    domain = mesh_model(problem, model, p.size);
+    p.size.asked = p.size.field;
+    p.size.field = as_near(p.size.field, edges_of(domain, divided_curves(model, problem.divisions)));
+    p.size.adapted_to.push_back("given edges");
+    domain = mesh_model(problem, model, p.size.field);
   }
-  const std::vector<FineSpot> fine = short_edges(domain, *p.size);
-  if (!fine.empty()) p.size_adapted_to.push_back("short curves");
-  if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
+  const std::vector<FineSpot> fine = short_edges(domain, *p.size.field);
+  if (!fine.empty()) p.size.adapted_to.push_back("short curves");
+  if (!spots.empty()) p.size.adapted_to.push_back("sound quads");
   if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
-    if (!p.given_size) p.given_size = p.size;
+    if (!p.size.asked) p.size.asked = p.size.field;
     std::vector<FineSpot> all = fine_spots(problem, spots);
-    const auto grid_size = finer_near(p.size, all);
+    const auto grid_size = finer_near(p.size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
-    p.size = finer_near(p.size, std::move(all));
-    check_count_early(problem, model, p.size);
-    domain = mesh_model(problem, model, p.size, grid_size);
+    p.size.field = finer_near(p.size.field, std::move(all));
+    check_count_early(problem, model, p.size.field);
+    domain = mesh_model(problem, model, p.size.field, grid_size);
   }
-  p.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   return domain;
 }
 
@@ -253,19 +253,19 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
                     mesh.triangles.size(), mesh.quads.size()));
   PlanarDomain domain = make_named_domain(mesh, model.surfaces, model.source);
   const SizeSpec& spec = problem.size;
-  p.background = std::make_shared<BackgroundMesh>(domain.patches);
-  p.size = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
-                     [&] { return make_boundary_size(p.background, domain.boundary); });
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size.field = make_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
+                           [&] { return make_boundary_size(p.plane.background, domain.boundary); });
   if (!spec.named.empty()) {
     const NamedParts parts(domain);
-    warn_of_idle_sizes(spec.named, parts, *p.size, p.warnings);
-    p.size = finer_near(p.size, parts.spots(spec.named));
+    warn_of_idle_sizes(spec.named, parts, *p.size.field, p.warnings);
+    p.size.field = finer_near(p.size.field, parts.spots(spec.named));
   }
-  if (spec.gradation > 0) p.size = limit_gradation(p.size, p.background, spec.gradation);
+  if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
   if (has_single_points(mesh)) {
-    const PointSize size_at = as_function(p.size);
+    const PointSize size_at = as_function(p.size.field);
     domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
-    p.background = std::make_shared<BackgroundMesh>(domain.patches);
+    p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
   return domain;
 }
@@ -276,14 +276,15 @@ PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, P
   p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
   GivenDomain domain = make_given_domain(model);
   p.warnings.insert(p.warnings.end(), domain.warnings.begin(), domain.warnings.end());
-  p.background = std::make_shared<BackgroundMesh>(domain.domain.patches);
-  p.size = make_size(problem.size, {Box<Vec3>::around(domain.domain.boundary.points)}, p.warnings,
-                     [&]() -> std::shared_ptr<const SizeField> {
-                       if (problem.size.from_boundary)
-                         return make_boundary_size(p.background, edges_of_patches(domain.domain));
-                       return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
-                     });
-  if (problem.size.gradation > 0) p.size = limit_gradation(p.size, p.background, problem.size.gradation);
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.domain.patches);
+  p.size.field = make_size(problem.size, {Box<Vec3>::around(domain.domain.boundary.points)}, p.warnings,
+                           [&]() -> std::shared_ptr<const SizeField> {
+                             if (problem.size.from_boundary)
+                               return make_boundary_size(p.plane.background, edges_of_patches(domain.domain));
+                             return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
+                           });
+  if (problem.size.gradation > 0)
+    p.size.field = limit_gradation(p.size.field, p.plane.background, problem.size.gradation);
   for (const std::string& line : odd_boundaries(domain.domain))
     p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   given = std::move(domain.elements);
@@ -292,7 +293,7 @@ PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, P
 
 /// Says so when the indices of a cross field do not add up to the Euler characteristic.
 void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
-  const auto [sum, expected] = *p.index_sum_and_expected;
+  const auto [sum, expected] = *p.crosses.index_sum_and_expected;
   if (sum == expected) return;
   p.warnings.push_back(
       fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
@@ -304,7 +305,7 @@ void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
 std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary,
                                               PreparedProblem& p) {
   if (!spec.function) return spec.field;
-  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size,
+  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
                       spec.where + ": the cross function", p.warnings);
 }
 
@@ -314,13 +315,13 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
                                              PreparedProblem& p) {
   const CrossSpec& cross = problem.cross;
   if (cross.kind == CrossKind::kGradient)
-    return make_gradient_cross(p.size, kGradientStep * diagonal(p.boundary));
+    return make_gradient_cross(p.size.field, kGradientStep * diagonal(p.boundary));
   if (cross.kind == CrossKind::kField)
     return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
-  auto field = std::make_shared<HarmonicCrossField>(p.background);
+  auto field = std::make_shared<HarmonicCrossField>(p.plane.background);
   for (const Singularity& s : field->singularities())
-    p.singularities.push_back({{s.at.x, s.at.y, 0}, s.index});
-  p.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
+    p.crosses.singularities.push_back({{s.at.x, s.at.y, 0}, s.index});
+  p.crosses.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
   return field;
 }
 
@@ -331,9 +332,9 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
   rotate(rotation, domain);
   for (QuadPatch& patch : given)
     for (Vec2& point : patch.points) point = rotation(point);
-  p.background = std::make_shared<BackgroundMesh>(domain.patches);
-  p.size = rotated(std::move(p.size), rotation);
-  if (p.given_size) p.given_size = rotated(std::move(p.given_size), rotation);
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size.field = rotated(std::move(p.size.field), rotation);
+  if (p.size.asked) p.size.asked = rotated(std::move(p.size.asked), rotation);
   for (PatchImage& image : domain.images)
     image.motion = [motion = std::move(image.motion), rotation](Vec2 x) {
       return rotation(motion(rotation.back(x)));
@@ -346,7 +347,8 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   std::vector<FeatureBall> kept_features;
   if (refinement.keep_features)
     for (const SizeSpot& spot : refinement.spots) kept_features.push_back({spot.at, spot.reach});
-  std::shared_ptr<const SurfaceModel> cad = refinement.cad;
+  Refinement with_cad = refinement;
+  std::shared_ptr<const SurfaceModel>& cad = with_cad.cad;
   SurfaceModel model = cad ? *cad : make_surface(problem, kept_features);
   if (!cad && model.projector) cad = std::make_shared<SurfaceModel>(model);
   const TimeSpent read = reading.time();
@@ -362,8 +364,7 @@ PreparedProblem prepare_surface_problem(const MeshProblem& problem, const Refine
   model = join_short_curves(problem, *size, std::move(model));
   size = imprint_named(problem.size.named, std::move(size), model, warnings);
   PreparedProblem p = prepare_surface(
-      problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, refinement.spots);
-  p.cad = std::move(cad);
+      problem, std::move(model), size, [&](double quads) { check_count(quads, problem); }, with_cad);
   p.times.insert(p.times.begin(), {"read", read});
   p.warnings.insert(p.warnings.begin(), warnings.begin(), warnings.end());
   return p;
@@ -443,7 +444,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
   const DoingStage making_fields("fields");
   const auto cross = make_cross(problem, given_cross, p);
   const double z = p.boundary.points[0].z;
-  const auto size = std::make_shared<PlanarSize>(p.size, z);
+  const auto size = std::make_shared<PlanarSize>(p.size.field, z);
   for (std::size_t i = 0; i < domain.patches.size(); ++i)
     p.patches.push_back({std::move(domain.patches[i]),
                          domain.patch_region[i],
@@ -457,7 +458,7 @@ void prepare_patches(const MeshProblem& problem, const std::shared_ptr<const Cro
   for (PatchImage& image : domain.images) p.patches[image.patch].image = std::move(image);
   add_grids(problem.mapped, domain.mapped, p);
   if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
-  if (p.index_sum_and_expected) check_index_sum(problem, p);
+  if (p.crosses.index_sum_and_expected) check_index_sum(problem, p);
   p.times.emplace_back("fields", fields.time());
 }
 
@@ -489,15 +490,16 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
   if (std::holds_alternative<LineModel>(problem.model))
     for (const std::string& line : odd_boundaries(domain))
       p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
-  p.expected_quads = expected_quads(*p.background, *p.size) + (p.layers ? p.layers->count.quads : 0);
-  check_count(p.expected_quads, problem);
-  warn_of_large_size(*p.size, domain.boundary, p.warnings);
+  p.size.expected_quads =
+      expected_quads(*p.plane.background, *p.size.field) + (p.layers ? p.layers->count.quads : 0);
+  check_count(p.size.expected_quads, problem);
+  warn_of_large_size(*p.size.field, domain.boundary, p.warnings);
   if (model != nullptr) warn_of_coarse_turns(*model, domain, p.warnings);
   const auto cross = given_cross(problem.cross, domain.boundary, p);
   if (problem.seed != 0) turn(problem, domain, given, p);
   p.boundary = std::move(domain.boundary);
-  p.curve_places = std::move(domain.places);
-  p.curve_shapes = std::move(domain.curve_shapes);
+  p.plane.curve_places = std::move(domain.places);
+  p.plane.curve_shapes = std::move(domain.curve_shapes);
   p.times.emplace_back("curves", watch.time());
   prepare_patches(problem, cross, std::move(domain), std::move(given), p);
   return p;
@@ -507,12 +509,12 @@ PreparedProblem prepare_planar(const MeshProblem& problem, const Refinement& ref
 
 PreparedProblem with_settings_of(const MeshProblem& problem) {
   PreparedProblem p;
-  p.name = problem.name;
-  p.where = problem.where;
-  p.options = problem.options;
-  p.max_elements = problem.max_elements;
-  p.keep_going = problem.keep_going;
-  p.order = problem.order;
+  p.settings.name = problem.name;
+  p.settings.where = problem.where;
+  p.settings.options = problem.options;
+  p.settings.max_elements = problem.max_elements;
+  p.settings.keep_going = problem.keep_going;
+  p.settings.order = problem.order;
   return p;
 }
 
@@ -520,14 +522,14 @@ namespace {
 
 /// Refuses what images of meshes have no nodes for.
 void check_order(const PreparedProblem& p) {
-  if (p.order == 1 || !p.surface) return;
-  const char* other = p.given_entities                     ? "a mesh that is given"
+  if (p.settings.order == 1 || !p.surface) return;
+  const char* other = p.surface->given                     ? "a mesh that is given"
                       : p.surface->mirrored                ? "planes of symmetry of a surface"
                       : !p.boundary.periodic_faces.empty() ? "periodic faces"
                                                            : nullptr;
   if (other != nullptr)
-    throw InputError(
-        fmt::format("{}: elements of order {} do not go with {}: expected order 1", p.where, p.order, other));
+    throw InputError(fmt::format("{}: elements of order {} do not go with {}: expected order 1",
+                                 p.settings.where, p.settings.order, other));
 }
 
 PreparedProblem prepare_unchecked(const MeshProblem& problem, const Refinement& refinement) {

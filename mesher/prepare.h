@@ -14,7 +14,7 @@ PreparedProblem with_settings_of(const MeshProblem& problem);
 struct Refinement {
   std::vector<SizeSpot> spots = {};
   bool keep_features = false;  ///< of triangulations, in the spots: see TriangulatedOptions::kept_features
-  std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedProblem::cad of before; null: it is read
+  std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 
 /// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be

@@ -226,18 +226,17 @@ PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface g
   auto surface = std::make_shared<PreparedSurface>();
   surface->cuts = flattening.cuts;
   surface->size = std::make_shared<SurfaceSize>(model, wanted);
-  p.size = surface->size;
-  p.expected_quads = expected_quads(model.fine, *surface->size);
-  check_count(p.expected_quads);
+  p.size.field = surface->size;
+  p.size.expected_quads = expected_quads(model.fine, *surface->size);
+  check_count(p.size.expected_quads);
   surface->domain = make_kept_domain(model, std::move(flattening), *surface->size);
   given.given_curve.resize(model.fine.curves.size(), -1);
-  p.given_entities = {mesh.curves, mesh.regions, given.given_curve, given.given_region};
+  surface->given = {mesh.curves, mesh.regions, given.given_curve, given.given_region};
   p.failures = failures.take();
   p.warnings = model.warnings;
   p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
   p.boundary = surface->domain.boundary;
   p.boundary.unit = model.fine.unit;
-  p.sharp_corners = surface->domain.sharp_corners;
   std::vector<QuadPatch> elements;
   std::vector<std::vector<Vec3>> inside(surface->domain.patches.size());
   for (std::size_t i = 0; i < inside.size(); ++i)
@@ -261,7 +260,8 @@ PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface g
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,
-                                const std::vector<SizeSpot>& spots) {
+                                const Refinement& refinement) {
+  const std::vector<SizeSpot>& spots = refinement.spots;
   const bool size_aware = problem.cross.kind == CrossKind::kSizeAware;
   check_surface_cross(problem.cross);
   PreparedProblem p = with_settings_of(problem);
@@ -297,14 +297,14 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   auto surface = std::make_shared<PreparedSurface>();
   surface->cuts = flattening.cuts;
   surface->size = std::make_shared<SurfaceSize>(model, wanted);
-  p.size = surface->size;
-  if (!wanted.curve_limit.empty()) p.size_adapted_to.push_back("short curves");
-  if (wanted.curvature) p.size_adapted_to.push_back("curvature");
-  if (!spots.empty()) p.size_adapted_to.push_back("sound quads");
-  if (!problem.divisions.empty()) p.size_adapted_to.push_back("given edges");
-  if (!p.size_adapted_to.empty()) p.given_size = given;
-  p.expected_quads = expected_quads(model.fine, *surface->size, periodic.faces, part);
-  check_count(p.expected_quads);
+  p.size.field = surface->size;
+  if (!wanted.curve_limit.empty()) p.size.adapted_to.push_back("short curves");
+  if (wanted.curvature) p.size.adapted_to.push_back("curvature");
+  if (!spots.empty()) p.size.adapted_to.push_back("sound quads");
+  if (!problem.divisions.empty()) p.size.adapted_to.push_back("given edges");
+  if (!p.size.adapted_to.empty()) p.size.asked = given;
+  p.size.expected_quads = expected_quads(model.fine, *surface->size, periodic.faces, part);
+  check_count(p.size.expected_quads);
   auto on_curves = surface->size;
   if (problem.seed != 0) {
     WantedSize other = wanted;
@@ -315,6 +315,7 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
       mesh_curves_of(model, std::move(flattening), *on_curves, wanted.curvature ? nullptr : wanted.base.get(),
                      problem, divisions, periodic, failures);
   surface->model = std::move(model);
+  surface->cad = refinement.cad;
   p.failures = failures.take();
   p.surface = surface;
   p.warnings = surface->model.warnings;
@@ -324,7 +325,6 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   warn_of_coarse_turns(wanted, *surface, p.warnings);
   p.boundary = surface->domain.boundary;
   p.boundary.unit = surface->model.fine.unit;
-  p.sharp_corners = surface->domain.sharp_corners;
   p.times.emplace_back("curves", curves.time());
 
   const Stopwatch fields;
@@ -338,8 +338,8 @@ PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
   if (size_aware) make_crosses_size_aware(p);
   if (cut) {
     p.symmetry = cut->planes.all();
-    p.size = folded_size(p.size, cut->planes);
-    if (p.given_size) p.given_size = folded_size(p.given_size, cut->planes);
+    p.size.field = folded_size(p.size.field, cut->planes);
+    if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut->planes);
     surface->mirrored = mirrored_surface(std::move(*cut), *surface);
   }
   p.times.emplace_back("fields", size_time + fields.time());

@@ -15,7 +15,7 @@ namespace delquad {
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,
-                                const std::vector<SizeSpot>& spots = {});
+                                const Refinement& refinement = {});
 
 /// The same of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along
 /// sides of elements, and the elements within. `given`: its curves and regions.

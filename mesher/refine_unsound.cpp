@@ -41,7 +41,7 @@ std::vector<Vec3> places_of_masters(const PreparedProblem& prepared, const std::
         for (const int v : fine.triangles[t]) box.add(fine.points[v]);
     int hint = -1;
     for (const Place& place : places)
-      if (std::sqrt(box.distance2(place.at)) <= kBeside * prepared.size->at(place.at, hint))
+      if (std::sqrt(box.distance2(place.at)) <= kBeside * prepared.size.field->at(place.at, hint))
         found.push_back(pair.motion.inverse()(place.at));
   }
   return found;
@@ -55,7 +55,7 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
     const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
                                       [&](const SizeSpot& s) { return norm(s.at - at) < s.size; });
     if (is_known || spots.size() == kMostSpots) return;
-    const double size = kPart * prepared.size->at(at, hint);
+    const double size = kPart * prepared.size.field->at(at, hint);
     if (prepared.surface && prepared.surface->mirrored) {
       // All images, too, so that what is kept for a part is kept for the whole.
       const SymmetryPlanes& planes = prepared.surface->mirrored->planes;
@@ -79,7 +79,7 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
   return fmt::format(
       "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at "
       "({:.6g}, {:.6g}, {:.6g})",
-      prepared.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
+      prepared.settings.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
 }
 
 long long quads_of(const PreparedProblem& prepared, const RunResult& result) {
@@ -96,7 +96,7 @@ Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared,
   return fmt::format(
       "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
       "or more such places are left; a model without slivers and spikes there helps",
-      prepared.name, rounds, why, unsound_places(result));
+      prepared.settings.name, rounds, why, unsound_places(result));
 }
 
 }  // namespace
@@ -104,9 +104,11 @@ Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared,
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     RunResult& result) {
   // Lines that were given are kept.
-  const bool can_be_finer = (prepared.surface && !prepared.given_entities) || !prepared.curve_places.empty();
-  if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.options).refine_unsound) return;
-  Refinement refinement{.cad = prepared.cad};
+  const bool can_be_finer =
+      (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
+  if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
+    return;
+  Refinement refinement{.cad = prepared.surface ? prepared.surface->cad : nullptr};
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
   Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(prepared, result)));
@@ -123,7 +125,7 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
         why = "more would take too long";
         break;
       }
-      if (idle == kMostIdle && (refinement.keep_features || prepared.cad)) break;
+      if (idle == kMostIdle && (refinement.keep_features || refinement.cad)) break;
       if (idle == kMostIdle) idle = 0, refinement.keep_features = true;
       if (++rounds >= kFirstWithFeatures) refinement.keep_features = true;
       const std::vector<SizeSpot> spots = refinement.spots;

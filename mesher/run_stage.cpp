@@ -23,7 +23,7 @@ namespace {
 /// max_elements bounds what is inserted, too: a quad mesh has about as many points as quads.
 long long most_points(const PreparedProblem& prepared) {
   constexpr long long kPointsPerElement = 4;
-  return kPointsPerElement * prepared.max_elements;
+  return kPointsPerElement * prepared.settings.max_elements;
 }
 
 template <std::size_t N>
@@ -61,7 +61,7 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
 PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
   if (patch.given.points.empty())
     throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
-                                 prepared.where, stage.letter));
+                                 prepared.settings.where, stage.letter));
   const auto has_quads = [](const PreparedPatch& other) { return !other.given.quads.empty(); };
   PatchMesh start;
   // In space regions may be small, and cuts may part triangles from quads: they stay.
@@ -70,7 +70,7 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
     start.form = PatchForm::kQuads;
     start.quads = patch.given;
   } else {
-    start = located(prepared.where, [&] { return start_from(patch.given, stage.from); });
+    start = located(prepared.settings.where, [&] { return start_from(patch.given, stage.from); });
   }
   start.inside = patch.given_inside;
   return start;
@@ -80,7 +80,8 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
 std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
-  const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.options, most_points(prepared)};
+  const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.settings.options,
+                         most_points(prepared)};
   const auto run = [&] {
     if (mesh.form != stage.from) {
       mesh = given_to(stage, prepared, patch);
@@ -90,7 +91,7 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
     check_stage_result(stage, patch.boundary, mesh);
   };
   if (!prepared.surface) {
-    located(prepared.where, run);
+    located(prepared.settings.where, run);
     return "";
   }
   const std::string title =
@@ -103,10 +104,12 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
   } catch (const Cancelled&) {
     throw;
   } catch (const InputError& error) {
-    if (!prepared.keep_going) throw InputError(prepared.where + ": " + title + error.what());
+    if (!prepared.settings.keep_going)
+      throw InputError(prepared.settings.where + ": " + title + error.what());
     return title + error.what();
   } catch (const std::exception& error) {
-    if (!prepared.keep_going) throw std::runtime_error(prepared.where + ": " + title + error.what());
+    if (!prepared.settings.keep_going)
+      throw std::runtime_error(prepared.settings.where + ": " + title + error.what());
     return title + error.what();
   }
 }
@@ -159,7 +162,7 @@ Warning stopped_early(const PreparedProblem& prepared, const std::string& step, 
   return {"steps that were stopped before their end", 0,
           fmt::format("{}: {} of face {} was stopped before its end, as it would take too long: quads there "
                       "may be poor; a model without slivers and spikes there, or a smaller size, helps",
-                      prepared.name, step, face)};
+                      prepared.settings.name, step, face)};
 }
 
 std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state) {
@@ -222,7 +225,8 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
     for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
       if (const PreparedPatch& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
         held[i] = 0;
-    stage.finish({prepared, prepared.options, patches, held, state.nodes, !state.given.empty()}, state.log);
+    stage.finish({prepared, prepared.settings.options, patches, held, state.nodes, !state.given.empty()},
+                 state.log);
   }
   for (std::size_t i = 0; i < patches.size(); ++i)
     if (const auto& image = prepared.patches[i].image) {

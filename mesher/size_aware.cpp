@@ -119,26 +119,26 @@ void make_crosses_size_aware(PreparedProblem& prepared) {
       },
       n_points);
 
-  prepared.singularities.clear();
-  prepared.index_sum_and_expected = {0, 0};
-  prepared.dislocations = {0, 0};
+  prepared.crosses.singularities.clear();
+  prepared.crosses.index_sum_and_expected = {0, 0};
+  prepared.crosses.dislocations = {0, 0};
   for (const FieldGroup& group : groups) {
     const SizeAwareCrossField& field = *made[group.patches.front()];
-    prepared.index_sum_and_expected->first += field.index_sum();
-    prepared.index_sum_and_expected->second += 4 * field.euler_characteristic();
+    prepared.crosses.index_sum_and_expected->first += field.index_sum();
+    prepared.crosses.index_sum_and_expected->second += 4 * field.euler_characteristic();
   }
   for (std::size_t i = 0; i < made.size(); ++i) {
     patches[i].cross = made[i];
-    prepared.dislocations->first += dislocations[i][0];
-    prepared.dislocations->second += dislocations[i][1];
+    prepared.crosses.dislocations->first += dislocations[i][0];
+    prepared.crosses.dislocations->second += dislocations[i][1];
     int hint = -1;
     for (const Singularity& s : made[i]->singularities())
-      prepared.singularities.push_back({patches[i].lift(s.at, hint), s.index});
+      prepared.crosses.singularities.push_back({patches[i].lift(s.at, hint), s.index});
   }
 }
 
 double expected_row_ends(const PreparedProblem& prepared) {
-  if (prepared.dislocations) return prepared.dislocations->second;
+  if (prepared.crosses.dislocations) return prepared.crosses.dislocations->second;
   std::vector<double> ends(prepared.patches.size());
   parallel_for(
       ends.size(),

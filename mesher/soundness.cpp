@@ -9,6 +9,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"
@@ -104,7 +105,7 @@ void check_finite(const Mesh& mesh, Soundness& result) {
 
 /// The boundary of a patch with its layers.
 const PatchBoundary& outline_of(const PreparedProblem& prepared, std::size_t patch) {
-  return prepared.outlines.empty() ? prepared.patches[patch].boundary : prepared.outlines[patch];
+  return prepared.layers ? prepared.layers->outlines[patch] : prepared.patches[patch].boundary;
 }
 
 /// How many patches of a planar domain have each edge of the boundary.

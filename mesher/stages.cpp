@@ -195,7 +195,8 @@ WorstOfQuads worst_of(const PreparedProblem& prepared, const std::vector<Vec>& p
   const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
   WorstOfQuads worst{eta_of(element_shape(corners, normal).angle), quad_aspect(corners)};
   for (int k = 0; k < 4; ++k)
-    worst.side = std::min(worst.side, adimensional_length(corners[k], corners[(k + 1) % 4], *prepared.size));
+    worst.side =
+        std::min(worst.side, adimensional_length(corners[k], corners[(k + 1) % 4], *prepared.size.field));
   return worst;
 }
 
@@ -272,7 +273,7 @@ OptimisationSummary optimise_plane(const AllPatches& in) {
     const PreparedPatch& prepared = in.prepared.patches[i];
     patches.push_back({&in.patches[i].quads, prepared.boundary.point_node, prepared.cross.get()});
   }
-  PlanarTracks tracks(std::move(nodes), in.prepared.curve_places, std::move(patches),
+  PlanarTracks tracks(std::move(nodes), in.prepared.plane.curve_places, std::move(patches),
                       *in.prepared.patches[0].size);
   std::vector<Vec2> points = tracks.points();
   const auto summary = optimise<Vec2>(in, points, tracks.quads(), tracks);

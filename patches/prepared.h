@@ -61,6 +61,8 @@ struct PreparedSurface {
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
   std::optional<MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+  std::optional<GivenEntities> given;       ///< of a GivenMesh
+  std::shared_ptr<const SurfaceModel> cad;  ///< as it was read; null of other models
 
   const SurfaceModel& whole() const { return mirrored ? mirrored->whole : model; }
   const std::vector<SurfaceCut>& all_cuts() const { return mirrored ? mirrored->cuts : cuts; }
@@ -75,41 +77,64 @@ struct PlacedSingularity {
   int index;
 };
 
-/// What every pipeline on a case starts from.
-struct PreparedProblem {
-  std::string name, where;  ///< as in MeshProblem, and so
+/// What the patches of a planar domain were made from.
+struct PreparedPlane {
+  /// Of each curve those of the model that lie there; empty where the lines are kept.
+  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
+  std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
+};
+
+/// What a problem says beside its model and fields; the members are as in MeshProblem.
+struct ProblemSettings {
+  std::string name, where;
   Options options;
   long long max_elements = 0;
   bool keep_going = false;
-  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
-  int order = 1;  ///< of the elements, see Mesh::order
-  /// Of each curve of a planar domain those of the model that lie there; empty where the lines are kept.
-  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
-  std::vector<CurvePlace> curve_places;  ///< of its nodes, on a planar domain; empty where the lines are kept
-  std::vector<PreparedPatch> patches;
-  std::vector<PatchBoundary> outlines;  ///< of the patches with their layers; empty: there are no layers
-  std::shared_ptr<const LayerReport> layers;  ///< null: none
-  std::shared_ptr<const SizeField> size;
-  std::shared_ptr<const SizeField> given_size;       ///< as it was asked for, where `size` is less; else null
-  std::vector<std::string> size_adapted_to;          ///< what made it less: "short curves", ...
-  std::vector<SymmetryPlane> symmetry;               ///< planes that were given or found
-  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches of a planar domain; null on surfaces
-  std::vector<PlacedSingularity> singularities;      ///< of a boundary-aligned or size-aware cross field
+  int order = 1;
+};
+
+/// The size that is meshed by.
+struct PreparedSize {
+  std::shared_ptr<const SizeField> field;
+  std::shared_ptr<const SizeField> asked;  ///< as it was asked for, where `field` is less; else null
+  std::vector<std::string> adapted_to;     ///< what made it less: "short curves", ...
+  double expected_quads = 0;               ///< integral of dA/delta^2
+};
+
+/// What is known of the cross field.
+struct PreparedCrosses {
+  std::vector<PlacedSingularity> singularities;  ///< of a boundary-aligned or size-aware field
   /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
   /// it, in quarters.
   std::optional<std::pair<int, int>> index_sum_and_expected;
   /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
   /// of it.
   std::optional<std::pair<double, double>> dislocations;
-  std::vector<SharpCorner> sharp_corners;  ///< of a surface: those that forbid a quad an eta of kBadEta
+};
+
+/// What every pipeline on a case starts from.
+struct PreparedProblem {
+  ProblemSettings settings;
+  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
+  std::vector<PreparedPatch> patches;
+  PreparedSize size;
+  PreparedCrosses crosses;
+  PreparedPlane plane;
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
-  std::shared_ptr<const SurfaceModel> cad;         ///< as it was read; null of other models
-  std::optional<GivenEntities> given_entities;     ///< of a GivenMesh in space
+  std::shared_ptr<const LayerReport> layers;       ///< null: none
+  std::vector<SymmetryPlane> symmetry;             ///< planes that were given or found
   std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
-  double expected_quads = 0;                       ///< integral of dA/delta^2
   std::vector<Warning> warnings;
   /// By step ("read", "maps", "curves", "fields"), as in StageLog.
   StepTimes times;
+
+  /// Whether the model is a GivenMesh in space.
+  bool is_given_surface() const { return surface && surface->given; }
+  /// Those of a surface that forbid a quad an eta of kBadEta.
+  std::vector<SharpCorner> sharp_corners() const {
+    return surface ? surface->domain.sharp_corners : std::vector<SharpCorner>();
+  }
 };
 
 /// Tells that this thread works on a patch.

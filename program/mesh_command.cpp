@@ -163,7 +163,8 @@ Case read_case(const MeshArguments& arguments) {
 void print_before(const std::string& file, const Mesh& mesh, const PreparedProblem& prepared) {
   fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
              mesh.points.size());
-  print_metrics(evaluate_metrics(mesh, prepared.size.get(), prepared.given_size.get(), prepared.options));
+  print_metrics(evaluate_metrics(mesh, prepared.size.field.get(), prepared.size.asked.get(),
+                                 prepared.settings.options));
 }
 
 /// `seconds`: on the clock, of the whole command.
@@ -185,9 +186,9 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
   if (log.has("grids"))
     fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
                log.number("grids", "asked"), log.number("grids", "quads"));
-  if (!prepared.size_adapted_to.empty())
+  if (!prepared.size.adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
-               fmt::join(prepared.size_adapted_to, " and "));
+               fmt::join(prepared.size.adapted_to, " and "));
   for (const auto& [at, n] : prepared.symmetry)
     fmt::print("  symmetry: plane through ({:.6g}, {:.6g}, {:.6g}), normal ({:.6g}, {:.6g}, {:.6g})\n", at.x,
                at.y, at.z, n.x, n.y, n.z);

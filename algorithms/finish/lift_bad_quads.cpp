@@ -310,7 +310,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   const int most = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
   int trials = most;
   // Rings make a mesh less regular: one that was given gets them last.
-  if (in.prepared.given_entities)
+  if (in.prepared.surface->given)
     while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
   trials = most;
   for (int pass = 0; pass < kRingPasses && total(bad) >= kUnsound; ++pass) {

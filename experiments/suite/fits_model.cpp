@@ -103,7 +103,7 @@ void check_interfaces(const PreparedProblem& prepared, const Mesh& mesh) {
   for (const Vec3& p : interfaces.places) {
     const auto found = nearest.find_from(guess, p);
     guess = found.triangle;
-    sum += found.distance / prepared.size->at(p, hint);
+    sum += found.distance / prepared.size.field->at(p, hint);
   }
   const double mean = sum / static_cast<double>(interfaces.places.size());
   if (mean > kMean)
@@ -122,8 +122,8 @@ void check_is_of_model(const PreparedProblem& prepared, Mesh& mesh) {
   const bool planar = !prepared.surface;
   const Shape model = planar ? lines_of(lines_at(prepared, 1)) : surface_of(prepared.surface->model.fine);
   const Shape made = planar ? outline_of(mesh) : surface_of(mesh);
-  check_near(made, model, *prepared.size, "it lies off the model");
-  check_near(model, made, *prepared.size, "the model is not covered");
+  check_near(made, model, *prepared.size.field, "it lies off the model");
+  check_near(model, made, *prepared.size.field, "the model is not covered");
   if (planar) check_interfaces(prepared, mesh);
 }
 

@@ -46,8 +46,8 @@ RunResult measure(const PreparedProblem& prepared, const fs::path& file) {
   result.mesh = read_mesh(file);
   require_straight(result.mesh, file.string());
   check_is_of_model(prepared, result.mesh);
-  result.metrics =
-      evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
+  result.metrics = evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
+                                    prepared.settings.options);
   result.soundness = check_elements(prepared, result.mesh);
   const std::vector<double> etas = quad_etas(result.mesh);
   result.bad_elsewhere =

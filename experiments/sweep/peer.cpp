@@ -312,7 +312,7 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
     if (word.find("{quads}") != std::string::npos)
       word = replace_all(
           word, "{quads}",
-          fmt::format("{:.0f}", task.prepared.expected_quads / (task.field_scale * task.field_scale)));
+          fmt::format("{:.0f}", task.prepared.size.expected_quads / (task.field_scale * task.field_scale)));
     word = replace_all(word, "{size_field}", size_field.string());
     word = replace_all(word, "{input}", input.string());
     word = replace_all(word, "{output}", output);
@@ -366,8 +366,8 @@ RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepa
   result.log.add_seconds("peer", run.program.cpu_seconds);
   result.seconds = run.program.seconds;
   result.peak_memory = run.program.peak_memory;
-  result.metrics =
-      evaluate_metrics(result.mesh, prepared.size.get(), prepared.given_size.get(), prepared.options);
+  result.metrics = evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
+                                    prepared.settings.options);
   result.soundness = check_elements(prepared, result.mesh);
   const std::vector<double> etas = quad_etas(result.mesh);
   result.bad_elsewhere =

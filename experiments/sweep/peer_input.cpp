@@ -163,7 +163,7 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
     throw NotApplicable(
         fmt::format("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains"));
   if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
-  if (!task.prepared.outlines.empty())
+  if (task.prepared.layers)
     throw NotApplicable("layers along curves are made by this program's meshes alone");
   const fs::path file = folder / ("input" + peer.input);
   if (peer.input == kGmshScript)

@@ -49,7 +49,7 @@ SampledSize sample_sizes(const PeerTask& task) {
   SampledSize size{triangles_of_domain(task.prepared), {}};
   int hint = -1;
   for (const Vec3& p : size.mesh.points)
-    size.delta.push_back(task.field_scale * task.prepared.size->at(p, hint));
+    size.delta.push_back(task.field_scale * task.prepared.size.field->at(p, hint));
   return size;
 }
 

@@ -157,26 +157,26 @@ Json domain_json(const PreparedProblem& p) {
   std::size_t edges = 0;
   for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
   Json json = {
-      {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.expected_quads}};
-  json["size_adapted_to"] = p.size_adapted_to;
+      {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.size.expected_quads}};
+  json["size_adapted_to"] = p.size.adapted_to;
   for (const SymmetryPlane& plane : p.symmetry)
     json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
-  if (p.background) json["background_triangles"] = p.background->triangles().triangles.size();
+  if (p.plane.background) json["background_triangles"] = p.plane.background->triangles().triangles.size();
   return json;
 }
 
 Json cross_json(const PreparedProblem& p) {
   Json json = {{"singularities", Json::array()}};
-  for (const PlacedSingularity& s : p.singularities)
+  for (const PlacedSingularity& s : p.crosses.singularities)
     json["singularities"].push_back({{"at", point_json(s.at)}, {"index_quarters", s.index}});
-  if (p.index_sum_and_expected) {
-    json["index_sum_quarters"] = p.index_sum_and_expected->first;
-    json["euler_characteristic_quarters"] = p.index_sum_and_expected->second;
+  if (p.crosses.index_sum_and_expected) {
+    json["index_sum_quarters"] = p.crosses.index_sum_and_expected->first;
+    json["euler_characteristic_quarters"] = p.crosses.index_sum_and_expected->second;
   }
   json["row_ends"] = expected_row_ends(p);
-  if (p.dislocations)
-    json["expected_dislocations"] = {{"boundary", p.dislocations->first},
-                                     {"size_aware", p.dislocations->second}};
+  if (p.crosses.dislocations)
+    json["expected_dislocations"] = {{"boundary", p.crosses.dislocations->first},
+                                     {"size_aware", p.crosses.dislocations->second}};
   return json;
 }
 
@@ -263,7 +263,7 @@ void add_summaries(Json& json, const Summaries& summaries) {
 /// Quads below kBadEta, and the corners of the model that forbid more.
 Json bad_quads_json(const PreparedProblem& p, const RunResult& result) {
   Json corners = Json::array();
-  for (const SharpCorner& c : p.sharp_corners)
+  for (const SharpCorner& c : p.sharp_corners())
     corners.push_back({{"face", p.boundary.regions[c.face].tag},
                        {"curves", {p.boundary.curves[c.curves[0]].tag, p.boundary.curves[c.curves[1]].tag}},
                        {"at", point_json(p.boundary.points[c.node])},

@@ -112,7 +112,7 @@ void VariantWork::finish(const Cell& cell) {
 
 void VariantWork::draw(const fs::path& folder_of_cell, const std::string& label,
                        const RunResult& result) const {
-  (prepared->background ? draw_mesh : draw_surface)(folder_of_cell / "picture.svg", result.mesh, label);
+  (prepared->plane.background ? draw_mesh : draw_surface)(folder_of_cell / "picture.svg", result.mesh, label);
   if (result.log.summaries.has("smoothing"))
     draw_convergence(folder_of_cell / "convergence.svg", result.log.summaries, label + ": smoothing");
 }

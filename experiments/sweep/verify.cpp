@@ -90,11 +90,11 @@ bool is_close(double a, double b) {
 /// Measures of the mesh that are not those of the record.
 Lines check_measures(const VerifiedCell& cell, const PreparedProblem* prepared) {
   const Mesh mesh = read_msh(cell.file.parent_path() / "mesh.msh");
-  const MeshMetrics now =
-      prepared != nullptr
-          ? evaluate_metrics(mesh, prepared->size.get(), prepared->given_size.get(), prepared->options,
-                             sorted_half_edges(mesh), quads_in_layers(*prepared, mesh))
-          : evaluate_metrics(mesh, nullptr);
+  const MeshMetrics now = prepared != nullptr
+                              ? evaluate_metrics(mesh, prepared->size.field.get(), prepared->size.asked.get(),
+                                                 prepared->settings.options, sorted_half_edges(mesh),
+                                                 quads_in_layers(*prepared, mesh))
+                              : evaluate_metrics(mesh, nullptr);
   Lines wrong;
   for (const auto& [key, value] : cell.record.at("metrics").items()) {
     const auto at = now.values.find(key);

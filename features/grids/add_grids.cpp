@@ -97,7 +97,7 @@ class GridOfPatch {
       quality.mean += eta / static_cast<double>(grid.quads.size());
       quality.worst = std::min(quality.worst, eta);
       for (const int k : {0, 1, 2, 3}) {
-        const double length = adimensional_length(corners[k], corners[(k + 1) % 4], *problem_.size);
+        const double length = adimensional_length(corners[k], corners[(k + 1) % 4], *problem_.size.field);
         quality.fit += std::min(length, 1 / length) / static_cast<double>(4 * grid.quads.size());
       }
     }
@@ -131,8 +131,8 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
     PreparedPatch& patch = p.patches[mapped[i].patch];
     patch.grid = std::move(grids[i]);
     patch.grid_stays = mapped[i].is_asked;
-    if (!patch.grid || !patch.grid_stays || p.curve_places.empty()) continue;
-    for (const int node : patch.boundary.point_node) p.curve_places[node] = {};
+    if (!patch.grid || !patch.grid_stays || p.plane.curve_places.empty()) continue;
+    for (const int node : patch.boundary.point_node) p.plane.curve_places[node] = {};
   }
   const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
   if (spec.automatic && std::ranges::none_of(p.patches, has_grid))

@@ -75,17 +75,17 @@ std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, cons
 }  // namespace
 
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
-  const LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.max_elements));
-  p.layers = std::make_shared<LayerReport>(report);
+  LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));
   drop_grids(problem, report, domain);
-  p.background = mesh_rest(problem, domain);
-  p.outlines = std::move(domain.outlines);
+  p.plane.background = mesh_rest(problem, domain);
+  report.outlines = std::move(domain.outlines);
   warn_of_layers(problem, report, p.warnings);
-  std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size);
+  p.layers = std::make_shared<LayerReport>(std::move(report));
+  std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size.field);
   if (fine.empty()) return;
-  p.size_adapted_to.push_back("layers");
-  if (!p.given_size) p.given_size = p.size;
-  p.size = finer_near(p.size, std::move(fine));
+  p.size.adapted_to.push_back("layers");
+  if (!p.size.asked) p.size.asked = p.size.field;
+  p.size.field = finer_near(p.size.field, std::move(fine));
 }
 
 std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh) {

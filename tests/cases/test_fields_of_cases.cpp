@@ -6,10 +6,10 @@
 #include "algorithms/insertion/insertion_options.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
+#include "mesher/prepare.h"
 #include "mesher/recombination_options.h"
 #include "mesher/runner.h"
 #include "mesher/size_aware.h"
-#include "mesher/prepare.h"
 #include "smoothing/optimisation/optimisation_options.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -24,7 +24,7 @@ class Cases : public testing::Test {
   }
   static double size_at(const PreparedProblem& p, double x, double y) {
     int hint = -1;
-    return p.size->at({x, y, 0}, hint);
+    return p.size.field->at({x, y, 0}, hint);
   }
   const std::string square_ = "loop = { rectangle = [[0, 0], [1, 1]] }\n";
   testing_support::TemporaryFolder folder_;
@@ -225,10 +225,10 @@ TEST_F(Cases, SourcesAndGradationShapeTheSize) {
 TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
   const PreparedProblem disk =
       prepare_case(read("loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.1\n"));
-  ASSERT_TRUE(disk.index_sum_and_expected);
-  EXPECT_EQ(disk.index_sum_and_expected->first, 4);
-  EXPECT_EQ(disk.index_sum_and_expected->second, 4);
-  EXPECT_EQ(disk.singularities.size(), 4u);
+  ASSERT_TRUE(disk.crosses.index_sum_and_expected);
+  EXPECT_EQ(disk.crosses.index_sum_and_expected->first, 4);
+  EXPECT_EQ(disk.crosses.index_sum_and_expected->second, 4);
+  EXPECT_EQ(disk.crosses.singularities.size(), 4u);
   EXPECT_TRUE(disk.warnings.empty());
 }
 
@@ -249,10 +249,10 @@ TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
   const Case c = read(lewis + "size = \"0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n");
   const PreparedProblem p = prepare_case(c);
-  ASSERT_TRUE(p.dislocations);
-  EXPECT_LT(p.dislocations->second, 0.6 * p.dislocations->first);
-  EXPECT_EQ(p.index_sum_and_expected, std::pair(4, 4));
-  EXPECT_GT(p.singularities.size(), 4u);
+  ASSERT_TRUE(p.crosses.dislocations);
+  EXPECT_LT(p.crosses.dislocations->second, 0.6 * p.crosses.dislocations->first);
+  EXPECT_EQ(p.crosses.index_sum_and_expected, std::pair(4, 4));
+  EXPECT_GT(p.crosses.singularities.size(), 4u);
   for (const char* word : {"DB", "PB"}) {
     Case aligned = c;
     aligned.cross.text = "boundary";
@@ -280,7 +280,7 @@ TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
   const auto dislocations = [&](const std::string& factor) {
     return *prepare_case(read("loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\nsize = \"" + factor +
                               "*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n"))
-                .dislocations;
+                .crosses.dislocations;
   };
   const auto coarse = dislocations("0.01"), fine = dislocations("0.0025");
   EXPECT_NEAR(fine.first, 4 * coarse.first, 0.05 * fine.first);
@@ -296,8 +296,8 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
   const PreparedProblem aligned = prepare_case(read(text)),
                         aware = prepare_case(read(text + "cross = \"size-aware\"\n"));
   ASSERT_EQ(aware.patches.size(), 2u);
-  EXPECT_EQ(aware.index_sum_and_expected, aligned.index_sum_and_expected);
-  EXPECT_EQ(aware.dislocations->first, aware.dislocations->second);
+  EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
+  EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
   int hint = -1, other = -1;
   for (std::size_t i = 0; i < aware.patches.size(); ++i) {
     for (const Vec2 u : aware.patches[i].boundary.points) {
@@ -387,7 +387,7 @@ TEST_F(Cases, HopelessSizesAreRefusedEarly) {
 
 TEST_F(Cases, MostPointsFollowMostElements) {
   PreparedProblem p = prepare_case(read(square_ + "size = 0.1\n"));
-  p.max_elements = 20;  // far less than what was checked
+  p.settings.max_elements = 20;  // far less than what was checked
   expect_input_error([&] { run_word(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
 }
 

@@ -125,7 +125,7 @@ TEST(CheckProblem, FunctionsAreSampledOnTheModel) {
   for (const long long seed : {0, 1}) {
     problem.seed = seed;
     const PreparedProblem prepared = prepare(problem);
-    EXPECT_NEAR(prepared.expected_quads, 1 / 0.2 * (1 / 0.1 - 1 / 0.3), 0.5);
+    EXPECT_NEAR(prepared.size.expected_quads, 1 / 0.2 * (1 / 0.1 - 1 / 0.3), 0.5);
   }
   problem.seed = 0;
   const PreparedProblem prepared = prepare(problem);

@@ -23,11 +23,11 @@ PreparedProblem with_size_aware_crosses(const Mesh& model, double size) {
 }
 
 void expect_indices(const PreparedProblem& prepared, int sum) {
-  ASSERT_TRUE(prepared.index_sum_and_expected);
-  EXPECT_EQ(prepared.index_sum_and_expected->first, sum);
-  EXPECT_EQ(prepared.index_sum_and_expected->second, sum);
+  ASSERT_TRUE(prepared.crosses.index_sum_and_expected);
+  EXPECT_EQ(prepared.crosses.index_sum_and_expected->first, sum);
+  EXPECT_EQ(prepared.crosses.index_sum_and_expected->second, sum);
   int of_list = 0;
-  for (const PlacedSingularity& s : prepared.singularities) of_list += s.index;
+  for (const PlacedSingularity& s : prepared.crosses.singularities) of_list += s.index;
   EXPECT_EQ(of_list, sum);
 }
 
@@ -35,7 +35,7 @@ TEST(FieldGroups, ClosedSurfacesHaveTheSingularitiesOfTheirGenus) {
   const PreparedProblem sphere = with_size_aware_crosses(testing_support::round_sphere(16).fine, 0.1);
   ASSERT_GT(sphere.patches.size(), 1u);
   expect_indices(sphere, 8);
-  for (const PlacedSingularity& s : sphere.singularities) EXPECT_NEAR(norm(s.at), 1, 0.01);
+  for (const PlacedSingularity& s : sphere.crosses.singularities) EXPECT_NEAR(norm(s.at), 1, 0.01);
   expect_indices(with_size_aware_crosses(testing_support::torus(48, 24, 1, 0.4).fine, 0.1), 0);
   expect_indices(with_size_aware_crosses(testing_support::double_torus(6).fine, 0.2), -8);
 }
@@ -88,8 +88,8 @@ TEST(FieldGroups, FieldsGoOnAcrossSmoothCurvesOnly) {
   const PreparedProblem bent = with_size_aware_crosses(two_faces(0.8), 0.04);
   ASSERT_EQ(flat.patches.size(), 2u);
   ASSERT_EQ(bent.patches.size(), 2u);
-  EXPECT_EQ(flat.index_sum_and_expected, std::pair(4, 4));
-  EXPECT_EQ(bent.index_sum_and_expected, std::pair(8, 8));
+  EXPECT_EQ(flat.crosses.index_sum_and_expected, std::pair(4, 4));
+  EXPECT_EQ(bent.crosses.index_sum_and_expected, std::pair(8, 8));
   // The line is slanted by .38.
   EXPECT_GT(turn_at_curve(bent), 0.25);
   EXPECT_LT(turn_at_curve(flat), turn_at_curve(bent) - 0.03);

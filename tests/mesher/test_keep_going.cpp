@@ -41,7 +41,7 @@ class KeepGoing : public ::testing::Test {
 };
 
 TEST_F(KeepGoing, NothingIsLeftOutOfASoundModel) {
-  prepared_.keep_going = true;
+  prepared_.settings.keep_going = true;
   const RunResult result = run();
   EXPECT_TRUE(result.failures.empty());
   EXPECT_EQ(result.mesh.quads.size(), 96u);
@@ -56,7 +56,7 @@ TEST_F(KeepGoing, WithoutItTheFaceIsNamed) {
 }
 
 TEST_F(KeepGoing, TheRestIsMeshed) {
-  prepared_.keep_going = true;
+  prepared_.settings.keep_going = true;
   damage(2);
   const RunResult result = run();
   ASSERT_EQ(result.failures.size(), 1u);
@@ -70,7 +70,7 @@ TEST_F(KeepGoing, TheRestIsMeshed) {
 }
 
 TEST_F(KeepGoing, LinesAndPointsOfMissingFacesGo) {
-  prepared_.keep_going = true;
+  prepared_.settings.keep_going = true;
   // Two that share a curve, which bounds nothing then.
   damage(0);
   damage(2);
@@ -81,7 +81,7 @@ TEST_F(KeepGoing, LinesAndPointsOfMissingFacesGo) {
 }
 
 TEST_F(KeepGoing, SomeFaceMustRemain) {
-  prepared_.keep_going = true;
+  prepared_.settings.keep_going = true;
   for (int p = 0; p < 6; ++p) damage(p);
   expect_input_error([&] { run(); }, {"no face can be meshed: face 1"});
 }

@@ -312,7 +312,7 @@ TEST(SoundSurface, TwinsAreNot) {
   const Summaries& done = parted.log.summaries;
   ASSERT_TRUE(done.has("part_twins"));
   EXPECT_GT(done.number("part_twins", "chords") + done.number("part_twins", "rings"), 0);
-  prepared.options.set("repair.part_twins", false);
+  prepared.settings.options.set("repair.part_twins", false);
   const RunResult twins = run();
   EXPECT_FALSE(twins.log.summaries.has("part_twins"));
   EXPECT_TRUE(has(twins.soundness, "conforming") || has(twins.soundness, "more or fewer"))

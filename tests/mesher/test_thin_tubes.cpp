@@ -82,8 +82,8 @@ TEST(ThinTubes, VerticesMoveBesideTips) {
 TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
   const PreparedProblem prepared =
       prepared_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
-  ASSERT_EQ(prepared.sharp_corners.size(), 1u);
-  EXPECT_LT(prepared.sharp_corners[0].eta_bound, 0.1);
+  ASSERT_EQ(prepared.surface->domain.sharp_corners.size(), 1u);
+  EXPECT_LT(prepared.surface->domain.sharp_corners[0].eta_bound, 0.1);
   RunResult result = mesh_of(prepared, "DB");
   EXPECT_EQ(result.bad_in_corners, 1);
   EXPECT_EQ(result.bad_elsewhere, 0);

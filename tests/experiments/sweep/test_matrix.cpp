@@ -96,14 +96,14 @@ TEST_F(Matrix, SeedsTurnAndShiftADomain) {
   EXPECT_EQ(plain.patches[0].boundary.points, same.patches[0].boundary.points);
   EXPECT_EQ(other.patches[0].boundary.points, again.patches[0].boundary.points);
   EXPECT_NE(plain.patches[0].boundary.points, other.patches[0].boundary.points);
-  EXPECT_NEAR(plain.expected_quads, other.expected_quads, 0.02 * plain.expected_quads);
+  EXPECT_NEAR(plain.size.expected_quads, other.size.expected_quads, 0.02 * plain.size.expected_quads);
   // Corners are where the corners were, turned about the origin; fields turn with them.
   const Vec2 far = other.patches[0].boundary.points.back();
   EXPECT_LE(norm(far), std::sqrt(2.0) + 1e-12);
   int hint = -1;
   double least = 1, most = 0;
   for (const Vec2 p : other.patches[0].boundary.points) {
-    const double size = other.size->at({p.x, p.y, 0}, hint);
+    const double size = other.size.field->at({p.x, p.y, 0}, hint);
     least = std::min(least, size);
     most = std::max(most, size);
   }
