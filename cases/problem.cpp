@@ -17,9 +17,9 @@
 #include "cases/size_file.h"
 #include "delquad/error.h"
 #include "fields/fields.h"
+#include "geometry/planar/boundary_report.h"
 #include "geometry/planar/planar_model.h"
 #include "io/mesh_io.h"
-#include "mesher/boundary_report.h"
 #include "mesher/refine_unsound.h"
 #include "mesher/surface_input.h"
 

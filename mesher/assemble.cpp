@@ -5,12 +5,12 @@
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "features/curved/curved_mesh.h"
 #include "features/layers/planar_layers.h"
 #include "features/periodic/face_images.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
-#include "mesher/curved_mesh.h"
 #include "mesher/runner.h"
 
 namespace delquad {

@@ -7,17 +7,18 @@
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "features/curved/curved_mesh.h"
 #include "mesher/across_cuts.h"
-#include "mesher/curved_mesh.h"
 #include "mesher/keep_better.h"
 #include "mesher/recombination_options.h"
-#include "mesher/soundness.h"
+#include "metrics/judgement/soundness.h"
 
 namespace delquad {
 namespace {
 
 bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }
 bool is_curved(const Finishing& f) { return f.prepared.settings.order > 1; }
+bool is_to_be_curved(const Finishing& f) { return is_curved(f) && f.result.soundness.sound(); }
 bool was_given(const Finishing& f) { return !f.state.given.empty(); }
 /// Before a treatment quads are bad in the plane, too.
 bool is_treated(const Finishing& f) {
@@ -62,7 +63,12 @@ bool part_corners(Finishing& on) {
 }
 
 bool curve(Finishing& on) {
-  if (!curve_mesh(on.prepared, on.state.nodes, on.result)) return false;
+  RunResult& result = on.result;
+  CurvingSummary summary;
+  const bool moved =
+      curve_mesh(on.prepared, on.state.nodes, result.mesh, result.soundness, result.warnings, summary);
+  add_summary(result.log, summary);
+  if (!moved) return false;
   measure_straight_form(on.prepared, on.left_out, on.result);
   return true;
 }
@@ -149,7 +155,7 @@ const std::vector<FinishStep>& finish_steps() {
       {"keep_given", "keeping", &R::keep_given, "given quads that became worse", FinishAt::kMeasured,
        was_given, keep_better},
       {"curving", "curving", nullptr, "all elements, which get nodes on the model", FinishAt::kMeasured,
-       is_curved, curve},
+       is_to_be_curved, curve},
       {"refine_unsound", "refining", &R::refine_unsound, "sizes around places where the mesh is not sound",
        FinishAt::kProblem, nullptr, nullptr},
   };

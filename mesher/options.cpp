@@ -15,9 +15,9 @@
 #include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "features/sizes/curve_options.h"
-#include "mesher/poor_quads.h"
 #include "mesher/recombination_options.h"
 #include "mesher/repair_options.h"
+#include "metrics/judgement/poor_quads.h"
 #include "smoothing/cvt/cvt_options.h"
 #include "smoothing/optimisation/optimisation_options.h"
 

@@ -7,8 +7,8 @@
 #include "delquad/error.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "mesher/finish_steps.h"
-#include "mesher/poor_quads.h"
 #include "mesher/runner.h"
+#include "metrics/judgement/poor_quads.h"
 
 namespace delquad {
 namespace {
@@ -63,7 +63,10 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   measure(prepared, on.left_out, result);
   run_finish_steps(FinishAt::kMeasured, on);
   result.peak_memory = peak_memory();
-  judge_quads(prepared, label, result);
+  const BadQuads bad =
+      judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);
+  result.bad_in_corners = bad.in_corners;
+  result.bad_elsewhere = bad.elsewhere;
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/soundness.h"
 #include "mesher/stages.h"
+#include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
 #include "patches/prepared.h"

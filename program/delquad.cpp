@@ -20,7 +20,7 @@
 #include "experiments/console/activities.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
-#include "mesher/soundness.h"
+#include "metrics/judgement/soundness.h"
 #include "metrics/solve/solver_metrics.h"
 #include "program/commands.h"
 #include "program/extrude_options.h"

@@ -8,7 +8,7 @@
 #include "cases/size_file.h"
 #include "delquad/error.h"
 #include "experiments/sweep/versions.h"
-#include "mesher/size_aware.h"
+#include "features/crosses/size_aware.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 

@@ -153,4 +153,8 @@ std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<ch
   return wrong;
 }
 
+bool has_finite_points(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.points, [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); });
+}
+
 }  // namespace delquad

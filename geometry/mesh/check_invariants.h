@@ -16,4 +16,6 @@ std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<ch
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
                                           std::span<const HalfEdge> sides);
 
+bool has_finite_points(const Mesh& mesh);
+
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "mesher/poor_quads.h"
+#include "metrics/judgement/poor_quads.h"
 
 #include <gtest/gtest.h>
 

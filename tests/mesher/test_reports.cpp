@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mesher/boundary_report.h"
+#include "geometry/planar/boundary_report.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {

@@ -1,5 +1,5 @@
 #include "cases/problem.h"
-#include "mesher/soundness.h"
+#include "metrics/judgement/soundness.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 
 #include "fields/fields.h"
 #include "geometry/surface/surface_editor.h"
-#include "mesher/poor_quads.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/runner.h"
+#include "metrics/judgement/poor_quads.h"
 #include "metrics/metrics.h"
 #include "tests/support/polygon_face.h"
 #include "tests/support/surfaces.h"

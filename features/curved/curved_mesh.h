@@ -1,6 +1,11 @@
 #pragma once
 
-#include "mesher/runner.h"
+#include <tuple>
+#include <vector>
+
+#include "base/counters.h"
+#include "delquad/metrics.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 
@@ -43,7 +48,8 @@ int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes
 /// Gives a sound mesh the elements of the problem's order. Those that are not proven to be positive are a
 /// reason why it is not sound. Returns whether vertices of the straight mesh moved. Throws InputError where
 /// triangles are left.
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result);
+bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
+                std::vector<Warning>& warnings, CurvingSummary& summary);
 
 /// The mesh of straight elements with the same vertices.
 Mesh straight_form(const Mesh& curved);

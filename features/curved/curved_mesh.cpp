@@ -1,4 +1,4 @@
-#include "mesher/curved_mesh.h"
+#include "features/curved/curved_mesh.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,14 @@
 #include "base/parallel.h"
 #include "features/curved/bernstein.h"
 #include "features/curved/curve_corners.h"
+#include "features/curved/curved_geometry.h"
 #include "features/curved/flat_corners.h"
 #include "features/curved/open_cusps.h"
 #include "features/curved/raise_order.h"
 #include "features/curved/untangle_curved.h"
 #include "features/layers/planar_layers.h"
+#include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/element_nodes.h"
-#include "mesher/curved_geometry.h"
 
 namespace delquad {
 namespace {
@@ -118,7 +119,8 @@ std::string show_element(const Mesh& mesh, std::size_t q) {
 
 /// Counts elements with little, and tells of those that are positive.
 void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<double>& allowed,
-               const std::string& name, CurvingSummary& summary, RunResult& result) {
+               const Mesh& mesh, const std::string& name, CurvingSummary& summary,
+               std::vector<Warning>& warnings) {
   std::vector<std::pair<double, std::size_t>> low[2];  // elsewhere, in corners
   for (std::size_t q = 0; q < bounds.size(); ++q) {
     const double proven = bounds[q].proven;
@@ -138,8 +140,8 @@ void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<doub
     std::string text;
     for (std::size_t i = 0; i < std::min(kShown, these.size()); ++i)
       text += fmt::format("{}{:.2g} at {}", i > 0 ? ", " : "", these[i].first,
-                          show_element(result.mesh, these[i].second));
-    result.warnings.push_back(fmt::format(
+                          show_element(mesh, these[i].second));
+    warnings.push_back(fmt::format(
         "{}: {} curved element(s) with a scaled Jacobian below {} {}: {}{}", name, these.size(), kLowJacobian,
         in_corner ? "lie in corners of the model that allow no more" : "that no corner of the model explains",
         text, these.size() > kShown ? ", ..." : ""));
@@ -172,13 +174,11 @@ int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes
   return part_flat_corners(mesh, *geometry_behind(prepared, nodes, given));
 }
 
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunResult& result) {
-  Mesh& mesh = result.mesh;
-  if (prepared.settings.order == 1 || !result.soundness.sound()) return false;
+bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
+                std::vector<Warning>& warnings, CurvingSummary& summary) {
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("{}: elements of order {} need a mesh of quads alone: {} triangles are left",
                                  prepared.settings.where, prepared.settings.order, mesh.triangles.size()));
-  CurvingSummary summary;
   summary.order = prepared.settings.order;
   const Mesh straight = mesh;
   const auto geometry = geometry_behind(prepared, nodes, straight);
@@ -196,10 +196,9 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, RunR
   summary.unproven = proven.unproven;
   summary.least_jacobian = proven.least;
   summary.mean_jacobian = proven.mean;
-  count_low(bounds, limits.allowed, prepared.settings.name, summary, result);
+  count_low(bounds, limits.allowed, mesh, prepared.settings.name, summary, warnings);
   summary.distance = distance_to_model(mesh, *geometry);
-  tell_unproven(mesh, bounds, result.soundness);
-  add_summary(result.log, summary);
+  tell_unproven(mesh, bounds, soundness);
   return untangled.moved_vertices;
 }
 

@@ -1,4 +1,4 @@
-#include "mesher/size_aware.h"
+#include "features/crosses/size_aware.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "delquad/extend.h"
+#include "features/crosses/field_groups.h"
 #include "fields/size_aware_cross_field.h"
 #include "geometry/mesh/constrained_delaunay.h"
-#include "mesher/field_groups.h"
 
 namespace delquad {
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "delquad/options.h"
-#include "mesher/runner.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 
@@ -18,10 +19,16 @@ struct LimitOptions {
 };
 OptionGroup limit_group();
 
-/// Counts the bad quads of a result. Warns in one line of those that are poor, with the worst of them, why
+/// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
+struct BadQuads {
+  int in_corners = 0, elsewhere = 0;
+};
+
+/// Counts the bad quads of a mesh. Warns in one line of those that are poor, with the worst of them, why
 /// that is as far as it is known, and what helps; and of quads that single precision cannot hold. Says which
 /// elements are beyond the limits that were asked for, see Soundness::beyond. Aspects and sides of layers,
 /// and of grids that were asked for, are as they are on purpose. `label` names the case and pipeline.
-void judge_quads(const PreparedProblem& prepared, const std::string& label, RunResult& result);
+BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
+                     const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 
 }  // namespace delquad

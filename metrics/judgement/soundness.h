@@ -12,8 +12,6 @@
 
 namespace delquad {
 
-bool has_finite_points(const Mesh& mesh);
-
 /// The middle of a quad, and its face.
 Place middle_of_quad(const Mesh& mesh, int quad);
 /// "face 3 at (1, 2, 3)".

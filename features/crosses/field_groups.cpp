@@ -1,4 +1,4 @@
-#include "mesher/field_groups.h"
+#include "features/crosses/field_groups.h"
 
 #include <algorithm>
 #include <array>

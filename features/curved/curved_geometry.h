@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "features/curved/model_geometry.h"
-#include "mesher/stages.h"
 #include "patches/prepared.h"
 
 namespace delquad {

@@ -1,4 +1,4 @@
-#include "mesher/poor_quads.h"
+#include "metrics/judgement/poor_quads.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "base/box.h"
 #include "base/option_table.h"
 #include "features/layers/planar_layers.h"
+#include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 
 namespace delquad {
@@ -234,9 +235,9 @@ std::string text_of(const PreparedProblem& prepared, const Mesh& mesh, const std
 }
 
 void warn_of_poor_quads(const PreparedProblem& prepared, const std::string& label,
-                        const std::vector<PoorQuad>& quads, RunResult& result) {
+                        const std::vector<PoorQuad>& quads, const Mesh& mesh,
+                        std::vector<Warning>& warnings) {
   if (quads.empty()) return;
-  const Mesh& mesh = result.mesh;
   std::string what;
   const auto count = [&](const char* kind, auto&& is_so) {
     if (const auto n = std::ranges::count_if(quads, is_so); n > 0)
@@ -253,7 +254,7 @@ void warn_of_poor_quads(const PreparedProblem& prepared, const std::string& labe
                   quad_aspect(corners_of(mesh, mesh.quads[worst.quad])));
   for (int cause = 0; cause < kCauses; ++cause)
     text += text_of(prepared, mesh, quads, static_cast<Cause>(cause));
-  result.warnings.emplace_back(std::move(text));
+  warnings.emplace_back(std::move(text));
 }
 
 /// Quads that are sound, but not once they were rounded.
@@ -324,22 +325,23 @@ std::vector<char> quads_on_purpose(const PreparedProblem& prepared, const Mesh& 
 
 OptionGroup limit_group() { return limit_table().group(); }
 
-void judge_quads(const PreparedProblem& prepared, const std::string& label, RunResult& result) {
-  const Mesh& mesh = result.mesh;
-  const auto& values = result.metrics.values;
+BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
+                     const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness) {
+  const auto& values = metrics.values;
   const std::vector<char> on_purpose = quads_on_purpose(prepared, mesh);
   const ElementSides sides = prepared.surface ? ElementSides(mesh) : ElementSides(mesh, {0, 0, 1});
-  result.bad_in_corners = result.bad_elsewhere = 0;
+  BadQuads bad;
   // Most meshes have none.
   if (values.at("eta_worst") < kBadEta || values.at("aspect_max") > kPoorAspect ||
       values.at("edge_min") < kPoorEdge) {
     const std::vector<PoorQuad> quads = PoorQuads(prepared, mesh, on_purpose).quads;
     for (const PoorQuad& quad : quads)
-      if (quad.eta < kBadEta) ++(quad.cause == kAtCorner ? result.bad_in_corners : result.bad_elsewhere);
-    warn_of_poor_quads(prepared, label, quads, result);
+      if (quad.eta < kBadEta) ++(quad.cause == kAtCorner ? bad.in_corners : bad.elsewhere);
+    warn_of_poor_quads(prepared, label, quads, mesh, warnings);
   }
-  warn_of_single_precision(label, mesh, sides, result.warnings);
-  hold_to_limits(limit_table().read(prepared.settings.options), mesh, sides, on_purpose, result.soundness);
+  warn_of_single_precision(label, mesh, sides, warnings);
+  hold_to_limits(limit_table().read(prepared.settings.options), mesh, sides, on_purpose, soundness);
+  return bad;
 }
 
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "mesher/curved_geometry.h"
+#include "features/curved/curved_geometry.h"
 
 #include <algorithm>
 #include <cmath>

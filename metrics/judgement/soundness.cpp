@@ -1,4 +1,4 @@
-#include "mesher/soundness.h"
+#include "metrics/judgement/soundness.h"
 
 #include <fmt/format.h>
 
@@ -219,10 +219,6 @@ std::string describe(const Mesh& mesh, const Places& places, const std::string& 
     text += (i == 0 ? ": " : ", ") + show_place(mesh, places.first[i]);
   if (static_cast<std::size_t>(places.count) > n_shown) text += ", ...";
   return text;
-}
-
-bool has_finite_points(const Mesh& mesh) {
-  return std::ranges::all_of(mesh.points, [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); });
 }
 
 Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {

@@ -1,4 +1,4 @@
-#include "mesher/perturb.h"
+#include "features/seed/perturb.h"
 
 #include <array>
 #include <cmath>

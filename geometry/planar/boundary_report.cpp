@@ -1,4 +1,4 @@
-#include "mesher/boundary_report.h"
+#include "geometry/planar/boundary_report.h"
 
 #include <fmt/format.h>
 
