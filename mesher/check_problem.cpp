@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "base/length_unit.h"
 #include "base/located.h"
+#include "features/given/given_surface.h"
 #include "features/layers/layer_heights.h"
+#include "features/sizes/compose_size.h"
 #include "geometry/mesh/check_mesh.h"
 
 namespace delquad {
@@ -128,6 +132,84 @@ void check(const SurfaceSpec& surface, const std::string& where) {
   checked_weld_tolerance(mirror.tolerance, where, "the mirror's tolerance");
 }
 
+/// Refuses what is for models whose curves are meshed.
+void check_curves_are_meshed(const MeshProblem& problem) {
+  if (is_symmetric(problem))
+    throw InputError(problem.symmetry.where +
+                     ": planes of symmetry are for planar models of curves and for surfaces");
+  if (!problem.mapped.asks()) return;
+  const std::string& where =
+      problem.mapped.corners.empty() || problem.mapped.automatic || !problem.mapped.names.empty()
+          ? problem.mapped.where
+          : problem.mapped.corners[0].where;
+  throw InputError(where + ": grids are for planar models of curves and for surfaces");
+}
+
+/// What cannot be where lines are kept.
+void check_lines_are_free(const MeshProblem& problem, const std::string& source) {
+  if (!problem.divisions.empty())
+    throw InputError(fmt::format("{}: '{}' cannot be divided: the lines of {} are kept as they are",
+                                 problem.divisions[0].where, problem.divisions[0].name, source));
+  if (!problem.periodic.empty())
+    throw InputError(
+        fmt::format("{}: '{}' cannot get the nodes of '{}': the lines of {} are kept as they are",
+                    problem.periodic[0].where, problem.periodic[0].to, problem.periodic[0].from, source));
+}
+
+/// Refuses what would change a mesh in space before words begin.
+void check_given_in_space(const MeshProblem& problem) {
+  const SurfaceSpec& s = problem.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.weld_tolerance ||
+      s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
+    throw InputError(
+        (s.where.empty() ? problem.where : s.where) +
+        ": a mesh that is given keeps its faces, lines and unit: compounds, welding, gluing, mirrors, units, "
+        "embedded lines and lengths below which entities are ignored are for models");
+  if (problem.size.curvature > 0 ||
+      std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
+    throw InputError(problem.size.where + ": sizes by curvature are for models of surfaces");
+}
+
+/// Refuses what is for surfaces.
+void check_planar(const MeshProblem& problem) {
+  const SurfaceSpec& s = problem.surface;
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.feature_angle ||
+      s.weld_tolerance || s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
+    throw InputError(
+        (s.where.empty() ? problem.where : s.where) +
+        ": the model is planar: compounds, feature angles, welding, gluing, mirrors, units, lines "
+        "embedded in space and lengths below which entities are ignored are for surfaces");
+  if (problem.size.curvature > 0 ||
+      std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
+    throw InputError(problem.size.where +
+                     ": sizes by curvature are for surfaces, and this is a planar domain");
+}
+
+/// Mirror images have the nodes of the other side, and not those of periodic curves.
+void check_symmetry_alone(const MeshProblem& problem) {
+  if (is_symmetric(problem) && !problem.periodic.empty())
+    throw InputError(fmt::format("{}: symmetry does not go with periodic sides ({}): expected one of the two",
+                                 problem.symmetry.where, problem.periodic[0].where));
+}
+
+/// Refuses what does not go with the kind of model.
+void check_kind(const MeshProblem& problem) {
+  const auto* lines = std::get_if<LineModel>(&problem.model);
+  const auto* given = std::get_if<GivenMesh>(&problem.model);
+  const bool in_space = given != nullptr && is_in_space(given->mesh);
+  if (!in_space &&
+      (given != nullptr || lines != nullptr || std::holds_alternative<PlanarModel>(problem.model))) {
+    check_planar(problem);
+    check_symmetry_alone(problem);
+  }
+  if (given == nullptr && lines == nullptr) return;
+  check_lines_are_free(problem, given != nullptr ? given->source : lines->source);
+  check_curves_are_meshed(problem);
+  if (given != nullptr && !problem.layers.empty())
+    throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
+  if (in_space) check_given_in_space(problem);
+}
+
 }  // namespace
 
 void check_size_limits(double curvature, double min, double max, const std::string& where) {
@@ -174,6 +256,7 @@ void check_problem(const MeshProblem& problem) {
   for (const CurveDivision& division : problem.divisions) check(division);
   check(problem.cross);
   check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
+  check_kind(problem);
 }
 
 }  // namespace delquad

@@ -4,13 +4,13 @@
 
 #include "algorithms/finish/lift_bad_quads.h"
 #include "algorithms/finish/part_twins.h"
+#include "algorithms/treatment/recombination_options.h"
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "mesher/across_cuts.h"
 #include "mesher/keep_better.h"
-#include "mesher/recombination_options.h"
 #include "metrics/judgement/soundness.h"
 
 namespace delquad {

@@ -2,11 +2,17 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
 
+#include "base/activity.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirror_mesh.h"
+#include "mesher/check_problem.h"
 #include "mesher/finish_steps.h"
+#include "mesher/model_steps.h"
 #include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
 
@@ -42,7 +48,69 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
   return left_out;
 }
 
+/// Refuses what images of meshes have no nodes for.
+void check_order(const PreparedProblem& p) {
+  if (p.settings.order == 1 || !p.surface) return;
+  const char* other = p.surface->given                     ? "a mesh that is given"
+                      : p.surface->mirrored                ? "planes of symmetry of a surface"
+                      : !p.boundary.periodic_faces.empty() ? "periodic faces"
+                                                           : nullptr;
+  if (other != nullptr)
+    throw InputError(fmt::format("{}: elements of order {} do not go with {}: expected order 1",
+                                 p.settings.where, p.settings.order, other));
+}
+
+/// The steps of the kind of model.
+std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinement& refinement) {
+  if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
+    if (is_in_space(given->mesh)) return given_surface_steps(problem, *given);
+    return planar_steps(problem, refinement);
+  }
+  const bool is_planar =
+      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
+  return is_planar ? planar_steps(problem, refinement) : surface_steps(problem, refinement);
+}
+
 }  // namespace
+
+// A problem becomes a mesh in these steps: model and size, maps, curves, patches with their fields; the
+// letters of the word; the steps that finish the mesh; its measures and what is to be said of it; once more
+// from the problem, with smaller sizes, where it is not sound.
+
+PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
+  PreparedProblem p;
+  p.settings = {problem.name,         problem.where,      problem.options,
+                problem.max_elements, problem.keep_going, problem.order};
+  const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(PreparedProblem&)) {
+    const Stopwatch watch;
+    const DoingStage stage(doing);
+    (model.*step)(p);
+    p.times.emplace_back(time, watch.time());
+  };
+  timed("read", "reading", &ModelSteps::read);
+  if (model.is_surface()) timed("maps", "maps", &ModelSteps::flatten);
+  timed("curves", "boundary", &ModelSteps::mesh_curves);
+  timed("fields", "fields", &ModelSteps::make_patches);
+  return p;
+}
+
+PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
+  check_problem(problem);
+  PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
+  check_order(prepared);
+  return prepared;
+}
+
+RunResult run_word(const PreparedProblem& prepared, const Word& word,
+                   const std::function<void(const std::string& stage)>& begins) {
+  MeshingState state = begin_meshing(prepared);
+  for (const Stage* stage : word.stages) {
+    if (begins) begins(stage->name);
+    run_stage(*stage, prepared, state);
+  }
+  if (begins) begins("metrics");
+  return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
+}
 
 Mesh put_together(Finishing& on) {
   run_finish_steps(FinishAt::kPatches, on);
@@ -69,17 +137,6 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
   result.bad_elsewhere = bad.elsewhere;
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);
-}
-
-RunResult run_word(const PreparedProblem& prepared, const Word& word,
-                   const std::function<void(const std::string& stage)>& begins) {
-  MeshingState state = begin_meshing(prepared);
-  for (const Stage* stage : word.stages) {
-    if (begins) begins(stage->name);
-    run_stage(*stage, prepared, state);
-  }
-  if (begins) begins("metrics");
-  return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
 }
 
 }  // namespace delquad

@@ -7,9 +7,6 @@
 
 namespace delquad {
 
-/// With the problem's settings, and nothing else yet.
-PreparedProblem with_settings_of(const MeshProblem& problem);
-
 /// What a problem gets beside what it asks for, because its mesh would not be sound without.
 struct Refinement {
   std::vector<SizeSpot> spots = {};

@@ -3,53 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
+#include <optional>
+#include <utility>
 
+#include "algorithms/treatment/recombination_options.h"
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "features/crosses/size_aware.h"
+#include "features/given/given_domain.h"
 #include "features/grids/add_grids.h"
 #include "features/periodic/periodic_sides.h"
 #include "features/seed/perturb.h"
+#include "features/sizes/compose_size.h"
 #include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
+#include "features/sizes/imprint_named.h"
+#include "features/sizes/join_short_curves.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "features/symmetry/symmetric_size.h"
+#include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/periodic_lines.h"
-#include "mesher/recombination_options.h"
-#include "patches/divided_chains.h"
+#include "mesher/model_steps.h"
+#include "mesher/surface_input.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
 namespace {
-
-/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have that of
-/// their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they are all.
-double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
-                      const CutSurface* part = nullptr) {
-  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
-  std::vector<int> times(fine.regions.size(), 1);
-  for (const FacePair& pair : images) times[pair.face] = 0, times[pair.master] = 2;
-  double sum = 0;
-  int hint = -1;
-  for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
-    const auto& triangle = fine.triangles[t];
-    const auto& [a, b, c] = triangle;
-    const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
-    const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
-    double quads = times[fine.triangle_region[t]] * (norm(cross(q - p, r - p)) / 2 / (delta * delta));
-    for (int k = 0; part != nullptr && k < part->planes.count(); ++k)
-      if (!(part->half.face_planes[fine.triangle_region[t]] >> k & 1)) quads *= 2;
-    sum += quads;
-  }
-  return sum;
-}
 
 /// Faces that cannot be meshed: the end, or left out where the problem says so.
 class Failures {
@@ -110,68 +94,6 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
   throw InputError(model.source + ": no face can be meshed");
 }
 
-/// The growth of sizes away from curves that are shorter than the size, and from spots.
-constexpr double kShortCurveGradation = 0.7;
-
-/// Elements per full turn that are asked for by name; of several the most.
-std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
-                                      const std::vector<Entity>& entities, const std::string& kind) {
-  std::vector<double> per_turn(entities.size(), 0);
-  for (const NamedSize& n : named)
-    for (const int i : entities_named(entities, kind, n.name))
-      per_turn[i] = std::max(per_turn[i], n.curvature);
-  return per_turn;
-}
-
-/// Edges of curves that get curved elements turn by no more, in radians: polynomials hardly follow more, and
-/// of a quad between two such edges the normal is never far from its mean.
-constexpr double kCurvedEdgeTurn = std::numbers::pi / 2;
-
-/// `cut`: null, or the model is the part.
-WantedSize wanted_size(const MeshProblem& problem, const SurfaceModel& model,
-                       std::shared_ptr<const SizeField> base, const std::vector<SizeSpot>& spots,
-                       const CutSurface* cut) {
-  const SizeSpec& spec = problem.size;
-  WantedSize wanted;
-  if (problem.order > 1 && model.projector) wanted.edge_turn = kCurvedEdgeTurn;
-  wanted.base = std::move(base);
-  wanted.gradation = spec.gradation;
-  wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
-  wanted.spots = spots;
-  if (!(wanted.curve_limit.empty() && spots.empty()) && !(wanted.gradation > 0))
-    wanted.gradation = kShortCurveGradation;
-  const bool named = std::ranges::any_of(spec.named, [](const NamedSize& n) { return n.curvature > 0; });
-  if (!(spec.curvature > 0) && !named) return wanted;
-  wanted.curvature = std::make_shared<ModelCurvature>(model);
-  wanted.per_turn = spec.curvature;
-  if (named) {
-    const Mesh& whole = cut != nullptr ? cut->whole.fine : model.fine;
-    wanted.face_per_turn = curvature_by_name(spec.named, whole.regions, "region");
-    wanted.curve_per_turn = curvature_by_name(spec.named, whole.curves, "curve");
-  }
-  if (named && cut != nullptr) {
-    wanted.face_per_turn = most_of_faces(std::move(wanted.face_per_turn), *cut);
-    wanted.curve_per_turn = most_of_curves(wanted.curve_per_turn, *cut);
-  }
-  wanted.min = spec.min;
-  if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
-  return wanted;
-}
-
-/// The edges that curves are given, each a spot of its own length.
-std::vector<FineSpot> edges_of(const SurfaceModel& model, const std::vector<CurveDivision>& divisions) {
-  const std::vector<CurveChain> chains = curve_chains(model);
-  const auto divided = divide_chains(model.fine, chains, divisions);
-  std::vector<FineSpot> spots;
-  for (std::size_t c = 0; c < chains.size(); ++c)
-    for (std::size_t k = 1; k < divided[c].size(); ++k) {
-      const Vec3 a = fine_point_at(model.fine, chains[c], divided[c][k - 1]);
-      const Vec3 b = fine_point_at(model.fine, chains[c], divided[c][k]);
-      spots.push_back({a, b, norm(b - a), 0});
-    }
-  return spots;
-}
-
 void check_surface_cross(const CrossSpec& cross) {
   if (cross.kind != CrossKind::kSizeAware && cross.kind != CrossKind::kBoundary)
     throw InputError(cross.where +
@@ -197,153 +119,255 @@ void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedPr
       [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
 }
 
+void append(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+class SurfaceSteps final : public ModelSteps {
+ public:
+  SurfaceSteps(const MeshProblem& problem, const Refinement& refinement)
+      : problem_(problem),
+        refinement_(refinement),
+        check_([&](double quads) { check_count(quads, problem); }) {}
+  /// Of a model that was read.
+  SurfaceSteps(const MeshProblem& problem, const Refinement& refinement, SurfaceModel model,
+               std::shared_ptr<const SizeField> size, std::function<void(double)> check)
+      : problem_(problem),
+        refinement_(refinement),
+        check_(std::move(check)),
+        model_(std::move(model)),
+        asked_(std::move(size)) {}
+
+  void read(PreparedProblem& p) override {
+    if (!asked_) read_model(p.warnings);
+    check_surface_cross(problem_.cross);
+    check_(expected_quads(model_.fine, SurfaceSize(asked_)));
+    cut_ = cut_at_planes(problem_, model_, asked_);
+    divisions_ = cut_ ? divisions_of_part(problem_.divisions, *cut_) : problem_.divisions;
+    if (cut_) model_ = std::move(cut_->half.model);
+    wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
+  }
+
+  bool is_surface() const override { return true; }
+
+  void flatten(PreparedProblem&) override {
+    improve_triangulation(model_);
+    refine_for_size(model_, wanted_);
+    periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
+    flattening_ = located(problem_.where, [&] { return flatten_all(model_, periodic_); });
+    for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
+    add_unflattened(flattening_, model_, failures_);
+  }
+
+  void mesh_curves(PreparedProblem& p) override {
+    surface_->cuts = flattening_.cuts;
+    set_size(p);
+    auto on_curves = surface_->size;
+    if (problem_.seed != 0) {
+      WantedSize other = wanted_;
+      other.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
+      on_curves = std::make_shared<SurfaceSize>(model_, other);
+    }
+    surface_->domain = mesh_curves_of(model_, std::move(flattening_), *on_curves,
+                                      wanted_.curvature ? nullptr : wanted_.base.get(), problem_, divisions_,
+                                      periodic_, failures_);
+    surface_->model = std::move(model_);
+    surface_->cad = cad_;
+    p.failures = failures_.take();
+    p.surface = surface_;
+    append(p.warnings, surface_->model.warnings);
+    append(p.warnings, of_periodic_);
+    append(p.warnings, surface_->domain.warnings);
+    warn_of_large_size(*wanted_.base, surface_->model.fine, p.warnings);
+    warn_of_coarse_turns(wanted_, *surface_, p.warnings);
+    p.boundary = surface_->domain.boundary;
+    p.boundary.unit = surface_->model.fine.unit;
+  }
+
+  void make_patches(PreparedProblem& p) override {
+    prepare_patches(surface_, p);
+    add_grids(problem_.mapped, surface_->domain.mapped, p);
+    for (std::size_t i = 0; i < p.patches.size(); ++i)
+      if (p.patches[i].grid && p.patches[i].grid_stays)
+        for (const auto& loop : surface_->domain.patches[i].outline)
+          for (const CurveSide& side : loop) surface_->domain.chain_stays[side.chain] = 1;
+    if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (!cut_) return;
+    p.symmetry = cut_->planes.all();
+    p.size.field = folded_size(p.size.field, cut_->planes);
+    if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut_->planes);
+    surface_->mirrored = mirrored_surface(std::move(*cut_), *surface_);
+  }
+
+ private:
+  const CutSurface* part() const { return cut_ ? &*cut_ : nullptr; }
+
+  void read_model(std::vector<Warning>& warnings) {
+    std::vector<FeatureBall> kept_features;
+    if (refinement_.keep_features)
+      for (const SizeSpot& spot : refinement_.spots) kept_features.push_back({spot.at, spot.reach});
+    cad_ = refinement_.cad;
+    model_ = cad_ ? *cad_ : make_surface(problem_, kept_features);
+    if (!cad_ && model_.projector) cad_ = std::make_shared<SurfaceModel>(model_);
+    const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
+    asked_ = base_size(problem_.size, domain, warnings, [&] {
+      return largest_size(problem_.size, problem_.size.from_boundary
+                                             ? "'boundary' extends the lengths of a planar boundary that is "
+                                               "kept; a surface's curves are meshed anew: expected a size (a "
+                                               "number or an expression)"
+                                             : "a surface needs a size (a number or an expression)");
+    });
+    model_ = join_short_curves(problem_, *asked_, std::move(model_));
+    asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, warnings);
+  }
+
+  void set_size(PreparedProblem& p) {
+    surface_->size = std::make_shared<SurfaceSize>(model_, wanted_);
+    p.size.field = surface_->size;
+    if (!wanted_.curve_limit.empty()) p.size.adapted_to.push_back("short curves");
+    if (wanted_.curvature) p.size.adapted_to.push_back("curvature");
+    if (!refinement_.spots.empty()) p.size.adapted_to.push_back("sound quads");
+    if (!problem_.divisions.empty()) p.size.adapted_to.push_back("given edges");
+    if (!p.size.adapted_to.empty()) p.size.asked = asked_;
+    p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
+    check_(p.size.expected_quads);
+  }
+
+  const MeshProblem& problem_;
+  const Refinement& refinement_;
+  std::function<void(double quads)> check_;
+  Failures failures_{problem_};
+  SurfaceModel model_;
+  std::shared_ptr<const SurfaceModel> cad_;  ///< as it was read
+  std::shared_ptr<const SizeField> asked_;   ///< null: the model is yet to be read
+  std::optional<CutSurface> cut_;            ///< of a symmetric one, whose part is `model_`
+  std::vector<CurveDivision> divisions_;     ///< of the part
+  WantedSize wanted_;
+  PeriodicSides periodic_;
+  std::vector<Warning> of_periodic_;
+  Flattening flattening_;
+  std::shared_ptr<PreparedSurface> surface_ = std::make_shared<PreparedSurface>();
+};
+
+class GivenSurfaceSteps final : public ModelSteps {
+ public:
+  GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
+      : problem_(problem),
+        mesh_(given.mesh),
+        source_(&given),
+        check_([&](double quads) { check_count(quads, problem); }) {}
+  /// Of a mesh that was read.
+  GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
+                    std::shared_ptr<const SizeField> size, std::function<void(double)> check)
+      : problem_(problem), mesh_(mesh), check_(std::move(check)), given_(std::move(given)) {
+    wanted_.base = std::move(size);
+  }
+
+  void read(PreparedProblem& p) override {
+    check_surface_cross(problem_.cross);
+    if (source_ != nullptr) read_mesh(p.warnings);
+    wanted_.gradation = problem_.size.gradation;
+  }
+
+  bool is_surface() const override { return true; }
+
+  void flatten(PreparedProblem&) override {
+    FlattenOptions options;
+    options.max_sigma = kMaxSigmaOfGiven;
+    options.element = given_.element;
+    options.avoided = given_.avoided;
+    flattening_ = located(problem_.where, [&] { return delquad::flatten(given_.model, options); });
+    add_unflattened(flattening_, given_.model, failures_);
+    if (flattening_.patches.empty()) throw InputError(given_.model.source + ": no face can be meshed");
+  }
+
+  void mesh_curves(PreparedProblem& p) override {
+    SurfaceModel& model = given_.model;
+    surface_->cuts = flattening_.cuts;
+    surface_->size = std::make_shared<SurfaceSize>(model, wanted_);
+    p.size.field = surface_->size;
+    p.size.expected_quads = expected_quads(model.fine, *surface_->size);
+    check_(p.size.expected_quads);
+    surface_->domain = make_kept_domain(model, std::move(flattening_), *surface_->size);
+    given_.given_curve.resize(model.fine.curves.size(), -1);
+    surface_->given = {mesh_.curves, mesh_.regions, given_.given_curve, given_.given_region};
+    p.failures = failures_.take();
+    append(p.warnings, model.warnings);
+    append(p.warnings, surface_->domain.warnings);
+    p.boundary = surface_->domain.boundary;
+    p.boundary.unit = model.fine.unit;
+    inside_.resize(surface_->domain.patches.size());
+    for (std::size_t i = 0; i < inside_.size(); ++i)
+      elements_.push_back(elements_within(given_, surface_->domain.patches[i], inside_[i]));
+    surface_->model = std::move(model);
+    p.surface = surface_;
+  }
+
+  void make_patches(PreparedProblem& p) override {
+    prepare_patches(surface_, p);
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      p.patches[i].given = std::move(elements_[i]);
+      p.patches[i].given_inside = std::move(inside_[i]);
+    }
+    if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+  }
+
+ private:
+  void read_mesh(std::vector<Warning>& warnings) {
+    const GivenMesh& given = *source_;
+    given_ = located(problem_.where, [&] {
+      return make_given_surface(given, problem_.surface.feature_angle.value_or(kGivenFeatureAngle));
+    });
+    const Mesh& fine = given_.model.fine;
+    append(warnings, {given.notes.begin(), given.notes.end()});
+    auto own = [&]() -> std::shared_ptr<const SizeField> {
+      if (problem_.size.from_boundary)
+        throw InputError(problem_.size.where +
+                         ": 'boundary' extends the lengths of a planar boundary: expected no size (that of "
+                         "the elements), a number or an expression");
+      return make_nodal_size(given.mesh, sizes_of_elements(given.mesh, given.source));
+    };
+    wanted_.base = base_size(problem_.size, {Box<Vec3>::around(fine.points), &fine}, warnings, own);
+    if (!problem_.size.named.empty())
+      wanted_.base = finer_near(wanted_.base, NamedParts(given.mesh).spots(problem_.size.named));
+  }
+
+  const MeshProblem& problem_;
+  const Mesh& mesh_;                   ///< as it was given
+  const GivenMesh* source_ = nullptr;  ///< null: it was read
+  std::function<void(double quads)> check_;
+  Failures failures_{problem_};
+  GivenSurface given_;
+  WantedSize wanted_;
+  Flattening flattening_;
+  std::vector<QuadPatch> elements_;        ///< of each patch
+  std::vector<std::vector<Vec3>> inside_;  ///< of each patch, the places of its points
+  std::shared_ptr<PreparedSurface> surface_ = std::make_shared<PreparedSurface>();
+};
+
 }  // namespace
+
+std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Refinement& refinement) {
+  return std::make_unique<SurfaceSteps>(problem, refinement);
+}
+
+std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given) {
+  return std::make_unique<GivenSurfaceSteps>(problem, given);
+}
 
 PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                                       std::shared_ptr<const SizeField> size,
                                       const std::function<void(double quads)>& check_count) {
-  check_surface_cross(problem.cross);
-  PreparedProblem p = with_settings_of(problem);
-  WantedSize wanted;
-  wanted.base = std::move(size);
-  wanted.gradation = problem.size.gradation;
-
-  const Stopwatch maps;
-  const DoingStage flattening_faces("maps");
-  SurfaceModel& model = given.model;
-  FlattenOptions options;
-  options.max_sigma = kMaxSigmaOfGiven;
-  options.element = given.element;
-  options.avoided = given.avoided;
-  Flattening flattening = located(problem.where, [&] { return flatten(model, options); });
-  Failures failures(problem);
-  add_unflattened(flattening, model, failures);
-  if (flattening.patches.empty()) throw InputError(model.source + ": no face can be meshed");
-  p.times.emplace_back("maps", maps.time());
-
-  const Stopwatch curves;
-  const DoingStage meshing_curves("boundary");
-  auto surface = std::make_shared<PreparedSurface>();
-  surface->cuts = flattening.cuts;
-  surface->size = std::make_shared<SurfaceSize>(model, wanted);
-  p.size.field = surface->size;
-  p.size.expected_quads = expected_quads(model.fine, *surface->size);
-  check_count(p.size.expected_quads);
-  surface->domain = make_kept_domain(model, std::move(flattening), *surface->size);
-  given.given_curve.resize(model.fine.curves.size(), -1);
-  surface->given = {mesh.curves, mesh.regions, given.given_curve, given.given_region};
-  p.failures = failures.take();
-  p.warnings = model.warnings;
-  p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
-  p.boundary = surface->domain.boundary;
-  p.boundary.unit = model.fine.unit;
-  std::vector<QuadPatch> elements;
-  std::vector<std::vector<Vec3>> inside(surface->domain.patches.size());
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    elements.push_back(elements_within(given, surface->domain.patches[i], inside[i]));
-  surface->model = std::move(model);
-  p.surface = surface;
-  p.times.emplace_back("curves", curves.time());
-
-  const Stopwatch fields;
-  const DoingStage making_fields("fields");
-  prepare_patches(surface, p);
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    p.patches[i].given = std::move(elements[i]);
-    p.patches[i].given_inside = std::move(inside[i]);
-  }
-  if (problem.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
-  p.times.emplace_back("fields", fields.time());
-  return p;
+  GivenSurfaceSteps steps(problem, std::move(given), mesh, std::move(size), check_count);
+  return prepare_by(problem, steps);
 }
 
 PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
                                 std::shared_ptr<const SizeField> size,
                                 const std::function<void(double quads)>& check_count,
                                 const Refinement& refinement) {
-  const std::vector<SizeSpot>& spots = refinement.spots;
-  const bool size_aware = problem.cross.kind == CrossKind::kSizeAware;
-  check_surface_cross(problem.cross);
-  PreparedProblem p = with_settings_of(problem);
-  check_count(expected_quads(model.fine, SurfaceSize(size)));
-  std::optional<CutSurface> cut = cut_at_planes(problem, model, size);
-  std::vector<CurveDivision> divisions = problem.divisions;
-  if (cut) {
-    divisions = divisions_of_part(divisions, *cut);
-    model = std::move(cut->half.model);
-  }
-  const CutSurface* part = cut ? &*cut : nullptr;
-  const Stopwatch sizes;
-  const DoingStage measuring("sizes");
-  const std::shared_ptr<const SizeField> given = size;
-  if (!divisions.empty()) size = as_near(size, edges_of(model, divisions));
-  const WantedSize wanted = wanted_size(problem, model, std::move(size), spots, part);
-  const TimeSpent size_time = sizes.time();
-
-  const Stopwatch maps;
-  const DoingStage flattening_faces("maps");
-  improve_triangulation(model);
-  refine_for_size(model, wanted);
-  std::vector<Warning> warnings;
-  const PeriodicSides periodic = find_periodic_sides(model, problem.periodic, warnings);
-  Flattening flattening = located(problem.where, [&] { return flatten_all(model, periodic); });
-  Failures failures(problem);
-  for (const LeftOutFace& face : model.left_out) failures.add(face.face, face.reason);
-  add_unflattened(flattening, model, failures);
-  p.times.emplace_back("maps", maps.time());
-
-  const Stopwatch curves;
-  const DoingStage meshing_curves("boundary");
-  auto surface = std::make_shared<PreparedSurface>();
-  surface->cuts = flattening.cuts;
-  surface->size = std::make_shared<SurfaceSize>(model, wanted);
-  p.size.field = surface->size;
-  if (!wanted.curve_limit.empty()) p.size.adapted_to.push_back("short curves");
-  if (wanted.curvature) p.size.adapted_to.push_back("curvature");
-  if (!spots.empty()) p.size.adapted_to.push_back("sound quads");
-  if (!problem.divisions.empty()) p.size.adapted_to.push_back("given edges");
-  if (!p.size.adapted_to.empty()) p.size.asked = given;
-  p.size.expected_quads = expected_quads(model.fine, *surface->size, periodic.faces, part);
-  check_count(p.size.expected_quads);
-  auto on_curves = surface->size;
-  if (problem.seed != 0) {
-    WantedSize other = wanted;
-    other.base = jittered(wanted.base, problem.seed, diagonal(model.fine));
-    on_curves = std::make_shared<SurfaceSize>(model, other);
-  }
-  surface->domain =
-      mesh_curves_of(model, std::move(flattening), *on_curves, wanted.curvature ? nullptr : wanted.base.get(),
-                     problem, divisions, periodic, failures);
-  surface->model = std::move(model);
-  surface->cad = refinement.cad;
-  p.failures = failures.take();
-  p.surface = surface;
-  p.warnings = surface->model.warnings;
-  p.warnings.insert(p.warnings.end(), warnings.begin(), warnings.end());
-  p.warnings.insert(p.warnings.end(), surface->domain.warnings.begin(), surface->domain.warnings.end());
-  warn_of_large_size(*wanted.base, surface->model.fine, p.warnings);
-  warn_of_coarse_turns(wanted, *surface, p.warnings);
-  p.boundary = surface->domain.boundary;
-  p.boundary.unit = surface->model.fine.unit;
-  p.times.emplace_back("curves", curves.time());
-
-  const Stopwatch fields;
-  const DoingStage making_fields("fields");
-  prepare_patches(surface, p);
-  add_grids(problem.mapped, surface->domain.mapped, p);
-  for (std::size_t i = 0; i < p.patches.size(); ++i)
-    if (p.patches[i].grid && p.patches[i].grid_stays)
-      for (const auto& loop : surface->domain.patches[i].outline)
-        for (const CurveSide& side : loop) surface->domain.chain_stays[side.chain] = 1;
-  if (size_aware) make_crosses_size_aware(p);
-  if (cut) {
-    p.symmetry = cut->planes.all();
-    p.size.field = folded_size(p.size.field, cut->planes);
-    if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut->planes);
-    surface->mirrored = mirrored_surface(std::move(*cut), *surface);
-  }
-  p.times.emplace_back("fields", size_time + fields.time());
-  return p;
+  SurfaceSteps steps(problem, refinement, std::move(model), std::move(size), check_count);
+  return prepare_by(problem, steps);
 }
 
 }  // namespace delquad

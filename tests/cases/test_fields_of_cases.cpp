@@ -8,7 +8,7 @@
 #include "cases/problem.h"
 #include "features/crosses/size_aware.h"
 #include "mesher/prepare.h"
-#include "mesher/recombination_options.h"
+#include "algorithms/treatment/recombination_options.h"
 #include "mesher/runner.h"
 #include "smoothing/optimisation/optimisation_options.h"
 #include "tests/support/expect_input_error.h"

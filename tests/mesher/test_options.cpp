@@ -6,7 +6,7 @@
 
 #include "algorithms/insertion/insertion_options.h"
 #include "delquad/matching.h"
-#include "mesher/recombination_options.h"
+#include "algorithms/treatment/recombination_options.h"
 #include "smoothing/cvt/cvt_options.h"
 #include "tests/support/expect_input_error.h"
 

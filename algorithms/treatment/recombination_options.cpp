@@ -1,4 +1,4 @@
-#include "mesher/recombination_options.h"
+#include "algorithms/treatment/recombination_options.h"
 
 #include "base/option_table.h"
 #include "delquad/matching.h"

@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "delquad/error.h"
+#include "features/crosses/size_aware.h"
+#include "features/given/given_domain.h"
+#include "features/given/named_domain.h"
+#include "features/grids/add_grids.h"
+#include "features/layers/add_layers.h"
+#include "features/layers/planar_layers.h"
+#include "features/seed/perturb.h"
+#include "features/sizes/compose_size.h"
+#include "features/sizes/fine_spots.h"
+#include "features/sizes/gap_warning.h"
+#include "features/sizes/named_parts.h"
+#include "features/sizes/size_warnings.h"
+#include "fields/fields.h"
+#include "fields/sampled_fields.h"
+#include "geometry/planar/boundary_report.h"
+#include "mesher/model_steps.h"
+
+namespace delquad {
+namespace {
+
+/// Central differences for the direction of grad delta, in diagonals of the domain: far above rounding of the
+/// coordinates, far below any feature that a mesh could show.
+constexpr double kGradientStep = 1e-6;
+
+PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
+  const Mesh& mesh = model.mesh;
+  if (mesh.lines.empty())
+    throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
+  if (!mesh.triangles.empty() || !mesh.quads.empty())
+    p.warnings.push_back(
+        fmt::format("{}: {} triangles and {} quads are left out: only lines count as boundary", model.source,
+                    mesh.triangles.size(), mesh.quads.size()));
+  PlanarDomain domain = make_named_domain(mesh, model.surfaces, model.source);
+  const SizeSpec& spec = problem.size;
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size.field = base_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
+                           [&] { return make_boundary_size(p.plane.background, domain.boundary); });
+  if (!spec.named.empty()) {
+    const NamedParts parts(domain);
+    warn_of_idle_sizes(spec.named, parts, *p.size.field, p.warnings);
+    p.size.field = finer_near(p.size.field, parts.spots(spec.named));
+  }
+  if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
+  if (has_single_points(mesh)) {
+    const PointSize size_at = as_function(p.size.field);
+    domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
+    p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  }
+  return domain;
+}
+
+/// `given`: receives what the patches hold.
+PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, PreparedProblem& p,
+                           std::vector<QuadPatch>& given) {
+  p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
+  GivenDomain domain = make_given_domain(model);
+  p.warnings.insert(p.warnings.end(), domain.warnings.begin(), domain.warnings.end());
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.domain.patches);
+  p.size.field = base_size(problem.size, {Box<Vec3>::around(domain.domain.boundary.points)}, p.warnings,
+                           [&]() -> std::shared_ptr<const SizeField> {
+                             if (problem.size.from_boundary)
+                               return make_boundary_size(p.plane.background, edges_of_patches(domain.domain));
+                             return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
+                           });
+  if (problem.size.gradation > 0)
+    p.size.field = limit_gradation(p.size.field, p.plane.background, problem.size.gradation);
+  for (const std::string& line : odd_boundaries(domain.domain))
+    p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+  given = std::move(domain.elements);
+  return std::move(domain.domain);
+}
+
+/// Says so when the indices of a cross field do not add up to the Euler characteristic.
+void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
+  const auto [sum, expected] = *p.crosses.index_sum_and_expected;
+  if (sum == expected) return;
+  p.warnings.push_back(
+      fmt::format("{}: the indices of the cross field add up to {}/4, but the domain's Euler "
+                  "characteristic is {}/4",
+                  problem.name, sum, expected));
+}
+
+/// The field of crosses that the problem has; null: none.
+std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary,
+                                              PreparedProblem& p) {
+  if (!spec.function) return spec.field;
+  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
+                      spec.where + ": the cross function", p.warnings);
+}
+
+/// The field of the whole domain.
+std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
+                                             const std::shared_ptr<const CrossField>& given,
+                                             PreparedProblem& p) {
+  const CrossSpec& cross = problem.cross;
+  if (cross.kind == CrossKind::kGradient)
+    return make_gradient_cross(p.size.field, kGradientStep * diagonal(p.boundary));
+  if (cross.kind == CrossKind::kField)
+    return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
+  auto field = std::make_shared<HarmonicCrossField>(p.plane.background);
+  for (const Singularity& s : field->singularities())
+    p.crosses.singularities.push_back({{s.at.x, s.at.y, 0}, s.index});
+  p.crosses.index_sum_and_expected = {field->index_sum(), 4 * field->euler_characteristic()};
+  return field;
+}
+
+/// Turns domain, elements and size by the problem's seed.
+void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatch>& given,
+          PreparedProblem& p) {
+  const Rotation rotation = Rotation::by_seed(problem.seed);
+  rotate(rotation, domain);
+  for (QuadPatch& patch : given)
+    for (Vec2& point : patch.points) point = rotation(point);
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size.field = rotated(std::move(p.size.field), rotation);
+  if (p.size.asked) p.size.asked = rotated(std::move(p.size.asked), rotation);
+  for (PatchImage& image : domain.images)
+    image.motion = [motion = std::move(image.motion), rotation](Vec2 x) {
+      return rotation(motion(rotation.back(x)));
+    };
+}
+
+PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinement,
+                           std::vector<QuadPatch>& given, PreparedProblem& p) {
+  if (const auto* model = std::get_if<PlanarModel>(&problem.model))
+    return mesh_by_size(problem, *model, refinement.spots, p);
+  const auto* start = std::get_if<GivenMesh>(&problem.model);
+  if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
+  return prepare_given(problem, *start, p, given);
+}
+
+class PlanarSteps final : public ModelSteps {
+ public:
+  PlanarSteps(const MeshProblem& problem, const Refinement& refinement)
+      : problem_(problem), refinement_(refinement) {}
+
+  void read(PreparedProblem&) override {}
+  bool is_surface() const override { return false; }
+
+  void mesh_curves(PreparedProblem& p) override {
+    domain_ = planar_domain(problem_, refinement_, given_, p);
+    for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
+    if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
+    if (!problem_.layers.empty()) put_layers(problem_, domain_, p);
+    if (std::holds_alternative<LineModel>(problem_.model))
+      for (const std::string& line : odd_boundaries(domain_))
+        p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
+    p.size.expected_quads =
+        expected_quads(*p.plane.background, *p.size.field) + (p.layers ? p.layers->count.quads : 0);
+    check_count(p.size.expected_quads, problem_);
+    warn_of_large_size(*p.size.field, domain_.boundary, p.warnings);
+    if (const auto* model = std::get_if<PlanarModel>(&problem_.model))
+      warn_of_coarse_turns(*model, domain_, p.warnings);
+    given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
+    if (problem_.seed != 0) turn(problem_, domain_, given_, p);
+    p.boundary = std::move(domain_.boundary);
+    p.plane.curve_places = std::move(domain_.places);
+    p.plane.curve_shapes = std::move(domain_.curve_shapes);
+  }
+
+  void make_patches(PreparedProblem& p) override {
+    const auto cross = make_cross(problem_, given_cross_, p);
+    const double z = p.boundary.points[0].z;
+    const auto size = std::make_shared<PlanarSize>(p.size.field, z);
+    for (std::size_t i = 0; i < domain_.patches.size(); ++i)
+      p.patches.push_back({std::move(domain_.patches[i]),
+                           domain_.patch_region[i],
+                           cross,
+                           size,
+                           [z](Vec2 u, int&) {
+                             return Vec3{u.x, u.y, z};
+                           },
+                           {}});
+    for (std::size_t i = 0; i < given_.size(); ++i) p.patches[i].given = std::move(given_[i]);
+    for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
+    add_grids(problem_.mapped, domain_.mapped, p);
+    if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (p.crosses.index_sum_and_expected) check_index_sum(problem_, p);
+  }
+
+ private:
+  const MeshProblem& problem_;
+  const Refinement& refinement_;
+  PlanarDomain domain_;
+  std::vector<QuadPatch> given_;  ///< what the patches hold of a mesh
+  std::shared_ptr<const CrossField> given_cross_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Refinement& refinement) {
+  return std::make_unique<PlanarSteps>(problem, refinement);
+}
+
+}  // namespace delquad
