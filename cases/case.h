@@ -72,7 +72,4 @@ inline WordStart word_start(const Case& c) { return c.start ? WordStart::kGivenM
 /// The file that the case's model is read from; empty: none.
 const std::filesystem::path& model_path(const Case& c);
 
-/// The value of a text that is a number and nothing else.
-std::optional<double> as_number(const std::string& text);
-
 }  // namespace delquad

@@ -261,13 +261,6 @@ bool has_model(const Case& c) {
   return c.model || !c.mesh_file.empty() || !c.surface_file.empty() || !c.example.empty();
 }
 
-std::optional<double> as_number(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, value);
-  return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
-}
-
 const std::filesystem::path& model_path(const Case& c) {
   return c.surface_file.empty() ? c.mesh_file : c.surface_file;
 }

@@ -12,6 +12,7 @@
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "cases/formulas.h"
 #include "cases/located_fields.h"
 #include "cases/size_file.h"

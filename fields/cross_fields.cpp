@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "fields/fields.h"
 
@@ -17,8 +18,7 @@ class FunctionCross final : public CrossField {
   Cross at(Vec2 u, int&) const override {
     const double theta = theta_(u);
     if (!std::isfinite(theta))
-      throw InputError(
-          fmt::format("{} is {} at ({:.6g}, {:.6g}); an angle must be finite", name_, theta, u.x, u.y));
+      throw InputError(fmt::format("{} is {} at {}; an angle must be finite", name_, theta, show_point(u)));
     return Cross::from_angle(theta);
   }
 

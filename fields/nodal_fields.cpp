@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
@@ -101,8 +102,8 @@ std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<doubl
           fmt::format("the mesh of the nodal cross is not planar: point {} has z = {}, point 0 {}", i, p.z,
                       mesh.points[0].z));
     if (!std::isfinite(theta[i]))
-      throw InputError(fmt::format("the nodal angle {} is {} at ({:.6g}, {:.6g}); an angle must be finite", i,
-                                   theta[i], p.x, p.y));
+      throw InputError(fmt::format("the nodal angle {} is {} at {}; an angle must be finite", i, theta[i],
+                                   show_point(Vec2{p.x, p.y})));
     flat.points[i].z = 0;
     crosses.push_back(Cross::from_angle(theta[i]));
   }

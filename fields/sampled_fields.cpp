@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "fields/check_size.h"
 
@@ -38,8 +39,8 @@ double size_or_any(const SizeField& size, const Vec3& at) {
 }
 
 InputError bad_angle(const std::string& name, const Vec3& at) {
-  return InputError(
-      fmt::format("{} is not a finite number at ({:.6g}, {:.6g}); an angle must be one", name, at.x, at.y));
+  return InputError(fmt::format("{} is not a finite number at {}; an angle must be one", name,
+                                show_point(Vec2{at.x, at.y})));
 }
 
 class SampledCross final : public CrossField {

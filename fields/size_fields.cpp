@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
@@ -94,8 +95,8 @@ bool is_size(double delta) { return std::isfinite(delta) && delta > 0; }
 
 InputError bad_size(const std::string& field, const Vec3& x, double delta) {
   const double shown = std::isnan(delta) ? std::abs(delta) : delta;  // not "-nan"
-  return InputError(fmt::format("{} is {} at ({:.6g}, {:.6g}, {:.6g}); a size must be finite and positive",
-                                field, shown, x.x, x.y, x.z));
+  return InputError(
+      fmt::format("{} is {} at {}; a size must be finite and positive", field, shown, show_point(x)));
 }
 
 std::unique_ptr<SizeField> make_constant_size(double delta) {

@@ -2,10 +2,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -21,24 +19,6 @@ std::string small_letters(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   return text;
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(name + ": cannot be read: it is a folder");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(name + ": cannot be read: " + std::generic_category().message(errno));
-  std::string bytes;
-  while (in) {
-    const size_t before = bytes.size();
-    bytes.resize(before + kBlock);
-    in.read(bytes.data() + before, kBlock);
-    bytes.resize(before + static_cast<size_t>(in.gcount()));
-  }
-  if (in.bad()) throw InputError(name + ": cannot be read to its end");
-  return bytes;
 }
 
 /// Ends the stream whatever happens.
@@ -92,7 +72,7 @@ bool begins(std::string_view text, std::string_view with) {
 }  // namespace
 
 std::string read_whole_file(const std::filesystem::path& path) {
-  std::string bytes = read_bytes(path);
+  std::string bytes = file_bytes(path);
   return bytes.starts_with(kGzip) ? unpacked(std::move(bytes), path.string()) : bytes;
 }
 

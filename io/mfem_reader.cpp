@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
@@ -291,10 +292,9 @@ class MfemReader {
     for (size_t k = 0; k < square.size(); ++k) {
       Vec3& point = mesh_.points[square[k]];
       if (is_placed_[square[k]] && !(norm(point - at[k]) <= kRounding * size))
-        in_.fail(fmt::format(
-                     "element {} (from 0) has a node at ({:.6g}, {:.6g}, {:.6g}), another element has it at "
-                     "({:.6g}, {:.6g}, {:.6g}): expected elements that hang together",
-                     element, at[k].x, at[k].y, at[k].z, point.x, point.y, point.z),
+        in_.fail(fmt::format("element {} (from 0) has a node at {}, another element has it at "
+                             "{}: expected elements that hang together",
+                             element, show_point(at[k]), show_point(point)),
                  elements_[element].line);
       if (!is_placed_[square[k]]) point = at[k];
       is_placed_[square[k]] = 1;

@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "io/msh_raw.h"
 
@@ -62,8 +63,7 @@ void require_values(NodalValues& field, const std::string& file) {
       field.values[i] = 1;  // is never asked for
     } else if (std::isnan(field.values[i])) {
       const Vec3& p = field.mesh.points[i];
-      throw InputError(
-          fmt::format("{}: the field has no value at ({:.6g}, {:.6g}, {:.6g})", file, p.x, p.y, p.z));
+      throw InputError(fmt::format("{}: the field has no value at {}", file, show_point(p)));
     }
   }
 }

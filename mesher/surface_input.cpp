@@ -7,6 +7,7 @@
 
 #include "base/length_unit.h"
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
@@ -15,7 +16,6 @@
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
 #include "geometry/surface/mirror.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangulated_model.h"
 
 namespace delquad {

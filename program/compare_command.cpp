@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
-#include "experiments/sweep/comparison.h"
-#include "experiments/sweep/times.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
+#include "metrics/tables/comparison.h"
+#include "metrics/tables/times.h"
 #include "program/commands.h"
 
 namespace delquad {

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "base/context.h"
+#include "base/text.h"
 #include "cases/case.h"
 #include "cases/problem.h"
 #include "delquad/error.h"

@@ -9,6 +9,7 @@
 #include "base/box.h"
 #include "base/context.h"
 #include "base/located.h"
+#include "base/text.h"
 #include "cases/case.h"
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"

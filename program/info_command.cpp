@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "base/text.h"
 #include "cases/case_file.h"
 #include "cases/model_info.h"
 #include "delquad/error.h"
@@ -25,12 +26,6 @@ double read_size(const std::optional<std::string>& text) {
   if (!size || !(*size > 0) || !std::isfinite(*size))
     throw InputError("--size " + (text->empty() ? "''" : *text) + ": expected a finite number > 0");
   return *size;
-}
-
-std::string show_point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
-
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 std::string list_tags(const std::vector<Entity>& entities, const std::vector<int>& indices) {

@@ -11,6 +11,7 @@
 #include "base/length_unit.h"
 #include "base/located.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
 #include "cases/size_file.h"
@@ -190,8 +191,7 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
                fmt::join(prepared.size.adapted_to, " and "));
   for (const auto& [at, n] : prepared.symmetry)
-    fmt::print("  symmetry: plane through ({:.6g}, {:.6g}, {:.6g}), normal ({:.6g}, {:.6g}, {:.6g})\n", at.x,
-               at.y, at.z, n.x, n.y, n.z);
+    fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
   print_seconds(prepared, result.log);
   if (result.surface) print_surface_report(prepared, *result.surface);
 }

@@ -1,8 +1,8 @@
 #include "report/drawings.h"
 
 #include <algorithm>
-#include <fstream>
 
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -39,9 +39,7 @@ Json DrawingShelf::put(const fs::path& file) {
     return json;
   }
   written_ += bytes;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": cannot be read");
-  json["svg"] = std::string{std::istreambuf_iterator<char>(in), {}};
+  json["svg"] = file_bytes(file);
   return json;
 }
 

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "experiments/sweep/experiment.h"
-#include "experiments/sweep/statistics.h"
 #include "io/svg.h"
 #include "mesher/stages.h"
 #include "metrics/metrics.h"
+#include "metrics/tables/statistics.h"
 #include "report/packed_text.h"
 
 namespace delquad {

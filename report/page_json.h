@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "experiments/sweep/result_records.h"
-#include "experiments/sweep/table.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "experiments/sweep/samples.h"
-#include "experiments/sweep/statistics.h"
+#include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 namespace {

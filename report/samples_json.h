@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/result_records.h"
-#include "experiments/sweep/table.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 

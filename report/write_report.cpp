@@ -11,11 +11,11 @@
 #include <ostream>
 
 #include "delquad/error.h"
-#include "experiments/sweep/json_problem.h"
 #include "experiments/sweep/record.h"
-#include "experiments/sweep/samples.h"
-#include "experiments/sweep/tables.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/json_problem.h"
+#include "metrics/tables/samples.h"
+#include "metrics/tables/tables.h"
 #include "report/drawings.h"
 #include "report/packed_mesh.h"
 #include "report/packed_text.h"

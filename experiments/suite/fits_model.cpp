@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/text.h"
 #include "experiments/suite/submission.h"
 #include "experiments/sweep/peer.h"
 #include "geometry/mesh/half_edges.h"
@@ -66,8 +67,8 @@ void check_near(const Shape& from, const Shape& to, const SizeField& size, const
     guess = found.triangle;
     const double sizes = found.distance / size.at(p, hint);
     if (!(sizes <= kFurthest))
-      throw PeerError(fmt::format("it is no mesh of this model: {} at ({:.6g}, {:.6g}, {:.6g}), {:.3g} sizes",
-                                  what, p.x, p.y, p.z, sizes));
+      throw PeerError(
+          fmt::format("it is no mesh of this model: {} at {}, {:.3g} sizes", what, show_point(p), sizes));
   }
 }
 

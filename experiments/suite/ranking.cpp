@@ -12,10 +12,10 @@
 #include "experiments/suite/suite_list.h"
 #include "experiments/sweep/cell_folder.h"
 #include "experiments/sweep/peer.h"
-#include "experiments/sweep/samples.h"
-#include "experiments/sweep/statistics.h"
-#include "experiments/sweep/tables.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {

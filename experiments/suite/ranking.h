@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "experiments/sweep/table.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 

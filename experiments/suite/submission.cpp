@@ -13,17 +13,17 @@
 #include "experiments/suite/write_suite.h"
 #include "experiments/sweep/cell_folder.h"
 #include "experiments/sweep/cells.h"
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/folder_lock.h"
 #include "experiments/sweep/machine.h"
-#include "experiments/sweep/study_file.h"
-#include "experiments/sweep/tables.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/digest.h"
 #include "io/library_file.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesher/runner.h"
 #include "metrics/shape.h"
+#include "metrics/tables/study_file.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "base/text.h"
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/suite/suite_list.h"

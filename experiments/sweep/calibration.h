@@ -5,16 +5,12 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "metrics/tables/result_records.h"
 
 namespace delquad {
 
-/// Within this part of a number of quads, two meshes count as equally fine.
-inline constexpr double kEquallyMany = 0.01;
 /// How often a mesher is run to get there, at most.
 inline constexpr int kMostCalibrationRuns = 8;
-
-/// What records call it.
-inline constexpr const char* kCalibrationStep = "calibration";
 
 /// Quads, and a triangle as half a quad, whose area it has.
 double count_of_quads(const Mesh& mesh);

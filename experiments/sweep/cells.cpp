@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
-#include <string_view>
 
 #include "experiments/sweep/command_files.h"
-#include "experiments/sweep/digest.h"
 #include "geometry/cad/cad_reader.h"
+#include "io/digest.h"
 
 namespace delquad {
 namespace {
@@ -44,20 +42,6 @@ std::string describe(const PlanarModel& model) {
     for (const int curve : loop.curves) text += fmt::format("{} ", curve);
   }
   return text;
-}
-
-constexpr std::size_t kHeadLength = 1024;  // of a record: what is looked for stands in it
-
-/// The text or number of a key of a record's first lines.
-std::string value_of(std::string_view head, const std::string& key) {
-  const std::string opening = "\n  \"" + key + "\": ";
-  const auto at = head.find(opening);
-  if (at == std::string_view::npos) return "";
-  auto begin = at + opening.size();
-  const bool is_text = head.substr(begin).starts_with('"');
-  if (is_text) ++begin;
-  const auto end = head.find(is_text ? '"' : ',', begin);
-  return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
 }
 
 /// Asked until it tells; empty where the peer does not, and `why` says for what reason.
@@ -115,23 +99,6 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
 
 fs::path cell_folder(const fs::path& folder, const Case& c, const Word& word) {
   return folder / c.folder / word.text;
-}
-
-bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }
-
-std::string state_of_cell(const fs::path& folder, const std::string& key) {
-  std::ifstream in(folder / "record.json", std::ios::binary);
-  if (!in) return "to do";
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!is_sealed(text)) return "damaged";
-  const std::string_view head = std::string_view(text).substr(0, kHeadLength);
-  if (value_of(head, "key") != key) return "outdated";
-  if (!value_of(head, "metrics_status").empty()) return "metric failed";
-  const std::string status = value_of(head, "status");
-  if (status != "ok") return status;
-  std::error_code missing;
-  const auto bytes = fs::file_size(folder / "mesh.msh", missing);
-  return !missing && std::to_string(bytes) == value_of(head, "mesh_bytes") ? "done" : "damaged";
 }
 
 }  // namespace delquad

@@ -18,11 +18,4 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
 /// Where the results of a cell lie, below the folder of the experiment.
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const Case& c, const Word& word);
 
-/// What there is of the cell with this key in its folder: "done", "metric failed", "failed", "skipped" or
-/// kNotApplicable by its record; "to do": there is none; "damaged": the record was changed or cut off, or its
-/// mesh has not as many bytes as it says; "outdated": of another key. Costs little: meshes are not read.
-std::string state_of_cell(const std::filesystem::path& folder, const std::string& key);
-/// By its state, whether a cell has its mesh: measures by command may have failed.
-bool has_mesh(const std::string& state);
-
 }  // namespace delquad

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "experiments/sweep/digest.h"
+#include "io/digest.h"
 
 namespace delquad {
 

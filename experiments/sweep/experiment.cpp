@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -15,12 +14,11 @@
 #include "cases/size_file.h"
 #include "cases/toml_reader.h"
 #include "experiments/sweep/command_files.h"
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/experiment_keys.h"
 #include "experiments/sweep/schema.h"
-#include "experiments/sweep/tables.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {
@@ -113,26 +111,9 @@ LinfStudy read_linf_study(const TomlTable& table) {
   return study;
 }
 
-/// Up to this many characters of a value make the name of a folder.
-constexpr std::size_t kLongestValue = 40;
-
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 }  // namespace
-
-std::string folder_text(const std::vector<std::string>& values, std::size_t i) {
-  constexpr std::size_t kDigits = 8;  // of a digest
-  const auto plain = [](const std::string& text) {
-    std::string result = text;
-    for (char& c : result)
-      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
-        c = '_';
-    return result;
-  };
-  const std::string text = plain(values[i]);
-  const auto same = std::ranges::count_if(values, [&](const std::string& v) { return plain(v) == text; });
-  return text.size() > kLongestValue || same > 1 ? "value-" + digest(values[i]).substr(0, kDigits) : text;
-}
 
 std::optional<std::array<std::size_t, 2>> Experiment::find_variant(
     const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const {
@@ -267,26 +248,6 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
   return found;
 }
 
-const std::vector<StepTime>& step_times_of_tables() {
-  static const std::vector<StepTime> times = {{"seconds_read", "read s", "read"},
-                                              {"seconds_maps", "maps s", "maps"},
-                                              {"seconds_curves", "curves s", "curves"},
-                                              {"seconds_fields", "fields s", "fields"},
-                                              {"seconds_insertion", "insertion s", "insertion"},
-                                              {"seconds_adaptation", "adaptation s", "adaptation"},
-                                              {"seconds_smoothing", "smoothing s", "smoothing"},
-                                              {"seconds_matching", "matching s", "matching"},
-                                              {"seconds_treatment", "treatment s", "treatment"},
-                                              {"seconds_cleanup", "clean-up s", "clean-up"},
-                                              {"seconds_regularity", "regularity s", "regularity"},
-                                              {"seconds_optimisation", "optimisation s", "optimisation"},
-                                              {"seconds_parting", "parting s", "parting"},
-                                              {"seconds_lifting", "lifting s", "lifting"},
-                                              {"seconds_projection", "projection s", "projection"},
-                                              {"seconds_total", "total s", ""}};
-  return times;
-}
-
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
   Experiment experiment;
@@ -341,6 +302,19 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     }
   }
   return experiment;
+}
+
+StudyFile describe(const Experiment& experiment) {
+  StudyFile study{experiment, experiment.file.stem().string()};
+  for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
+  for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
+  study.cells = experiment.n_cells();
+  for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
+    const Case c = experiment.read_variant(i);
+    study.cases.push_back(c.name);
+    if (!c.compare.empty()) study.compare[c.name] = c.compare;
+  }
+  return study;
 }
 
 }  // namespace delquad

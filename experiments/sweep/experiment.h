@@ -9,32 +9,12 @@
 
 #include "cases/case.h"
 #include "cases/toml_reader.h"
-#include "experiments/sweep/correlation.h"
 #include "experiments/sweep/metric_command.h"
 #include "experiments/sweep/peer.h"
 #include "mesher/stages.h"
+#include "metrics/tables/study_file.h"
 
 namespace delquad {
-
-/// A row of a published table.
-struct PublishedRow {
-  std::string name, source;
-  std::map<std::string, double> values;  ///< by metric key
-};
-
-/// The column of a table that shows how long a step took.
-struct StepTime {
-  const char *key, *title;
-  const char* step;  ///< as records call it; empty: all of these together
-};
-const std::vector<StepTime>& step_times_of_tables();
-
-/// How a metric of one pipeline should relate to that of another on the same case.
-struct ExpectedRatio {
-  std::string metric, numerator, denominator;  ///< key and two words
-  double expected = 1;
-  std::string source;
-};
 
 /// Point sets on which the two Delaunay kernels are compared instead of meshing.
 struct LinfStudy {
@@ -49,17 +29,12 @@ struct Axis {
   std::vector<std::string> values;  ///< as texts
 };
 
-/// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
-/// replaced by `_`, and long or doubtful texts by a digest.
-std::string folder_text(const std::vector<std::string>& values, std::size_t i);
-
 /// A file of experiments/: cases, the pipelines to run on each, and what was published.
 ///
 /// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
 /// read when they are asked for: a sweep may have many.
-class Experiment {
+class Experiment : public TablePlan {
  public:
-  std::string title;
   std::filesystem::path file;
   std::vector<Word> words;  ///< and peers, as words without stages
   std::vector<Peer> peers;
@@ -68,15 +43,9 @@ class Experiment {
   std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
   std::string calibrate_where;                    ///< file and line that ask for it; empty: nothing does
   std::vector<MetricCommand> metrics;
-  std::vector<std::string> solvers;               ///< that measure every mesh, by name
-  std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
-  std::vector<PublishedRow> published;
-  std::optional<ExpectedRatio> ratio;
+  std::vector<std::string> solvers;  ///< that measure every mesh, by name
   std::vector<Axis> axes;
-  bool step_times = false;           ///< the table has a column for each step's time
-  int repeat_times = 0;              ///< how often every pipeline is run again for its time; 0: not at all
-  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
-  std::optional<LinfStudy> linf;     ///< then there are no cases
+  std::optional<LinfStudy> linf;                        ///< then there are no cases
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
   std::filesystem::path reference;                      ///< file of the published rows; empty: none
 
@@ -124,5 +93,8 @@ class Experiment {
   std::optional<TomlTable> matrix_;
   std::vector<std::string> leaves_;  ///< of the matrix, as in axes
 };
+
+/// What its folder of results says of it.
+StudyFile describe(const Experiment& experiment);
 
 }  // namespace delquad

@@ -8,8 +8,9 @@
 #include <ostream>
 #include <system_error>
 
+#include "base/text.h"
 #include "delquad/error.h"
-#include "experiments/sweep/digest.h"
+#include "io/digest.h"
 #include "io/library_file.h"
 #include "io/mesh_io.h"
 
@@ -53,14 +54,9 @@ void keep_file(const fs::path& from, const fs::path& to) {
   fs::permissions(to, fs::status(from, error).permissions(), error);
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// `list`: <digest>.json
 std::vector<std::string> check_list(const fs::path& list) {
-  const std::string text = text_of(list);
+  const std::string text = file_bytes(list);
   if (digest(text).substr(0, kDigestDigits) != list.stem().string())
     return {list.string() + ": was changed: it is not the list of the files of this copy"};
   std::vector<std::string> wrong;
@@ -85,7 +81,8 @@ fs::path keep_experiment(const Experiment& experiment, const fs::path& folder) {
   for (const auto& [path, mark] : json.at("files").items())
     if (!difference(copy / path, {mark.at("bytes"), mark.at("digest")}).empty())
       keep_file(root / path, copy / path);
-  if (text_of(listed) != list) write_file_atomically(listed, [&](std::ostream& out) { out << list; });
+  if (!fs::exists(listed) || file_bytes(listed) != list)
+    write_file_atomically(listed, [&](std::ostream& out) { out << list; });
   return fs::path(kCopies) / name / file.lexically_relative(root);
 }
 

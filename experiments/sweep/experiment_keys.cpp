@@ -9,7 +9,7 @@
 
 #include "base/nearest_name.h"
 #include "delquad/error.h"
-#include "experiments/sweep/tables.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {

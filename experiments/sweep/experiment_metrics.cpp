@@ -9,9 +9,9 @@
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/experiment_keys.h"
 #include "experiments/sweep/schema.h"
-#include "experiments/sweep/table.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
+#include "metrics/tables/table.h"
 
 /// The measures of an experiment.
 namespace delquad {

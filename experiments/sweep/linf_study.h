@@ -4,7 +4,7 @@
 
 #include "experiments/console/progress.h"
 #include "experiments/sweep/experiment.h"
-#include "experiments/sweep/table.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 

@@ -9,10 +9,10 @@
 #include <system_error>
 
 #include "delquad/error.h"
-#include "experiments/sweep/json_problem.h"
 #include "experiments/sweep/scratch_folder.h"
-#include "experiments/sweep/tables.h"
 #include "experiments/sweep/verify.h"
+#include "metrics/tables/json_problem.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {

@@ -15,7 +15,6 @@
 #include "experiments/sweep/command_files.h"
 #include "experiments/sweep/peer_reference.h"
 #include "experiments/sweep/peer_sizes.h"
-#include "experiments/sweep/rendered_table.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/scratch_folder.h"
 #include "geometry/mesh/check_invariants.h"
@@ -23,6 +22,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "metrics/surface/surface_report.h"
+#include "metrics/tables/rendered_table.h"
 
 namespace delquad {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "cases/case.h"
 #include "mesher/runner.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 
@@ -50,8 +51,6 @@ class NotApplicable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-/// Its kind, as in ProcessFailure, and the status of its record.
-inline constexpr const char* kNotApplicable = "not applicable";
 
 /// A peer is missing, failed, or wrote no sound mesh of the case.
 class PeerError : public std::runtime_error {

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/text.h"
 #include "cases/problem.h"
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/peer_sizes.h"

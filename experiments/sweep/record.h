@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/machine.h"
 #include "experiments/sweep/metric_command.h"
 #include "experiments/sweep/peer.h"
+#include "io/digest.h"
 
 namespace delquad {
 

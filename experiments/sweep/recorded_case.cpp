@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "delquad/error.h"
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/experiment_copy.h"
+#include "io/digest.h"
 
 namespace delquad {
 namespace {

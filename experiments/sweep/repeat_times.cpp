@@ -14,10 +14,10 @@
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
-#include "experiments/sweep/random_index.h"
-#include "experiments/sweep/times.h"
 #include "io/mesh_io.h"
 #include "mesher/runner.h"
+#include "metrics/tables/random_index.h"
+#include "metrics/tables/times.h"
 
 namespace delquad {
 namespace {

@@ -10,13 +10,13 @@
 #include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
-#include "experiments/sweep/digest.h"
-#include "experiments/sweep/json_problem.h"
 #include "experiments/sweep/measure_by_commands.h"
 #include "experiments/sweep/recorded_case.h"
 #include "experiments/sweep/scratch_folder.h"
+#include "io/digest.h"
 #include "io/mesh_io.h"
 #include "mesher/runner.h"
+#include "metrics/tables/json_problem.h"
 
 namespace delquad {
 namespace {

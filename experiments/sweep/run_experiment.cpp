@@ -15,10 +15,10 @@
 #include "experiments/sweep/folder_lock.h"
 #include "experiments/sweep/linf_study.h"
 #include "experiments/sweep/repeat_times.h"
-#include "experiments/sweep/study_file.h"
 #include "experiments/sweep/sweep_progress.h"
 #include "experiments/sweep/variant_work.h"
 #include "mesher/runner.h"
+#include "metrics/tables/study_file.h"
 
 namespace delquad {
 namespace {

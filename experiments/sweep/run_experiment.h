@@ -5,7 +5,7 @@
 
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/process_tree.h"
-#include "experiments/sweep/tables.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 

@@ -4,25 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "cases/problem.h"
 #include "delquad/error.h"
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/experiment_copy.h"
-#include "experiments/sweep/json_problem.h"
 #include "experiments/sweep/recorded_case.h"
-#include "experiments/sweep/result_records.h"
 #include "experiments/sweep/scratch_folder.h"
-#include "experiments/sweep/tables.h"
 #include "features/layers/planar_layers.h"
 #include "geometry/mesh/half_edges.h"
+#include "io/digest.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
+#include "metrics/tables/json_problem.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/tables.h"
 
 namespace delquad {
 namespace {
@@ -33,11 +33,6 @@ using Lines = std::vector<std::string>;
 
 /// Sums over the elements in the order of the file, not in that of the mesher; relative.
 constexpr double kRounding = 1e-9;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A cell as its record tells it.
 struct VerifiedCell {
@@ -67,7 +62,7 @@ Json essence(const Json& record) {
 
 /// Fills in the record.
 Lines check_record(VerifiedCell& cell) {
-  const std::string text = bytes_of(cell.file);
+  const std::string text = file_bytes(cell.file);
   Lines wrong;
   if (!is_sealed(text))
     wrong.push_back(cell.file.string() + ": was changed: its digest is not that of its text");
@@ -155,7 +150,8 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome) {
     const bool expected = fs::exists(scratch.path() / name);
     if (expected && !fs::exists(file))
       wrong.push_back(file.string() + ": is missing");
-    else if (expected != fs::exists(file) || (expected && bytes_of(scratch.path() / name) != bytes_of(file)))
+    else if (expected != fs::exists(file) ||
+             (expected && file_bytes(scratch.path() / name) != file_bytes(file)))
       wrong.push_back(file.string() + ": is not the table of these records");
   }
   return wrong;
@@ -164,7 +160,7 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome) {
 /// What concerns no single cell.
 Lines check_study(const fs::path& folder) {
   Lines wrong;
-  if (!is_sealed(bytes_of(folder / "study.json")))
+  if (!is_sealed(file_bytes(folder / "study.json")))
     wrong.push_back((folder / "study.json").string() + ": was changed: its digest is not that of its text");
   std::ranges::move(check_copies(folder), std::back_inserter(wrong));
   try {

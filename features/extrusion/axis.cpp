@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/predicates.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/extrusion/moving_section.h"
 
@@ -56,16 +57,16 @@ void require_beside_axis(const Section& section, const Vec3& point, const Vec3& 
       throw InputError(
           fmt::format("the node at {} lies on the axis, where hexahedra would have no sides: leave a hole "
                       "around the axis",
-                      place(points[i])));
+                      show_point(points[i])));
   for (const auto& quad : section.mesh.quads) {
     std::array<Vec2, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = seen[quad[k]];
     for (int k = 0; k < 4; ++k)
       if (distance_to_origin(corners[k], corners[(k + 1) % 4]) <= kOnAxis * reach)
-        throw InputError(fmt::format("the section crosses its axis between {} and {}", place(points[quad[k]]),
-                                     place(points[quad[(k + 1) % 4]])));
+        throw InputError(fmt::format("the section crosses its axis between {} and {}",
+                                     show_point(points[quad[k]]), show_point(points[quad[(k + 1) % 4]])));
     if (winding(corners) != 0)
-      throw InputError(fmt::format("the axis goes through the quad at {}", place(points[quad[0]])));
+      throw InputError(fmt::format("the axis goes through the quad at {}", show_point(points[quad[0]])));
   }
 }
 

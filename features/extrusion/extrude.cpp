@@ -8,6 +8,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/extrusion/crossings.h"
 #include "features/extrusion/layers.h"
@@ -118,7 +119,7 @@ void require_positive(const Section& section, const std::vector<Entity>& volumes
       "{} of {} hexahedra are inverted or flat, the worst in layer {} of '{}' at {} with a scaled Jacobian "
       "of {:.3g}: the sweep is too thick, or bends too much, for the section",
       n_bad, hexahedra.size(), worst / n + 1, volumes[section.mesh.quad_region[worst % n]].names[0],
-      place(centre), least));
+      show_point(centre), least));
 }
 
 /// The boundary as triangles, halves of quads along diagonals that two sides of a crack have in common.
@@ -150,7 +151,7 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
     return false;
   };
   if (const auto crossing = find_crossing(layered.points, triangles, are_neighbours))
-    throw InputError(fmt::format("the swept body meets itself at {}", place(crossing->at)));
+    throw InputError(fmt::format("the swept body meets itself at {}", show_point(crossing->at)));
 }
 
 void add_walls(const Section& section, const LayeredPoints& layered, HexMesh& result) {

@@ -11,6 +11,7 @@
 #include "base/box.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/extrusion/axis.h"
 #include "features/extrusion/moving_section.h"
@@ -47,7 +48,7 @@ LayeredPoints make_points(const Section& section, LayeredPoints result, const Pl
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 p = place_of(i, level);
       if (!is_finite(p))
-        throw InputError(fmt::format("the point at {} would go beyond all numbers", place(from[i])));
+        throw InputError(fmt::format("the point at {} would go beyond all numbers", show_point(from[i])));
       result.points[level * n + i] = p;
     }
   });
@@ -57,7 +58,7 @@ LayeredPoints make_points(const Section& section, LayeredPoints result, const Pl
 LayeredPoints along(const Section& section, const AlongVector& path, const SweepLayers& layers) {
   if (!is_finite(path.shift) || !(norm(path.shift) > 0))
     throw InputError(
-        fmt::format("the vector {}: expected finite numbers that are not all 0", place(path.shift)));
+        fmt::format("the vector {}: expected finite numbers that are not all 0", show_point(path.shift)));
   require_layers(section, layers, layers.number);
   const std::vector<double> ends = layer_ends(layers.number, layers.growth);
   return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
@@ -73,7 +74,7 @@ LayeredPoints along(const Section& section, const AroundAxis& path, const SweepL
   if (!is_finite(path.point) || !is_finite(path.axis) || !(norm(path.axis) > 0))
     throw InputError(
         fmt::format("the axis through {} along {}: expected finite numbers, and a direction that is not 0",
-                    place(path.point), place(path.axis)));
+                    show_point(path.point), show_point(path.axis)));
   require_layers(section, layers, layers.number);
   const bool is_closed = angle == kFull;
   if (is_closed && layers.number < kFewest)

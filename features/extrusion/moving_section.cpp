@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/extrusion/section.h"
 
@@ -31,7 +32,7 @@ std::vector<Vec3> tangents_of(const std::vector<Vec3>& line, const std::vector<V
   std::vector<Vec3> tangents = {along.front()};
   for (std::size_t i = 1; i < along.size(); ++i) {
     const Vec3 sum = along[i - 1] + along[i];
-    if (norm(sum) < kTurnsBack) throw InputError("the curve turns back at " + place(line[i]));
+    if (norm(sum) < kTurnsBack) throw InputError("the curve turns back at " + show_point(line[i]));
     tangents.push_back(unit(sum));
   }
   tangents.push_back(along.back());
@@ -57,9 +58,9 @@ void check_open_line(const std::vector<Vec3>& line) {
     throw InputError(fmt::format("the curve has {} points: expected at least 2", line.size()));
   for (std::size_t i = 1; i < line.size(); ++i)
     if (line[i] == line[i - 1])
-      throw InputError("the curve has the same point twice in a row at " + place(line[i]));
+      throw InputError("the curve has the same point twice in a row at " + show_point(line[i]));
   if (line.front() == line.back())
-    throw InputError("the curve closes at " + place(line[0]) + ": expected one with two ends");
+    throw InputError("the curve closes at " + show_point(line[0]) + ": expected one with two ends");
 }
 
 std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::vector<double>& parts) {
@@ -80,7 +81,7 @@ std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::ve
     if (!fits)
       throw InputError(
           fmt::format("{} layers are too few for the corners of the curve: none is left for that at {}",
-                      parts.size() - 1, place(line[i])));
+                      parts.size() - 1, show_point(line[i])));
     at[nearest] = lengths[i];
     next_free = nearest + 1;
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
@@ -29,7 +30,7 @@ void require_quads(const Mesh& mesh) {
       for (int j = 0; j < i; ++j)
         if (quad[i] == quad[j])
           throw InputError(
-              fmt::format("a quad has the node at {} for two corners", place(mesh.points[quad[i]])));
+              fmt::format("a quad has the node at {} for two corners", show_point(mesh.points[quad[i]])));
 }
 
 /// Turns quads over that run along an edge in the same direction as a neighbour that came first.
@@ -46,7 +47,7 @@ void orient(Section& section, std::span<const HalfEdge> sides) {
     if (at.size() > 2)
       throw InputError(
           fmt::format("{} quads share the edge at {}: only surfaces whose edges have one or two are swept",
-                      at.size(), place(0.5 * (points[at[0].lo] + points[at[0].hi]))));
+                      at.size(), show_point(0.5 * (points[at[0].lo] + points[at[0].hi]))));
     if (at.size() < 2) return;
     const bool is_turned = at[0].forward == at[1].forward;
     neighbours[at[0].element].push_back({at[1].element, is_turned, at[0].lo, at[0].hi});
@@ -71,7 +72,7 @@ void orient(Section& section, std::span<const HalfEdge> sides) {
         } else if (turned[next.quad] != wanted) {
           throw InputError(fmt::format(
               "the surface has one side only, as a Moebius strip, and cannot be swept: see the edge at {}",
-              place(0.5 * (points[next.a] + points[next.b]))));
+              show_point(0.5 * (points[next.a] + points[next.b]))));
         }
       }
     }
@@ -122,8 +123,6 @@ void find_walls(Section& section, std::span<const HalfEdge> sides) {
 }
 
 }  // namespace
-
-std::string place(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
 Section make_section(const Mesh& given, ReadNotes* notes) {
   require_quads(given);

@@ -26,7 +26,4 @@ struct Section {
 /// Throws InputError with the place. `notes` learns what is left out.
 Section make_section(const Mesh& mesh, ReadNotes* notes);
 
-/// "(1, 2, 0.5)"
-std::string place(const Vec3& p);
-
 }  // namespace delquad

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -37,7 +38,7 @@ CornerNormal corner_normal(const Mesh& mesh, const std::array<int, 4>& quad, int
   if (norm(normal) <= kFlat * norm(out) * norm(in))
     normal = cross(mesh.points[quad[2]] - mesh.points[quad[0]], mesh.points[quad[3]] - mesh.points[quad[1]]);
   const double length = norm(normal);
-  if (!(length > 0)) throw InputError("a quad has no area: see its corner at " + place(at));
+  if (!(length > 0)) throw InputError("a quad has no area: see its corner at " + show_point(at));
   return {(1 / length) * normal, angle};
 }
 
@@ -73,7 +74,7 @@ Vec3 offset_direction(const std::vector<CornerNormal>& all, const Vec3& at) {
     for (const CornerNormal& b : different)
       if (1 + dot(a.normal, b.normal) < kFoldsBack)
         throw InputError(
-            fmt::format("the surface folds back on itself at {}, where it has no normal", place(at)));
+            fmt::format("the surface folds back on itself at {}, where it has no normal", show_point(at)));
   if (different.size() > 2) return by_least_squares(different);
   const Vec3 sum = different[0].normal + different[1].normal;
   return (2 / dot(sum, sum)) * sum;
@@ -106,8 +107,8 @@ std::vector<Vec3> offset_directions(const Section& section) {
         ends.push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
       }
       if (!is_one_fan(ends))
-        throw InputError(
-            fmt::format("quads touch at {} in a point only, which has no one normal", place(mesh.points[i])));
+        throw InputError(fmt::format("quads touch at {} in a point only, which has no one normal",
+                                     show_point(mesh.points[i])));
       directions[i] = offset_direction(normals, mesh.points[i]);
     }
   });

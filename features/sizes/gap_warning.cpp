@@ -11,6 +11,7 @@
 
 #include "base/box_tree.h"
 #include "base/predicates.h"
+#include "base/text.h"
 #include "geometry/mesh/entity_names.h"
 
 namespace delquad {
@@ -91,10 +92,10 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
   if (near.empty()) return;
   const auto title = [&](int c) { return curve_title(domain.boundary.curves[c]); };
   warnings.emplace_back(
-      fmt::format("{} and {} leave a gap of {:.2g} between them at ({:.6g}, {:.6g}), far narrower than the "
+      fmt::format("{} and {} leave a gap of {:.2g} between them at {}, far narrower than the "
                   "edges there{}: "
                   "where regions should join, their curves must lie on each other",
-                  title(curves.first), title(curves.second), shown, place.x, place.y,
+                  title(curves.first), title(curves.second), shown, show_point(place),
                   near.size() > 1 ? fmt::format(", and so at {} nodes", near.size()) : ""));
 }
 

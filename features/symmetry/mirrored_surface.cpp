@@ -7,12 +7,12 @@
 #include <map>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "features/symmetry/symmetric_size.h"
 #include "geometry/planar/curve_divisions.h"
 #include "geometry/surface/find_planes.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/activity.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/agree_faces.h"
 #include "geometry/cad/cad_reader.h"
@@ -22,7 +23,6 @@
 #include "geometry/cad/weld_faces.h"
 #include "geometry/surface/report_edges.h"
 #include "geometry/surface/surface_editor.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

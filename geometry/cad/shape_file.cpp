@@ -24,12 +24,12 @@
 #include <sstream>
 
 #include "base/length_unit.h"
+#include "base/text.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/cad/iges_names.h"
 #include "geometry/cad/lost_shapes.h"
 #include "geometry/cad/step_names.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad::cad {
 
@@ -213,9 +213,7 @@ CadShape read_shape(const std::filesystem::path& path, const CadOptions& options
   if (kind == Kind::kStep)
     return read_step(options, in, [&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
   if (kind == Kind::kIges) return read_iges(path.string(), options);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return read_brep(bytes.str(), options);
+  return read_brep(file_bytes(path), options);
 }
 
 CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options) {

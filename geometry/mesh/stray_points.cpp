@@ -1,4 +1,5 @@
 #include "geometry/mesh/stray_points.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -40,9 +41,8 @@ std::vector<StrayPoint> stray_points(const Mesh& mesh) {
 
 std::string describe(const StrayPoint& stray, const Mesh& mesh) {
   const Vec3& p = mesh.points[stray.point];
-  return fmt::format(
-      "the point ({:.6g}, {:.6g}, {:.6g}) is {:.3g} times as far out as the others: is a number damaged?",
-      p.x, p.y, p.z, stray.times);
+  return fmt::format("the point {} is {:.3g} times as far out as the others: is a number damaged?",
+                     show_point(p), stray.times);
 }
 
 }  // namespace delquad

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -204,8 +205,8 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
     if (loops[l].is_hole && filled[l]) {
       const Vec3& at = lines.points[lines.lines[std::ranges::find(lines.line_curve, loops[l].curves.front()) -
                                                 lines.line_curve.begin()][0]];
-      throw InputError(fmt::format("{}: the hole through ({:.6g}, {:.6g}) lies outside of every region",
-                                   loops[l].where, at.x, at.y));
+      throw InputError(fmt::format("{}: the hole through {} lies outside of every region", loops[l].where,
+                                   show_point(Vec2{at.x, at.y})));
     }
     if (!loops[l].region.empty() && region_of[l] < 0)
       throw InputError(fmt::format("{}: nothing is left of region '{}': other loops fill its own",

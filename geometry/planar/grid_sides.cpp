@@ -9,6 +9,7 @@
 
 #include "base/box.h"
 #include "base/nearest_name.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
 
@@ -91,10 +92,7 @@ double wanted(const Loop& loop) {
   return want;
 }
 
-std::string place_text(const Vec3& x) {
-  return x.z == 0 ? fmt::format("({:.6g}, {:.6g})", x.x, x.y)
-                  : fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x, x.y, x.z);
-}
+std::string place_text(const Vec3& x) { return x.z == 0 ? show_point(Vec2{x.x, x.y}) : show_point(x); }
 
 /// Why a named face is no grid.
 std::string why_no_grid(const FaceOutline& outline) {

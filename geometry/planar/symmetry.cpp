@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/planar/curve_divisions.h"
 #include "geometry/planar/curve_span.h"
@@ -227,9 +228,9 @@ std::string what_spoils_symmetry(const PlanarModel& model) {
   }
   const SymmetryPlane plane = symmetry->planes()[0];
   return fmt::format(
-      "the plane through ({:.6g}, {:.6g}) with the normal ({:.6g}, {:.6g}) would be one, but {} has no "
-      "mirror image at ({:.6g}, {:.6g})",
-      plane.point.x, plane.point.y, plane.normal.x, plane.normal.y, item, image.x, image.y);
+      "the plane through {} with the normal {} would be one, but {} has no "
+      "mirror image at {}",
+      show_point(plane.point), show_point(plane.normal), item, show_point(image));
 }
 
 namespace {

@@ -10,6 +10,7 @@
 
 #include "base/box.h"
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/tidy_model.h"
@@ -186,10 +187,9 @@ class SmallHoles {
       gone.insert({std::min(from, to), std::max(from, to)});
     }
     const Entity& face = mesh_.regions[hole.face];
-    model_.warnings.push_back(
-        {"small holes that were closed", 1 / hole.length,
-         fmt::format("face {}: closed a hole of {:.3g} around at ({:.6g}, {:.6g}, {:.6g})", face.tag,
-                     hole.length, middle.x, middle.y, middle.z)});
+    model_.warnings.push_back({"small holes that were closed", 1 / hole.length,
+                               fmt::format("face {}: closed a hole of {:.3g} around at {}", face.tag,
+                                           hole.length, show_point(middle))});
     drop_lines([&](int a, int b) { return gone.contains({std::min(a, b), std::max(a, b)}); });
   }
 

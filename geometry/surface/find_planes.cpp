@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/cancel.h"
-#include "geometry/surface/surface_messages.h"
+#include "base/text.h"
 #include "geometry/surface/symmetry_planes.h"
 
 namespace delquad {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/text.h"
 #include "delquad/error.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

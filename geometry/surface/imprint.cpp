@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/point_whiskers.h"
 #include "geometry/surface/section_path.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

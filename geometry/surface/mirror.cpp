@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

@@ -14,9 +14,9 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {

@@ -12,9 +12,9 @@
 #include "base/box.h"
 #include "base/box_tree.h"
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/surface/chart.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/box.h"
+#include "base/text.h"
 #include "delquad/error.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {

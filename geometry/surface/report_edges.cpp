@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "base/text.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad {
 

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_editor.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {

@@ -7,13 +7,13 @@
 
 #include "base/box.h"
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/stray_points.h"
 #include "geometry/mesh/weld.h"
 #include "geometry/surface/flat_triangles.h"
 #include "geometry/surface/orient_triangles.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "base/box.h"
+#include "base/text.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/feature_noise.h"
 #include "geometry/surface/report_edges.h"
-#include "geometry/surface/surface_messages.h"
 #include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangle_sides.h"
 

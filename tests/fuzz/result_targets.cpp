@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "experiments/sweep/experiment.h"
-#include "experiments/sweep/result_records.h"
-#include "experiments/sweep/tables.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/tables.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "experiments/sweep/tables.h"
+#include "metrics/tables/tables.h"
 #include "tests/report/report_results.h"
 
 namespace delquad::testing_support {

@@ -6,7 +6,7 @@
 #include "delquad/error.h"
 #include "experiments/suite/ranking.h"
 #include "experiments/suite/suite_list.h"
-#include "experiments/sweep/study_file.h"
+#include "metrics/tables/study_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad::testing_support {

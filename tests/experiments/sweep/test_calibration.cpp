@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "experiments/sweep/calibration.h"
-#include "experiments/sweep/calibration_notes.h"
 #include "experiments/sweep/peer_reference.h"
 #include "mesher/prepare.h"
+#include "metrics/tables/calibration_notes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

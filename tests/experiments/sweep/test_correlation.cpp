@@ -1,4 +1,4 @@
-#include "experiments/sweep/correlation.h"
+#include "metrics/tables/correlation.h"
 
 #include <gtest/gtest.h>
 

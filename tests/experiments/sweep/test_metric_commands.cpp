@@ -4,9 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/sweep/comparison.h"
 #include "experiments/sweep/metric_command.h"
 #include "experiments/sweep/run_experiment.h"
+#include "metrics/tables/comparison.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

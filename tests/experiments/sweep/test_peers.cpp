@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "experiments/sweep/rerun.h"
-#include "experiments/sweep/result_records.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/run_program.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "experiments/sweep/digest.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/merge.h"
 #include "experiments/sweep/rerun.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/verify.h"
+#include "io/digest.h"
 #include "io/mesh_io.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "experiments/sweep/times.h"
+#include "metrics/tables/times.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
 

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "experiments/sweep/rerun.h"
-#include "experiments/sweep/result_records.h"
 #include "experiments/sweep/run_experiment.h"
+#include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "experiments/sweep/result_records.h"
 #include "experiments/sweep/run_experiment.h"
 #include "geometry/cad/cad_reader.h"
+#include "metrics/tables/result_records.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

@@ -1,0 +1,49 @@
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "delquad/error.h"
+
+namespace delquad {
+
+std::string show_point(Vec2 p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
+
+std::string show_point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+
+std::string counted(long long n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+std::optional<double> as_number(std::string_view text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+std::string file_bytes(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(name + ": cannot be read: it is a folder");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(name + ": cannot be read: " + std::generic_category().message(errno));
+  std::string bytes;
+  constexpr std::size_t kBlock = 1 << 16;
+  while (in) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kBlock);
+    in.read(bytes.data() + before, kBlock);
+    bytes.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw InputError(name + ": cannot be read to its end");
+  return bytes;
+}
+
+}  // namespace delquad

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "delquad/mesh.h"
+
+/// Texts of messages and files.
+namespace delquad {
+
+/// "(x, y)" and "(x, y, z)", six digits each.
+std::string show_point(Vec2 p);
+std::string show_point(const Vec3& p);
+/// "1 triangle", "2 triangles"
+std::string counted(long long n, std::string_view what);
+/// The value of a text that is a number and nothing else.
+std::optional<double> as_number(std::string_view text);
+/// A file's bytes. Throws InputError naming the file, and why it cannot be read.
+std::string file_bytes(const std::filesystem::path& path);
+
+}  // namespace delquad

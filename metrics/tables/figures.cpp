@@ -1,0 +1,190 @@
+#include "metrics/tables/figures.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <set>
+
+#include "delquad/error.h"
+#include "io/mesh_io.h"
+#include "metrics/tables/table.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFewestCases = 3;
+/// Costs below this count as it: nobody sees a difference of eta, tau or time beyond.
+constexpr double kLeastCost = 1e-6;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+const std::vector<const char*> kNames = {"time_quality", "irregular_tau", "profile_eta", "profile_tau",
+                                         "profile_time"};
+
+double value_of(const CellRecord& record, const char* key) {
+  const auto at = record.values.find(key);
+  return at == record.values.end() ? std::nan("") : at->second;
+}
+
+bool is_sound(const CellRecord& record) {
+  return record.reason.empty() && record.unsound.empty() && value_of(record, "n_quads") > 0;
+}
+
+/// The variants that every pipeline has a record of, and the pipelines.
+struct SmoothedEnergies {
+  std::vector<std::string> pipelines, variants;
+  std::map<std::pair<std::string, std::string>, const CellRecord*> cells;  // by variant and pipeline
+
+  const CellRecord& cell(const std::string& variant, const std::string& pipeline) const {
+    return *cells.at({variant, pipeline});
+  }
+};
+
+template <class T>
+void add_once(std::vector<T>& list, const T& item) {
+  if (std::ranges::find(list, item) == list.end()) list.push_back(item);
+}
+
+SmoothedEnergies comparison_of(const std::vector<CellRecord>& records) {
+  SmoothedEnergies c;
+  std::set<std::string> triangles_only, quads, absent;
+  for (const CellRecord& record : records) {
+    if (record.reason.empty())
+      (value_of(record, "n_quads") > 0 ? quads : triangles_only).insert(record.pipeline);
+    if (record.skipped && record.kind != kNotApplicable) absent.insert(record.group);
+  }
+  std::vector<std::string> variants;
+  for (const CellRecord& record : records) {
+    if (triangles_only.contains(record.pipeline) && !quads.contains(record.pipeline)) continue;
+    add_once(c.pipelines, record.pipeline);
+    add_once(variants, record.group);
+    c.cells[{record.group, record.pipeline}] = &record;
+  }
+  for (const std::string& variant : variants)
+    if (!absent.contains(variant) && std::ranges::all_of(c.pipelines, [&](const std::string& p) {
+          return c.cells.contains({variant, p});
+        }))
+      c.variants.push_back(variant);
+  return c;
+}
+
+/// What pipelines have no value for, in words: "gmsh: 1 failed, 2 not applicable".
+std::vector<std::string> notes_on_missing(const SmoothedEnergies& c) {
+  std::vector<std::string> notes;
+  for (const std::string& pipeline : c.pipelines) {
+    int failed = 0, inapplicable = 0, unsound = 0;
+    for (const std::string& variant : c.variants) {
+      const CellRecord& cell = c.cell(variant, pipeline);
+      if (is_sound(cell)) continue;
+      ++(cell.kind == kNotApplicable ? inapplicable : cell.reason.empty() ? unsound : failed);
+    }
+    std::vector<std::string> parts;
+    for (const auto& [n, what] :
+         {std::pair(failed, "failed"), {inapplicable, "not applicable"}, {unsound, "not sound"}})
+      if (n > 0) parts.push_back(fmt::format("{} {}", n, what));
+    if (!parts.empty())
+      notes.push_back(fmt::format("{}: {} of {}", pipeline, fmt::join(parts, ", "), c.variants.size()));
+  }
+  return notes;
+}
+
+template <class X, class Y>
+Figure scatter(const SmoothedEnergies& c, const char* name, const Diagram& frame, X x, Y y) {
+  Figure figure{name, frame, "case,pipeline,x,y\n"};
+  for (const std::string& pipeline : c.pipelines) {
+    DiagramSeries series{pipeline, {}};
+    for (const std::string& variant : c.variants) {
+      const CellRecord& cell = c.cell(variant, pipeline);
+      if (!is_sound(cell)) continue;
+      series.points.push_back({x(cell), y(cell)});
+      figure.csv += fmt::format("\"{}\",{},{},{}\n", variant, pipeline, x(cell), y(cell));
+    }
+    figure.diagram.series.push_back(std::move(series));
+  }
+  figure.diagram.notes = notes_on_missing(c);
+  return figure;
+}
+
+/// The part of the variants (in percent) on which a pipeline's cost is at most so many times the least.
+template <class Cost>
+Figure profile(const SmoothedEnergies& c, const char* name, const std::string& title, Cost cost) {
+  Figure figure{name,
+                {title, {"times the least", true}, {"% of the cells", false}, DiagramKind::kSteps, {}},
+                "pipeline,factor,percent\n"};
+  std::map<std::string, std::vector<double>> factors;
+  for (const std::string& variant : c.variants) {
+    const auto cost_of = [&](const std::string& pipeline) {
+      const CellRecord& cell = c.cell(variant, pipeline);
+      const double value = is_sound(cell) ? cost(cell) : kInfinite;
+      return std::isnan(value) ? kInfinite : std::max(value, kLeastCost);
+    };
+    double least = kInfinite;
+    for (const std::string& pipeline : c.pipelines) least = std::min(least, cost_of(pipeline));
+    for (const std::string& pipeline : c.pipelines)
+      factors[pipeline].push_back(least < kInfinite ? cost_of(pipeline) / least : kInfinite);
+  }
+  for (const std::string& pipeline : c.pipelines) {
+    std::vector<double>& sorted = factors[pipeline];
+    std::ranges::sort(sorted);
+    DiagramSeries series{pipeline, {{1, 0}}};
+    for (std::size_t k = 0; k < sorted.size() && sorted[k] < kInfinite; ++k) {
+      const double percent = 100 * static_cast<double>(k + 1) / static_cast<double>(sorted.size());
+      series.points.push_back({sorted[k], percent});
+      figure.csv += fmt::format("{},{},{}\n", pipeline, sorted[k], percent);
+    }
+    figure.diagram.series.push_back(std::move(series));
+  }
+  figure.diagram.notes = notes_on_missing(c);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> make_figures(const std::vector<CellRecord>& records) {
+  const SmoothedEnergies c = comparison_of(records);
+  std::set<std::string> cases;
+  for (const std::string& variant : c.variants) cases.insert(c.cell(variant, c.pipelines[0]).name);
+  if (c.pipelines.size() < 2 || cases.size() < kFewestCases) return {};
+  const auto of = [](const char* key) {
+    return [key](const CellRecord& cell) { return value_of(cell, key); };
+  };
+  const auto below = [](double most, const char* key) {
+    return [most, key](const CellRecord& cell) { return most - value_of(cell, key); };
+  };
+  const Diagram time{
+      "Quality against time", {"seconds, from the model to the mesh", true}, {"mean eta"}, {}, {}};
+  const Diagram irregular{
+      "tau against irregular vertices", {"interior vertices without just four quads, %"}, {"tau, %"}, {}, {}};
+  return {
+      scatter(c, kNames[0], time, of("seconds_total"), of("eta_mean")),
+      scatter(c, kNames[1], irregular, below(100, "d4"), of("tau")),
+      profile(c, kNames[2], "Performance profile: 1 - mean eta", below(1, "eta_mean")),
+      profile(c, kNames[3], "Performance profile: 100 - tau", below(100, "tau")),
+      profile(c, kNames[4], "Performance profile: seconds from the model to the mesh", of("seconds_total"))};
+}
+
+std::vector<std::string> write_figures(const fs::path& folder, const std::vector<Figure>& figures) {
+  const fs::path at = folder / kFigures;
+  std::error_code status;
+  if (figures.empty()) {
+    for (const char* name : kNames)
+      for (const char* extension : {".svg", ".csv"}) fs::remove(at / (std::string(name) + extension), status);
+    fs::remove(at, status);  // where nothing else is in it
+    return {};
+  }
+  fs::create_directories(at, status);
+  std::vector<std::string> errors;
+  for (const Figure& figure : figures) try {
+      draw_diagram(at / (figure.name + ".svg"), figure.diagram);
+      write_file_atomically(at / (figure.name + ".csv"), [&](std::ostream& out) { out << figure.csv; });
+    } catch (const InputError& error) {
+      errors.push_back(error.what());
+    }
+  return errors;
+}
+
+}  // namespace delquad

@@ -1,0 +1,234 @@
+#include "metrics/tables/result_records.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/text.h"
+#include "delquad/error.h"
+#include "io/digest.h"
+#include "metrics/tables/json_problem.h"
+#include "metrics/tables/study_file.h"
+#include "metrics/tables/table.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nlohmann::literals;
+using Json = nlohmann::ordered_json;
+
+void add_step_times(const Json& seconds, std::map<std::string, double>& values) {
+  double total = seconds.value("peer", 0.0);
+  for (const StepTime& time : step_times_of_tables()) {
+    if (*time.step == 0) values[time.key] = total;
+    const auto at = seconds.find(time.step);
+    if (at == seconds.end()) continue;
+    total += values[time.key] = at->get<double>();
+  }
+}
+
+Metric parse_metric(const Json& json) {
+  Metric metric{json.at("key"),
+                json.at("title"),
+                json.at("unit"),
+                Better::kNeither,
+                std::numeric_limits<double>::quiet_NaN(),
+                ""};
+  const auto better = json.at("better").get<std::string>();
+  if (better != "neither") metric.better = better == "higher" ? Better::kHigher : Better::kLower;
+  json.at("digits").get_to(metric.digits);
+  return metric;
+}
+
+CalibrationRecord parse_calibration(const Json& json) {
+  return {
+      json.at("to"),   json.at("size_factor"),    json.value("wanted_quads", 0.0), json.value("quads", 0.0),
+      json.at("runs"), json.value("ended_by", "")};
+}
+
+std::string text_of_variant(const std::vector<std::pair<std::string, std::string>>& variant) {
+  std::string text;
+  for (const auto& [title, value] : variant) text += (text.empty() ? "@" : ",") + title + "=" + value;
+  return text;
+}
+
+CellRecord parse(const Json& json) {
+  CellRecord record;
+  json.at("case").get_to(record.name);
+  json.at("pipeline").get_to(record.pipeline);
+  const Json variant = json.value("variant", Json::object());
+  for (const auto& [title, value] : variant.items())
+    record.variant.emplace_back(title, value.get<std::string>());
+  record.group = record.name + text_of_variant(record.variant);
+  record.quads_only = json.value("quads_only", true);
+  if (const auto status = json.at("status").get<std::string>(); status != "ok") {
+    json.at("reason").get_to(record.reason);
+    record.skipped = status == "skipped" || status == kNotApplicable;
+    record.kind = json.value("kind", "");
+    return record;
+  }
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  };
+  for (const auto& [key, value] : json.at("metrics").get<std::map<std::string, Json>>())
+    record.values[key] = number(value);
+  for (const Json& metric : json.value("own_metrics", Json::array()))
+    record.own_metrics.push_back(parse_metric(metric));
+  record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
+  record.metric_failed = json.contains("metrics_status");
+  record.values["seconds"] = number(json.at("meshing_seconds"));
+  record.values[kRowEnds] = number(json.value("/cross_field/row_ends"_json_pointer, Json()));
+  if (const auto finish = json.find("finish"); finish != json.end()) {
+    record.values[kFinishSeconds] = finish->at("seconds");
+    record.values[kFinishEta] = number(finish->value("eta_mean", Json(0)));
+  }
+  if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
+  if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
+  if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
+  if (json.contains(kCalibrationStep)) record.calibration = parse_calibration(json.at(kCalibrationStep));
+  record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
+  const Json size = json.value("/options/size"_json_pointer, Json::object());
+  const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
+  if (as_number(base) && size.value("sources", Json::array()).empty() && !size.contains("on"))
+    record.uniform_size = base;
+  return record;
+}
+
+/// Behind all others.
+constexpr std::array<std::size_t, 3> kNoPlace = {std::numeric_limits<std::size_t>::max(), 0, 0};
+
+/// Nothing where there is none that can be read: records tell all but the order.
+std::optional<StudyFile> readable_study(const fs::path& folder) {
+  try {
+    return read_study(folder);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Which cell it is tells its folder.
+CellRecord damaged_record(const fs::path& file, const std::string& problem,
+                          const std::optional<StudyFile>& study) {
+  CellRecord record;
+  record.pipeline = file.parent_path().filename().string();
+  record.group = record.name = file.parent_path().parent_path().filename().string();
+  const auto cell = study ? find_cell(*study, record.group, record.pipeline) : std::nullopt;
+  if (cell) {
+    record.name = record.group = cell->name;
+    record.variant = cell->variant;
+    record.group += text_of_variant(record.variant);
+  }
+  record.kind = "damaged";
+  record.reason = "damaged record: " + problem;
+  return record;
+}
+
+CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& study) {
+  CellRecord record;
+  try {
+    const std::string text = file_bytes(file);
+    const Json json = Json::parse(text);
+    record =
+        json.contains("digest") && !is_sealed(text)
+            ? damaged_record(file, file.string() + ": was changed: its digest is not that of its text", study)
+            : parse(json);
+  } catch (const std::exception& error) {  // of Json, or InputError
+    record = damaged_record(file, json_problem(file, "", error), study);
+  }
+  record.folder = file.parent_path();
+  return record;
+}
+
+constexpr std::size_t kHeadLength = 1024;  // of a record: what is looked for stands in it
+
+/// The text or number of a key of a record's first lines.
+std::string head_value(std::string_view head, const std::string& key) {
+  const std::string opening = "\n  \"" + key + "\": ";
+  const auto at = head.find(opening);
+  if (at == std::string_view::npos) return "";
+  auto begin = at + opening.size();
+  const bool is_text = head.substr(begin).starts_with('"');
+  if (is_text) ++begin;
+  const auto end = head.find(is_text ? '"' : ',', begin);
+  return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
+}
+
+}  // namespace
+
+std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records) {
+  std::vector<Metric> metrics;
+  for (const CellRecord& record : records)
+    for (const Metric& metric : record.own_metrics)
+      if (std::ranges::find(metrics, metric.key, &Metric::key) == metrics.end()) metrics.push_back(metric);
+  std::vector<Metric> all;
+  for (const Metric& metric : metrics) {
+    std::set<std::string> parts;
+    for (const CellRecord& record : records)
+      for (const auto& [key, value] : record.values)
+        if (key.starts_with(metric.key + ".")) parts.insert(key);
+    const auto has_whole = [&](const CellRecord& record) { return record.values.contains(metric.key); };
+    if (parts.empty() || std::ranges::any_of(records, has_whole)) all.push_back(metric);
+    for (const std::string& key : parts) {
+      all.push_back(metric);
+      all.back().key = key;
+      all.back().title += key.substr(metric.key.size());
+    }
+  }
+  return all;
+}
+
+std::vector<fs::path> record_files(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().filename().string().starts_with('.')) at.disable_recursion_pending();  // unfinished
+    if (at->path().filename() == "record.json") files.push_back(at->path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<CellRecord> read_records(const fs::path& folder) {
+  const std::vector<fs::path> files = record_files(folder);
+  if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
+  const std::optional<StudyFile> study = readable_study(folder);
+  std::vector<CellRecord> records;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const fs::path& file : files) {
+    records.push_back(read_record(file, study));
+    const CellRecord& r = records.back();
+    if (!seen.insert({r.group, r.pipeline}).second)
+      throw InputError(
+          fmt::format("{}: there is another record of {} {} in {}: give the folder of one experiment",
+                      file.string(), r.group, r.pipeline, folder.string()));
+  }
+  if (study)
+    std::ranges::stable_sort(records, {}, [&](const CellRecord& r) {
+      return place_of(*study, {r.name, r.variant, r.pipeline}).value_or(kNoPlace);
+    });
+  return records;
+}
+
+bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }
+
+std::string state_of_cell(const fs::path& folder, const std::string& key) {
+  if (!fs::exists(folder / "record.json")) return "to do";
+  const std::string text = file_bytes(folder / "record.json");
+  if (!is_sealed(text)) return "damaged";
+  const std::string_view head = std::string_view(text).substr(0, kHeadLength);
+  if (head_value(head, "key") != key) return "outdated";
+  if (!head_value(head, "metrics_status").empty()) return "metric failed";
+  const std::string status = head_value(head, "status");
+  if (status != "ok") return status;
+  std::error_code missing;
+  const auto bytes = fs::file_size(folder / "mesh.msh", missing);
+  return !missing && std::to_string(bytes) == head_value(head, "mesh_bytes") ? "done" : "damaged";
+}
+
+}  // namespace delquad

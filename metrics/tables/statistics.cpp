@@ -1,0 +1,171 @@
+#include "metrics/tables/statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/binomial.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace delquad {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostExact = 60;  // up to here the numbers of ways are exact enough, and quickly had
+
+/// Twice the rank of each value, whole numbers also where ties share a mean rank.
+std::vector<int> double_ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  std::vector<int> ranks(values.size());
+  for (std::size_t first = 0, last; first < order.size(); first = last) {
+    last = first + 1;
+    while (last < order.size() && values[order[last]] == values[order[first]]) ++last;
+    for (std::size_t k = first; k < last; ++k) ranks[order[k]] = static_cast<int>(first + last + 1);
+  }
+  return ranks;
+}
+
+std::vector<double> without_zeros(std::span<const double> differences) {
+  std::vector<double> values;
+  std::ranges::copy_if(differences, std::back_inserter(values), [](double d) { return d != 0; });
+  return values;
+}
+
+/// The part of all choices of signs whose positive ranks add up to at most `sum`.
+double exact_tail(const std::vector<int>& ranks, int sum) {
+  std::vector<double> ways(static_cast<std::size_t>(sum) + 1, 0);  // parts, by sum of positive ranks
+  ways[0] = 1;
+  for (const int rank : ranks)
+    for (std::size_t s = ways.size(); s-- > 0;) {
+      ways[s] /= 2;
+      if (s >= static_cast<std::size_t>(rank)) ways[s] += ways[s - static_cast<std::size_t>(rank)] / 2;
+    }
+  return std::accumulate(ways.begin(), ways.end(), 0.0);
+}
+
+/// The part of all choices of `n` ranks that add up to at most `sum`.
+double exact_choice_tail(const std::vector<int>& ranks, std::size_t n, int sum) {
+  const std::size_t sums = static_cast<std::size_t>(sum) + 1;
+  std::vector<std::vector<double>> ways(n + 1, std::vector<double>(sums, 0));  // by number and sum of ranks
+  ways[0][0] = 1;
+  for (const int rank : ranks)
+    for (std::size_t k = n; k > 0; --k)
+      for (std::size_t s = static_cast<std::size_t>(rank); s < sums; ++s)
+        ways[k][s] += ways[k - 1][s - static_cast<std::size_t>(rank)];
+  return std::accumulate(ways[n].begin(), ways[n].end(), 0.0) /
+         boost::math::binomial_coefficient<double>(static_cast<unsigned>(ranks.size()),
+                                                   static_cast<unsigned>(n));
+}
+
+double normal_tail(const std::vector<int>& ranks, int sum) {
+  double total = 0, squares = 0;
+  for (const int rank : ranks) {
+    total += rank;
+    squares += double(rank) * rank;
+  }
+  return cdf(boost::math::normal(), (sum + 1 - total / 2) / (std::sqrt(squares) / 2));
+}
+
+/// Of the sum of the doubled ranks of `n` among all, which is `off` away from its mean.
+double normal_choice_tail(const std::vector<int>& ranks, std::size_t n, double off) {
+  const auto total = static_cast<double>(ranks.size());
+  const double centre = total + 1;  // the mean of doubled ranks
+  double squares = 0;
+  for (const int rank : ranks) squares += (rank - centre) * (rank - centre);
+  const auto chosen = static_cast<double>(n);
+  const double deviation = std::sqrt(chosen * (total - chosen) / total * squares / (total - 1));
+  return deviation > 0 ? cdf(boost::math::normal(), -std::max(0.0, off - 1) / deviation) : 1;
+}
+
+}  // namespace
+
+double mean(std::span<const double> samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+}
+
+double median(std::span<const double> samples) {
+  if (samples.empty()) return kNone;
+  std::vector<double> sorted(samples.begin(), samples.end());
+  std::ranges::sort(sorted);
+  const std::size_t n = sorted.size();
+  return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+}
+
+double confidence_half_width(std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
+  if (n < 2) return kNone;
+  const double centre = mean(samples);
+  double squares = 0;
+  for (const double s : samples) squares += (s - centre) * (s - centre);
+  constexpr double kTail = 0.025;
+  const double t = quantile(complement(boost::math::students_t(n - 1), kTail));
+  return t * std::sqrt(squares / (n - 1) / n);
+}
+
+RankTest wilcoxon(std::span<const double> differences) {
+  const std::vector<double> values = without_zeros(differences);
+  std::vector<double> sizes;
+  for (const double value : values) sizes.push_back(std::abs(value));
+  const std::vector<int> ranks = double_ranks(sizes);
+  int positive = 0, negative = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) (values[i] > 0 ? positive : negative) += ranks[i];
+  const int less = std::min(positive, negative);
+  const double tail = values.size() <= kMostExact ? exact_tail(ranks, less) : normal_tail(ranks, less);
+  const auto n = static_cast<double>(values.size());
+  return {std::min(1.0, 2 * tail), std::min(1.0, std::exp2(1 - n)), double(positive) - negative};
+}
+
+RankTest mann_whitney(std::span<const double> first, std::span<const double> second) {
+  if (first.empty() || second.empty()) return {};
+  std::vector<double> all(first.begin(), first.end());
+  all.insert(all.end(), second.begin(), second.end());
+  const std::size_t n = first.size(), m = second.size();
+  const std::vector<int> ranks = double_ranks(all);
+  const int sum = std::accumulate(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(n), 0);
+  const int centre = static_cast<int>(n * (n + m + 1)), off = std::abs(sum - centre);
+  double p = 1;
+  if (n + m > kMostExact) {
+    p = 2 * normal_choice_tail(ranks, n, off);
+  } else if (off > 0) {
+    // Both ways to be as far off, which ties make differ: the second sum is what the first leaves.
+    const int centre_of_second = static_cast<int>(m * (n + m + 1));
+    p = exact_choice_tail(ranks, n, centre - off) + exact_choice_tail(ranks, m, centre_of_second - off);
+  }
+  double ways = 1;  // to choose the first of all; infinite where there are too many to count
+  for (std::size_t k = 1; k <= m; ++k) ways *= static_cast<double>(n + k) / static_cast<double>(k);
+  return {std::min(1.0, p), std::min(1.0, 2 / ways), double(sum) - centre};
+}
+
+std::vector<double> holm(std::span<const double> p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
+  std::vector<double> adjusted(p.size());
+  double so_far = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    so_far = std::max(so_far, std::min(1.0, static_cast<double>(p.size() - k) * p[order[k]]));
+    adjusted[order[k]] = so_far;
+  }
+  return adjusted;
+}
+
+std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> u, v;
+  for (const double value : x) u.push_back(std::log(value));
+  for (const double value : y) v.push_back(std::log(value));
+  const double u0 = mean(u), v0 = mean(v);
+  double squares = 0, products = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    squares += (u[i] - u0) * (u[i] - u0);
+    products += (u[i] - u0) * (v[i] - v0);
+  }
+  if (!(squares > 0)) return std::nullopt;
+  const double exponent = products / squares;
+  return PowerLaw{std::exp(v0 - exponent * u0), exponent};
+}
+
+}  // namespace delquad

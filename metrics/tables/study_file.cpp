@@ -1,0 +1,152 @@
+#include "metrics/tables/study_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "delquad/error.h"
+#include "io/digest.h"
+#include "io/mesh_io.h"
+#include "metrics/tables/json_problem.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* kStudyFile = "study.json";
+
+Json to_json(const StudyFile& study) {
+  Json json = {{"title", study.title},       {"experiment", study.experiment},
+               {"cases", study.cases},       {"pipelines", study.pipelines},
+               {"cells", study.cells},       {"step_times", study.step_times},
+               {"compare", study.compare},   {"axes", study.axes},
+               {"published", Json::array()}, {"ratio", Json()}};
+  if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
+  if (!study.columns.empty()) json["columns"] = study.columns;
+  if (study.correlation)
+    json["correlate"] = {{"of", study.correlation->of}, {"with", study.correlation->with}};
+  for (const PublishedRow& row : study.published)
+    json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
+  if (const auto& ratio = study.ratio)
+    json["ratio"] = {{"metric", ratio->metric},
+                     {"numerator", ratio->numerator},
+                     {"denominator", ratio->denominator},
+                     {"expected", ratio->expected},
+                     {"source", ratio->source}};
+  return json;
+}
+
+StudyFile from_json(const Json& json) {
+  StudyFile study;
+  json.at("title").get_to(study.title);
+  json.at("experiment").get_to(study.experiment);
+  json.at("cases").get_to(study.cases);
+  json.at("pipelines").get_to(study.pipelines);
+  json.at("axes").get_to(study.axes);
+  json.at("cells").get_to(study.cells);
+  json.at("step_times").get_to(study.step_times);
+  study.repeat_times = json.value("repeat_times", 0);
+  study.columns = json.value("columns", study.columns);
+  if (json.contains("correlate"))
+    study.correlation = CorrelationRequest{json.at("correlate").at("of"), json.at("correlate").at("with")};
+  json.at("compare").get_to(study.compare);
+  for (const Json& row : json.at("published"))
+    study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
+  if (const Json& ratio = json.at("ratio"); !ratio.is_null())
+    study.ratio = ExpectedRatio{ratio.at("metric"), ratio.at("numerator"), ratio.at("denominator"),
+                                ratio.at("expected"), ratio.at("source")};
+  return study;
+}
+
+/// Up to this many characters of a value make the name of a folder.
+constexpr std::size_t kLongestValue = 40;
+
+}  // namespace
+
+std::string folder_text(const std::vector<std::string>& values, std::size_t i) {
+  constexpr std::size_t kDigits = 8;  // of a digest
+  const auto plain = [](const std::string& text) {
+    std::string result = text;
+    for (char& c : result)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("+-.").find(c) == std::string::npos)
+        c = '_';
+    return result;
+  };
+  const std::string text = plain(values[i]);
+  const auto same = std::ranges::count_if(values, [&](const std::string& v) { return plain(v) == text; });
+  return text.size() > kLongestValue || same > 1 ? "value-" + digest(values[i]).substr(0, kDigits) : text;
+}
+
+const std::vector<StepTime>& step_times_of_tables() {
+  static const std::vector<StepTime> times = {{"seconds_read", "read s", "read"},
+                                              {"seconds_maps", "maps s", "maps"},
+                                              {"seconds_curves", "curves s", "curves"},
+                                              {"seconds_fields", "fields s", "fields"},
+                                              {"seconds_insertion", "insertion s", "insertion"},
+                                              {"seconds_adaptation", "adaptation s", "adaptation"},
+                                              {"seconds_smoothing", "smoothing s", "smoothing"},
+                                              {"seconds_matching", "matching s", "matching"},
+                                              {"seconds_treatment", "treatment s", "treatment"},
+                                              {"seconds_cleanup", "clean-up s", "clean-up"},
+                                              {"seconds_regularity", "regularity s", "regularity"},
+                                              {"seconds_optimisation", "optimisation s", "optimisation"},
+                                              {"seconds_parting", "parting s", "parting"},
+                                              {"seconds_lifting", "lifting s", "lifting"},
+                                              {"seconds_projection", "projection s", "projection"},
+                                              {"seconds_total", "total s", ""}};
+  return times;
+}
+
+void write_study(const std::filesystem::path& folder, const StudyFile& study) {
+  write_file_atomically(folder / kStudyFile,
+                        [&](std::ostream& out) { out << sealed(to_json(study).dump(2) + "\n"); });
+}
+
+std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kStudyFile);
+  if (!in) return std::nullopt;
+  try {
+    return from_json(Json::parse(in));
+  } catch (const Json::exception& error) {
+    throw InputError(json_problem(folder / kStudyFile, "does not describe an experiment's results", error));
+  }
+}
+
+std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell) {
+  const auto index = [](const std::vector<std::string>& list, const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::find(list, text) - list.begin());
+  };
+  std::array<std::size_t, 3> place = {index(study.cases, cell.name), 0,
+                                      index(study.pipelines, cell.pipeline)};
+  if (place[0] == study.cases.size() || place[2] == study.pipelines.size() ||
+      cell.variant.size() != study.axes.size())
+    return std::nullopt;
+  for (std::size_t k = 0; k < study.axes.size(); ++k) {
+    const auto& [title, values] = study.axes[k];
+    const std::size_t value = index(values, cell.variant[k].second);
+    if (cell.variant[k].first != title || value == values.size()) return std::nullopt;
+    place[1] = place[1] * values.size() + value;
+  }
+  return place;
+}
+
+std::optional<CellAddress> find_cell(const StudyFile& study, const std::string& folder,
+                                     const std::string& pipeline) {
+  CellAddress cell{folder.substr(0, folder.find('@')), {}, pipeline};
+  std::string rest = folder.substr(cell.name.size());
+  for (const auto& [title, values] : study.axes) {
+    const std::string opening = (cell.variant.empty() ? "@" : ",") + title + "=";
+    if (!rest.starts_with(opening)) return std::nullopt;
+    rest = rest.substr(opening.size());
+    const std::string text = rest.substr(0, rest.find(','));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (folder_text(values, i) == text) cell.variant.emplace_back(title, values[i]);
+    rest = rest.substr(text.size());
+  }
+  if (!rest.empty() || !place_of(study, cell)) return std::nullopt;
+  return cell;
+}
+
+}  // namespace delquad

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "metrics/tables/correlation.h"
+
+namespace delquad {
+
+/// A row of a published table.
+struct PublishedRow {
+  std::string name, source;
+  std::map<std::string, double> values;  ///< by metric key
+};
+
+/// The column of a table that shows how long a step took.
+struct StepTime {
+  const char *key, *title;
+  const char* step;  ///< as records call it; empty: all of these together
+};
+const std::vector<StepTime>& step_times_of_tables();
+
+/// How a metric of one pipeline should relate to that of another on the same case.
+struct ExpectedRatio {
+  std::string metric, numerator, denominator;  ///< key and two words
+  double expected = 1;
+  std::string source;
+};
+
+/// What an experiment says of its tables.
+struct TablePlan {
+  std::string title;
+  std::vector<PublishedRow> published;
+  std::optional<ExpectedRatio> ratio;
+  bool step_times = false;           ///< the table has a column for each step's time
+  int repeat_times = 0;              ///< how often every pipeline is run again for its time; 0: not at all
+  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
+  std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
+};
+
+/// What a folder of results says of its experiment, besides the records of its cells: study.json.
+struct StudyFile : TablePlan {
+  std::string experiment;  ///< name of its file, without folder and extension
+  std::vector<std::string> cases, pipelines;
+  /// What varies, in its order, with its values.
+  std::vector<std::pair<std::string, std::vector<std::string>>> axes;
+  std::size_t cells = 0;  ///< that the experiment has
+  /// case -> pipeline -> name of the published row beside it
+  std::map<std::string, std::map<std::string, std::string>> compare;
+};
+
+/// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
+/// replaced by `_`, and long or doubtful texts by a digest.
+std::string folder_text(const std::vector<std::string>& values, std::size_t i);
+
+/// Throws InputError when it cannot be written.
+void write_study(const std::filesystem::path& folder, const StudyFile& study);
+/// Nothing when there is none; throws InputError when it is no such file.
+std::optional<StudyFile> read_study(const std::filesystem::path& folder);
+
+/// Which cell of an experiment.
+struct CellAddress {
+  std::string name;                                          ///< of the case
+  std::vector<std::pair<std::string, std::string>> variant;  ///< what varies, by title, with its value
+  std::string pipeline;
+};
+/// Where the cell stands among those of the experiment: case, variant and pipeline. Nothing: it has none
+/// such.
+std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell);
+/// The cell whose results lie in the folder of this name ("disc@seed=2"), with this pipeline; nothing where
+/// the experiment has none such.
+std::optional<CellAddress> find_cell(const StudyFile& study, const std::string& folder,
+                                     const std::string& pipeline);
+
+}  // namespace delquad

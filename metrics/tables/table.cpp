@@ -1,0 +1,252 @@
+#include "metrics/tables/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "delquad/error.h"
+#include "metrics/tables/json_problem.h"
+#include "metrics/tables/rendered_table.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of UTF-8.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
+
+constexpr TableStyle kMarkdown = {"**", "**", "~", " \u00b1 ", markdown_escaped};
+/// As to_json() has it: marks stand by themselves.
+constexpr TableStyle kPlain = {"", "", "", " \u00b1 ", [](const std::string& text) { return text; }};
+
+/// A line with "failed" where its first value would be.
+std::vector<std::string> cells_of(const RenderedTable::Line& line) {
+  std::vector<std::string> cells = line.names;
+  bool said = line.missing.empty();
+  for (const std::string& value : line.values) {
+    cells.push_back(!said && value.empty() ? line.missing : value);
+    said = said || value.empty();
+  }
+  return cells;
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
+}
+
+std::string status(const TableRow& row) {
+  if (!row.failure.empty()) return "failed: " + row.failure;
+  if (!row.skipped.empty()) return row.skipped == kNotApplicable ? row.skipped : "skipped: " + row.skipped;
+  if (row.unsound.empty() && row.incomplete.empty()) return "ok";
+  return row.unsound + (row.unsound.empty() || row.incomplete.empty() ? "" : ", ") + row.incomplete;
+}
+
+std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+/// The number; where there is none, what stands for it.
+std::string csv_value(const TableRow& row, const std::string& key) {
+  const auto text = row.texts.find(key);
+  const double value = value_or_nan(row.values, key);
+  return std::isnan(value) && text != row.texts.end() ? csv_quoted(text->second) : csv_number(value);
+}
+
+}  // namespace
+
+const std::vector<TableFormat>& table_formats() {
+  static const std::vector<TableFormat> formats = {
+      {".md", to_markdown}, {".csv", to_csv}, {".tex", to_tex}, {".json", to_json}};
+  return formats;
+}
+
+std::string shown_name(const TableRow& row) {
+  std::string name = row.name;
+  if (!row.unsound.empty()) name += " (" + row.unsound + ")";
+  if (!row.incomplete.empty()) name += " (" + row.incomplete + ")";
+  return name;
+}
+
+std::vector<TableColumn> shown_columns(const Table& table) {
+  if (table.shown.empty()) return table.columns;
+  std::vector<TableColumn> columns;
+  for (const std::string& key : table.shown) {
+    const auto at = std::ranges::find(table.columns, key, &TableColumn::key);
+    if (at != table.columns.end()) columns.push_back(*at);
+  }
+  return columns;
+}
+
+std::string to_markdown(const Table& table) {
+  const RenderedTable rendered = render(table, kMarkdown);
+  std::vector<std::vector<std::string>> lines = {cells_of(rendered.head)};
+  for (const RenderedTable::Line& line : rendered.lines) lines.push_back(cells_of(line));
+  std::vector<std::size_t> width(lines[0].size(), 3);
+  for (const auto& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], characters(line[k]));
+  std::string text = fmt::format("# {}\n\n", table.title);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += "|";
+    for (std::size_t k = 0; k < width.size(); ++k) {
+      const std::string padding(width[k] - characters(lines[i][k]), ' ');
+      text += " " + (k < 2 ? lines[i][k] + padding : padding + lines[i][k]) + " |";
+    }
+    text += "\n";
+    if (i > 0) continue;
+    text += "|";
+    for (std::size_t k = 0; k < width.size(); ++k)
+      text += k < 2 ? std::string(width[k] + 2, '-') + "|" : std::string(width[k] + 1, '-') + ":|";
+    text += "\n";
+  }
+  if (!rendered.notes.empty()) text += "\n";
+  for (const std::string& note : rendered.notes) text += fmt::format("- {}\n", replace_all(note, "\n", " "));
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text = csv_quoted(table.group_title) + "," + csv_quoted(table.name_title) + ",status,source";
+  for (const TableColumn& column : table.columns)
+    text += fmt::format(",{0},{0}_half_width,{0}_published,{0}_difference", column.key);
+  text += "\n";
+  for (const TableRow& row : table.rows) {
+    text += csv_quoted(row.group) + "," + csv_quoted(row.name) + "," + csv_quoted(status(row)) + "," +
+            csv_quoted(row.source);
+    for (const TableColumn& column : table.columns) {
+      const double ours = value_or_nan(row.values, column.key),
+                   published = value_or_nan(row.published, column.key);
+      text += fmt::format(",{},{},{},{}", csv_value(row, column.key),
+                          csv_number(value_or_nan(row.half_widths, column.key)), csv_number(published),
+                          csv_number(ours - published));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json json_without_rows(const Table& table) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"title", table.title},
+               {"heads", {table.group_title, table.name_title}},
+               {"columns", Json::array()},
+               {"rows", Json::array()},
+               {"notes", table.notes}};
+  for (const TableColumn& column : table.columns) {
+    json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
+    if (std::isfinite(column.range.low) && std::isfinite(column.range.high))
+      json["columns"].back()["range"] = {column.range.low, column.range.high};
+  }
+  return json;
+}
+
+namespace {
+
+/// Of the row's values, by column.
+nlohmann::ordered_json by_column(const Table& table, const std::map<std::string, double>& values) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const TableColumn& column : table.columns)
+    if (values.contains(column.key)) json[column.key] = values.at(column.key);
+  return json;
+}
+
+/// What there is of a row that has values: the numbers, what they are marked as, and how they are shown.
+void add_values(const Table& table, const TableRow& row, const RenderedTable::Line& shown,
+                nlohmann::ordered_json& line) {
+  if (!row.unsound.empty()) line["unsound"] = row.unsound;
+  if (!row.incomplete.empty()) line["incomplete"] = row.incomplete;
+  line["values"] = by_column(table, row.values);
+  if (!row.half_widths.empty()) line["half_widths"] = by_column(table, row.half_widths);
+  for (const auto& [key, mark] : row.marks) line["marks"][key] = mark == Mark::kBest ? "best" : "as good";
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (row.values.contains(table.columns[k].key) || row.texts.contains(table.columns[k].key))
+      line["shown"][table.columns[k].key] = shown.values[k];
+}
+
+}  // namespace
+
+std::string to_json(const Table& table) {
+  using Json = nlohmann::ordered_json;
+  Json json = json_without_rows(table);
+  Table whole = table;
+  whole.shown.clear();
+  for (TableRow& row : whole.rows) row.published.clear();
+  const RenderedTable rendered = render(whole, kPlain);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const TableRow& row = table.rows[i];
+    Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
+    if (!row.failure.empty() || !row.skipped.empty()) {
+      line["status"] = row.failure.empty() ? "skipped" : "failed";
+      line["reason"] = row.failure.empty() ? row.skipped : row.failure;
+    } else {
+      line["status"] = "ok";
+      add_values(table, row, rendered.lines[i], line);
+    }
+    if (!row.published.empty()) {
+      line["published"] = by_column(table, row.published);
+      std::map<std::string, double> difference;
+      for (const auto& [key, value] : row.published)
+        if (row.values.contains(key)) difference[key] = row.values.at(key) - value;
+      line["difference"] = by_column(table, difference);
+      line["source"] = row.source;
+    }
+    json["rows"].push_back(std::move(line));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+void read_values(const nlohmann::ordered_json& line, TableRow& row) {
+  const auto read = [&](const char* key, std::map<std::string, double>& values) {
+    if (!line.contains(key)) return;
+    for (const auto& [column, value] : line[key].items())
+      if (!value.is_null()) values[column] = value;
+  };
+  read("values", row.values);
+  read("half_widths", row.half_widths);
+  row.unsound = line.value("unsound", "");
+  row.incomplete = line.value("incomplete", "");
+  if (line.contains("marks"))
+    for (const auto& [key, mark] : line["marks"].items())
+      row.marks[key] = mark == "best" ? Mark::kBest : Mark::kAsGoodAsBest;
+}
+
+}  // namespace
+
+Table read_table(const std::filesystem::path& file) {
+  using Json = nlohmann::ordered_json;
+  try {
+    std::ifstream in(file);
+    const Json json = Json::parse(in);
+    Table table;
+    json.at("title").get_to(table.title);
+    table.group_title = json.at("heads").at(0);
+    table.name_title = json.at("heads").at(1);
+    json.at("notes").get_to(table.notes);
+    for (const Json& column : json.at("columns")) {
+      table.columns.push_back({column.at("key"), column.at("title"), column.at("digits")});
+      if (column.contains("range"))
+        table.columns.back().range = {column["range"].at(0), column["range"].at(1)};
+    }
+    for (const Json& line : json.at("rows")) {
+      TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};
+      if (line.at("status") != "ok")
+        (line.at("status") == "failed" ? row.failure : row.skipped) = line.at("reason");
+      read_values(line, row);
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  } catch (const Json::exception& error) {
+    throw InputError(json_problem(file, "is no table of results", error));
+  }
+}
+
+}  // namespace delquad

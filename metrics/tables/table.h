@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "metrics/tables/bootstrap.h"
+
+namespace delquad {
+
+struct TableColumn {
+  std::string key;                         ///< in CSV and JSON
+  std::string title;                       ///< for people
+  int digits = 0;                          ///< after the decimal point
+  Interval range = {-HUGE_VAL, HUGE_VAL};  ///< that no value leaves
+};
+
+enum class Mark {
+  kBest,         ///< of its group, as is proven
+  kAsGoodAsBest  ///< the best of its group, which is not proven, or not proven to be worse
+};
+
+struct TableRow {
+  std::string group, name;                  ///< first two columns: case and pipeline
+  std::map<std::string, double> values;     ///< by column key; absent or NaN: not known
+  std::map<std::string, double> published;  ///< to compare with, as printed there
+  std::string source;                       ///< where the published values stand; empty: none
+  std::string failure;                      ///< why there are no values; empty: none
+  std::string skipped = {};                 ///< why it was left out; empty: it was not
+  /// Of means over several runs: half the width of their 95 % confidence interval, by column key.
+  std::map<std::string, double> half_widths = {};
+  std::map<std::string, Mark> marks = {};  ///< by column key
+  std::map<std::string, std::string> texts =
+      {};                       ///< what stands for a value, by column key; absent: the number
+  std::string unsound = {};     ///< how many of the meshes are not sound; empty: all are
+  std::string incomplete = {};  ///< how many of the runs failed; empty: none, or all
+};
+
+/// Why a pipeline was left out that is not for the case: kind, as in ProcessFailure, and status of its
+/// record.
+inline constexpr const char* kNotApplicable = "not applicable";
+/// The column that says of how many runs the values are.
+inline constexpr const char* kRuns = "n";
+/// Of the problem, not the mesh: rows of quads that are expected to end.
+inline constexpr const char* kRowEnds = "row_ends";
+/// Of a mesh, what its finish steps took and by how much they raised the mean eta.
+inline constexpr const char *kFinishSeconds = "finish_seconds", *kFinishEta = "finish_eta";
+
+/// The second column, where it says so when meshes are not sound or runs have failed.
+std::string shown_name(const TableRow& row);
+
+/// Results beside published ones.
+struct Table {
+  std::string title;
+  std::string group_title = "case", name_title = "pipeline";
+  std::vector<TableColumn> columns;
+  std::vector<TableRow> rows;
+  std::vector<std::string> notes;
+  std::vector<std::string> shown = {};  ///< keys of columns in Markdown and LaTeX, in their order; empty: all
+};
+/// The columns in Markdown and LaTeX.
+std::vector<TableColumn> shown_columns(const Table& table);
+
+/// The extensions of what a table is written to, and what writes them.
+struct TableFormat {
+  const char* extension;
+  std::string (*print)(const Table&);
+};
+const std::vector<TableFormat>& table_formats();
+
+/// A cell of ours with a published counterpart reads "ours (published, difference)". Values that have a
+/// half-width are shown with two significant digits of it; where that leaves the range of the column, the
+/// ends of what the range leaves of the interval stand in its place.
+std::string to_markdown(const Table& table);
+/// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
+/// the notes below them. More than 40 rows go over pages, by longtable.
+std::string to_tex(const Table& table);
+/// For each column: value, published value, difference.
+std::string to_csv(const Table& table);
+/// What the JSON of a table begins with: title, heads, columns; rows that are still empty; notes.
+nlohmann::ordered_json json_without_rows(const Table& table);
+std::string to_json(const Table& table);
+/// What to_json() has written. Throws InputError naming the file.
+Table read_table(const std::filesystem::path& file);
+
+}  // namespace delquad

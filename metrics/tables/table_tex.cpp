@@ -1,0 +1,255 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "metrics/tables/rendered_table.h"
+
+// Tables for LaTeX. They are set at 8 points, and columns that do not fit beside each other stand below each
+// other, over the same rows. Widths are those of Computer Modern, rounded up.
+
+namespace delquad {
+namespace {
+
+constexpr double kPageWidth = 345;    ///< points: \textwidth of LaTeX's classes on A4 at 10 points
+constexpr double kFigure = 4.25;      ///< points, at 8 points
+constexpr double kBold = 1.15;        ///< times as wide
+constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
+constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
+constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
+constexpr std::size_t kLongestWord = 30;   ///< characters of a note without one
+constexpr std::size_t kMostRows = 40;      ///< that fit on a page, with head and notes
+
+/// The next character of UTF-8 and its bytes; U+FFFD for what is none.
+std::pair<char32_t, std::size_t> decode(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0x80) return {first, 1};
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {0xFFFD, 1};
+  char32_t code = first & (0x7Fu >> length);
+  for (std::size_t k = 1; k < length; ++k) {
+    const auto next = static_cast<unsigned char>(text[k]);
+    if ((next & 0xC0) != 0x80) return {0xFFFD, 1};
+    code = code << 6 | (next & 0x3Fu);
+  }
+  return {code, length};
+}
+
+/// Letters of western Europe that every LaTeX has in its first fonts; others would end its run.
+bool is_in_every_font(char32_t code) {
+  constexpr std::u32string_view kMissing = U"\u00D0\u00D7\u00DE\u00F0\u00F7\u00FE";
+  return code >= 0xC0 && code <= 0xFF && kMissing.find(code) == kMissing.npos;
+}
+
+constexpr const char* kTilde = "$\\sim$";
+
+std::string tex_character(char c) {
+  switch (c) {
+    case '\\':
+      return "\\textbackslash{}";
+    case '^':
+      return "\\^{}";
+    case '~':
+      return kTilde;  // as marks have it
+    case '<':
+    case '>':
+    case '|':
+      return fmt::format("${}$", c);
+    case '&':
+    case '%':
+    case '$':
+    case '#':
+    case '_':
+    case '{':
+    case '}':
+      return fmt::format("\\{}", c);
+    default:
+      return static_cast<unsigned char>(c) < ' ' || c == 0x7F ? " " : std::string(1, c);
+  }
+}
+
+std::string tex_escaped(const std::string& text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto [code, bytes] = decode(std::string_view(text).substr(at));
+    if (code < 0x80)
+      result += tex_character(text[at]);
+    else if (code == 0xB1)
+      result += "$\\pm$";
+    else
+      result += is_in_every_font(code) ? text.substr(at, bytes) : "?";
+    at += bytes;
+  }
+  return result;
+}
+
+/// Comments end with their line.
+std::string in_one_line(const std::string& text) { return replace_all(text, "\n", " "); }
+
+constexpr TableStyle kTex = {"\\textbf{", "}", kTilde, " $\\pm$ ", tex_escaped};
+
+/// In widths of a figure, rounded up.
+double width_of(char c) {
+  constexpr std::string_view kThinLetters = " .,:;'!il|", kWideLetters = "mwMW%";
+  if ((static_cast<unsigned char>(c) & 0xC0) == 0x80 || c == '{' || c == '}' || c == '$') return 0;
+  if (kThinLetters.find(c) != kThinLetters.npos) return 0.67;
+  if (kWideLetters.find(c) != kWideLetters.npos) return 2.1;
+  return c >= 'A' && c <= 'Z' ? 1.65 : 1.07;
+}
+
+/// In points. Commands are signs, of at most two figures; bold is wider by a seventh.
+double width_of(const std::string& text) {
+  const bool is_bold = text.starts_with(kTex.best_begin);
+  double figures = 0;
+  for (std::size_t i = is_bold ? std::string_view(kTex.best_begin).size() : 0; i < text.size(); ++i) {
+    if (text[i] != '\\') {
+      figures += width_of(text[i]);
+      continue;
+    }
+    figures += 2;
+    if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
+    while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
+  }
+  return kFigure * figures * (is_bold ? kBold : 1);
+}
+
+/// With places where a long name may be broken: after what is no letter or figure, and in words of more than
+/// `longest` characters.
+std::string breakable(const std::string& text, std::size_t longest) {
+  std::string result;
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    // Commands stay whole: from a backslash to the end of its letters and braces.
+    std::size_t end = i + 1;
+    if (text[i] == '\\' && end < text.size()) {
+      if (!std::isalpha(static_cast<unsigned char>(text[end++])))
+        ;
+      else
+        while (end < text.size() && std::isalpha(static_cast<unsigned char>(text[end]))) ++end;
+      if (text.compare(end, 2, "{}") == 0) end += 2;
+    } else if (text[i] == '$') {
+      end = text.find('$', i + 1) + 1;
+    }
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+    const bool plain = std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+    result += text.substr(i, end - i);
+    if (text[i] != ' ' && (!plain || ++piece == longest)) {
+      result += "\\allowbreak{}";
+      piece = 0;
+    }
+    i = end;
+  }
+  return result;
+}
+
+/// Only what is too long for a word, such as a path, may be broken anywhere but at spaces.
+std::string breakable_note(const std::string& note) {
+  std::string result;
+  for (std::size_t begin = 0, end; begin <= note.size(); begin = end + 1) {
+    end = std::min(note.find(' ', begin), note.size());
+    const std::string word = note.substr(begin, end - begin);
+    result += (begin > 0 ? " " : "") + (word.size() > kLongestWord ? breakable(word, kLongestWord) : word);
+  }
+  return result;
+}
+
+/// The columns of one tabular beside the names.
+struct Block {
+  std::size_t first, last;
+};
+
+class TexTable {
+ public:
+  explicit TexTable(const Table& table) : title_(table.title), rendered_(render(table, kTex)) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      double width = width_of(rendered_.head.names[k]);
+      for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.names[k]));
+      names_[k] = std::min(width, kMostOfNames);
+      broken_[k] = width > kMostOfNames;
+    }
+    double failed = 0;
+    for (const auto& line : rendered_.lines) failed = std::max(failed, width_of(line.missing));
+    for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
+      double width = std::max(failed, width_of(rendered_.head.values[k]));
+      for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.values[k]));
+      values_.push_back(width + kColumnSpace);
+    }
+  }
+
+  std::string text() const {
+    std::string text = fmt::format(
+        "% {}\n% Set at 8 points; to be input between paragraphs{}.\n"
+        "\\begingroup\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}%\n",
+        in_one_line(title_),
+        is_long() ? ", not in a float, with booktabs and longtable" : " or in a float, with booktabs");
+    for (const Block& block : blocks()) text += tabular(block) + "\\par\\medskip\n";
+    if (!rendered_.notes.empty()) {
+      text += "{\\raggedright\n";
+      for (const std::string& note : rendered_.notes)
+        text += fmt::format("\\noindent {}\\par\n", breakable_note(tex_escaped(in_one_line(note))));
+      text += "}\n";
+    }
+    return text + "\\endgroup\n";
+  }
+
+ private:
+  /// As many columns beside each other as fit, at least one.
+  std::vector<Block> blocks() const {
+    const double room = kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace;
+    std::vector<Block> result = {{0, 0}};
+    double used = 0;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      if (used + values_[k] > room && result.back().last > result.back().first) {
+        result.push_back({k, k});
+        used = 0;
+      }
+      used += values_[k];
+      result.back().last = k + 1;
+    }
+    return result;
+  }
+
+  std::string name(std::size_t k, const std::string& text) const {
+    return broken_[k] ? breakable(text, kLongestPiece) : text;
+  }
+
+  std::string line(const RenderedTable::Line& line, const Block& block) const {
+    std::string text = name(0, line.names[0]) + " & " + name(1, line.names[1]);
+    bool said = line.missing.empty();
+    for (std::size_t k = block.first; k < block.last; ++k) {
+      std::string value = line.values[k];
+      if (!said && value.empty()) {
+        value = line.missing;
+        said = true;
+      }
+      text += " & " + value;
+    }
+    return text + " \\\\\n";
+  }
+
+  bool is_long() const { return rendered_.lines.size() > kMostRows; }
+
+  /// One that is long runs over pages, with its head on each of them.
+  std::string tabular(const Block& block) const {
+    std::string text = is_long() ? "\\begin{longtable}[l]{@{}" : "\\noindent\\begin{tabular}{@{}";
+    for (std::size_t k = 0; k < 2; ++k) text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
+    text += std::string(block.last - block.first, 'r') + "@{}}\n\\toprule\n" + line(rendered_.head, block) +
+            "\\midrule\n";
+    if (is_long()) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
+    for (const auto& l : rendered_.lines) text += line(l, block);
+    return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");
+  }
+
+  std::string title_;
+  RenderedTable rendered_;
+  double names_[2];  ///< widths
+  bool broken_[2];
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+std::string to_tex(const Table& table) { return TexTable(table).text(); }
+
+}  // namespace delquad

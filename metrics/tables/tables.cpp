@@ -1,0 +1,301 @@
+#include "metrics/tables/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <set>
+
+#include "delquad/error.h"
+#include "io/mesh_io.h"
+#include "metrics/tables/calibration_notes.h"
+#include "metrics/tables/cell_text.h"
+#include "metrics/tables/inference.h"
+#include "metrics/tables/statistics.h"
+#include "metrics/tables/times.h"
+#include "metrics/tables/triangle_notes.h"
+
+namespace delquad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCorrelations = "correlations";
+
+class Tabulation {
+ public:
+  Tabulation(const StudyFile& study, const std::vector<CellRecord>& records)
+      : study_(study), records_(records), inference_(study, records) {}
+
+  Outcome run() {
+    Table& table = outcome_.table;
+    table.title = study_.title;
+    table.columns = table_columns(study_, records_);
+    choose_columns();
+    for (const PublishedRow& row : study_.published)
+      table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
+    const std::size_t first = table.rows.size();
+    for (const Samples& row : inference_.samples()) add_row(row);
+    const auto rows = std::span(table.rows).subspan(first);
+    inference_.marking().mark(inference_.family(), rows);
+    note_claims(rows);
+    add_notes(triangle_notes(records_,
+                             "there it does not compete in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              table);
+    note_times();
+    add_notes(quad_count_notes(records_), table);
+    note_cells();
+    note_failed_metrics();
+    if (study_.ratio) note_ratio(*study_.ratio);
+    outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
+    note_pairs();
+    return std::move(outcome_);
+  }
+
+ private:
+  void add_row(const Samples& samples) {
+    TableRow row{samples.group, samples.pipeline, {}, {}, "", ""};
+    for (const CellRecord* failed : samples.failed)
+      ++(failed->kind == "bad input" ? outcome_.bad_inputs
+         : failed->kind == "unsound" ? outcome_.unsound
+                                     : outcome_.others_failed);
+    if (samples.done.empty()) {
+      if (samples.failed.empty())
+        row.skipped = samples.skipped[0]->kind;
+      else
+        row.failure = samples.failed[0]->reason;
+    } else {
+      for (const TableColumn& column : outcome_.table.columns) add_value(samples, column.key, row);
+      const auto unsound = std::ranges::count_if(samples.done, [](auto* r) { return !r->unsound.empty(); });
+      if (unsound > 0)
+        row.unsound = samples.done.size() == 1
+                          ? "unsound"
+                          : fmt::format("{} of {} unsound", unsound, samples.done.size());
+      if (!samples.failed.empty())
+        row.incomplete = fmt::format("{} of {} failed", samples.failed.size(),
+                                     samples.failed.size() + samples.done.size());
+      if (!samples.failed.empty())
+        outcome_.table.notes.push_back(fmt::format(
+            "{} {}: {} of {} runs failed, the first: {}", samples.group, samples.pipeline,
+            samples.failed.size(), samples.failed.size() + samples.done.size(), samples.failed[0]->reason));
+      if (samples.done[0]->quads_only)
+        for (const double n : samples.of("n_triangles"))
+          outcome_.leftover_triangles += static_cast<long long>(n);
+    }
+    row.values[kRuns] = static_cast<double>(samples.done.size());
+    add_published(samples, row);
+    outcome_.table.rows.push_back(std::move(row));
+  }
+
+  void add_value(const Samples& samples, const std::string& key, TableRow& row) const {
+    const bool is_time = study_.repeat_times > 0 && (key == time_key(study_) || key == kLeastTime);
+    const std::vector<double> values = is_time ? samples.times(time_key(study_)) : samples.of(key);
+    if (values.empty()) return;
+    row.values[key] = !is_time            ? mean(values)
+                      : key == kLeastTime ? *std::ranges::min_element(values)
+                                          : median(values);
+    if (is_time) row.texts[key] = seconds_text(row.values[key]);
+    if (!is_time && values.size() > 1) row.half_widths[key] = confidence_half_width(values);
+  }
+
+  void add_published(const Samples& samples, TableRow& row) const {
+    const auto& records = !samples.done.empty()     ? samples.done
+                          : !samples.failed.empty() ? samples.failed
+                                                    : samples.skipped;
+    const auto words = study_.compare.find(records[0]->name);
+    if (words == study_.compare.end() || samples.done.empty()) return;
+    const auto name = words->second.find(samples.pipeline);
+    if (name == words->second.end()) return;
+    for (const PublishedRow& published : study_.published)
+      if (published.name == name->second) {
+        row.published = published.values;
+        row.source = published.name + ", " + published.source;
+      }
+  }
+
+  /// Those that the experiment asks for, with the number of runs, and the least time beside the median.
+  void choose_columns() {
+    if (study_.columns.empty()) return;
+    std::vector<std::string>& shown = outcome_.table.shown;
+    shown = {kRuns};
+    for (const std::string& key : study_.columns) {
+      if (key != kRuns) shown.push_back(key);
+      if (study_.repeat_times > 0 && key == time_key(study_)) shown.push_back(kLeastTime);
+    }
+  }
+
+  void note_claims(std::span<const TableRow> rows) {
+    const ClaimFamily& family = inference_.family();
+    const std::vector<std::string> notes = inference_.marking().notes(family, rows);
+    if (notes.empty()) return;
+    add_notes(notes, outcome_.table);
+    if (inference_.marking().can_prove(family))
+      outcome_.table.notes.push_back(
+          "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
+          "repeated runs. " +
+          family.note());
+    if (study_.cases.size() < kFewestDomains)
+      outcome_.table.notes.push_back(fmt::format(
+          "With fewer than {} domains (cases) nothing can be proven over domains.", kFewestDomains));
+  }
+
+  static void add_notes(const std::vector<std::string>& notes, Table& table) {
+    table.notes.insert(table.notes.end(), notes.begin(), notes.end());
+  }
+
+  /// What pairs lack, and why.
+  void note_pairs() {
+    add_notes(triangle_notes(records_,
+                             "no pair with it is compared in measures of quads (eta, d4 and the like), from "
+                             "which the triangles are missing"),
+              outcome_.pairs);
+    add_notes(quadless_notes(records_), outcome_.pairs);
+    add_notes(quad_count_notes(records_), outcome_.pairs);
+  }
+
+  void note_times() {
+    if (study_.repeat_times == 0) return;
+    std::size_t most = 0;
+    for (const Samples& row : inference_.samples()) most = std::max(most, row.times(time_key(study_)).size());
+    outcome_.table.notes.push_back(
+        most == 0 ? "The runs have not been repeated yet for their times."
+                  : fmt::format("Times: median and least of {} runs on the clock, the pipelines in changing "
+                                "order.",
+                                most));
+  }
+
+  /// What there is to say of single cells, and of those that are not there.
+  void note_cells() {
+    std::vector<std::string>& notes = outcome_.table.notes;
+    std::set<std::string> said;
+    const auto say = [&](const std::string& text) {
+      if (said.insert(text).second) notes.push_back(text);
+    };
+    for (const CellRecord& record : records_) {
+      if (record.kind == kNotApplicable)
+        say(fmt::format("{} {} is not applicable: {}", record.group, record.pipeline, record.reason));
+      else if (record.skipped)
+        say(fmt::format("{}: {}", record.name, record.reason));
+      say_size(record, say);
+      for (const std::string& reason : record.unsound)
+        say(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
+      for (const std::string& warning : record.warnings)
+        if (warning.starts_with(record.name + " ")) say("warning: " + warning);
+    }
+    for (const std::string& note : calibration_notes(records_)) say(note);
+    if (records_.size() < study_.cells)
+      notes.push_back(
+          fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
+  }
+
+  /// Of each measure that has no value somewhere: where, and why.
+  void note_failed_metrics() {
+    std::map<std::string, std::pair<std::size_t, std::string>> failed;  // how often, the first
+    for (const CellRecord& record : records_)
+      for (const auto& [key, reason] : record.failed_metrics) {
+        auto& [count, first] = failed[key];
+        if (count++ == 0) first = fmt::format("{} {}: {}", record.group, record.pipeline, reason);
+      }
+    for (const auto& [key, entry] : failed)
+      outcome_.table.notes.push_back(entry.first == 1 ? fmt::format("no '{}' of {}", key, entry.second)
+                                                      : fmt::format("no '{}' of {} cells, the first {}", key,
+                                                                    entry.first, entry.second));
+  }
+
+  /// Against which size tau is measured.
+  template <class Say>
+  static void say_size(const CellRecord& record, const Say& say) {
+    const bool uniform = !record.uniform_size.empty() && record.variant.empty();
+    if (record.size_adapted_to.empty()) {
+      if (uniform) say(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
+      return;
+    }
+    say(fmt::format(
+        "{}: delta{} was made smaller for {}: tau is measured against that, tau given against "
+        "delta as it was given",
+        record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));
+  }
+
+  void note_ratio(const ExpectedRatio& ratio) {
+    for (const Samples& a : inference_.samples()) {
+      if (a.pipeline != ratio.numerator) continue;
+      for (const Samples& b : inference_.samples()) {
+        if (b.pipeline != ratio.denominator || b.group != a.group) continue;
+        const std::vector<double> above = a.of(ratio.metric), below = b.of(ratio.metric);
+        if (above.empty() || below.empty() || mean(below) == 0) continue;
+        const double quotient = mean(above) / mean(below);
+        outcome_.table.notes.push_back(fmt::format(
+            "{}: {} of {} / {} = {:.4f}; expected {:.4f} ({:+.2f} %{}{})", a.group, ratio.metric,
+            ratio.numerator, ratio.denominator, quotient, ratio.expected,
+            100 * (quotient / ratio.expected - 1), ratio.source.empty() ? "" : "; ", ratio.source));
+      }
+    }
+  }
+
+  const StudyFile& study_;
+  const std::vector<CellRecord>& records_;
+  Inference inference_;
+  Outcome outcome_;
+};
+
+}  // namespace
+
+StudyResults read_results(const fs::path& folder) {
+  StudyResults results;
+  results.records = read_records(folder);
+  std::optional<StudyFile> study = read_study(folder);
+  if (!study)
+    throw InputError((folder / "study.json").string() +
+                     ": is missing: expected the folder of 'delquad run -o'");
+  results.study = *std::move(study);
+  results.time_problems = attach_times(results.records);
+  results.left_out = std::erase_if(results.records, [&](const CellRecord& r) {
+    return !place_of(results.study, {r.name, r.variant, r.pipeline});
+  });
+  return results;
+}
+
+Outcome make_tables(const StudyResults& results) {
+  Outcome outcome = Tabulation(results.study, results.records).run();
+  if (results.study.correlation)
+    outcome.correlations =
+        correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
+  outcome.figures = make_figures(results.records);
+  outcome.metrics_failed = std::ranges::count_if(results.records, &CellRecord::metric_failed);
+  outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
+                             results.time_problems.end());
+  if (results.left_out > 0)
+    outcome.table.notes.push_back(
+        fmt::format("{} records of cells that the experiment no longer has are left out", results.left_out));
+  return outcome;
+}
+
+Outcome make_tables(const fs::path& folder) { return make_tables(read_results(folder)); }
+
+std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
+  std::vector<std::string> errors;
+  for (const auto& [name, table] : {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
+                                    std::pair(kCorrelations, &outcome.correlations)})
+    for (const TableFormat& format : table_formats()) {
+      const fs::path file = folder / (std::string(name) + format.extension);
+      try {
+        if (!table->rows.empty())
+          write_file_atomically(file, [&](std::ostream& out) { out << format.print(*table); });
+      } catch (const InputError& error) {
+        errors.push_back(error.what());
+      }
+    }
+  for (const std::string& error : write_figures(folder, outcome.figures)) errors.push_back(error);
+  return errors;
+}
+
+std::vector<std::string> result_files() {
+  std::vector<std::string> files = {"study.json", "experiment", kFigures};
+  for (const char* name : {"table", "pairs", kCorrelations})
+    for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
+  return files;
+}
+
+}  // namespace delquad

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "metrics/tables/figures.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/study_file.h"
+#include "metrics/tables/table.h"
+
+namespace delquad {
+
+/// What came of the cells of an experiment.
+struct Outcome {
+  Table table;
+  /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
+  Table pairs;
+  Table correlations = {};           ///< that the experiment asks for; no rows where it does not
+  std::vector<Figure> figures;       ///< of several pipelines over several cases
+  long long leftover_triangles = 0;  ///< in cells whose pipeline makes quads only
+  int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
+  long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
+};
+
+/// The records of an experiment's cells, and what it consists of.
+struct StudyResults {
+  StudyFile study;
+  std::vector<CellRecord> records;              ///< by place
+  std::size_t left_out = 0;                     ///< records of cells that the experiment no longer has
+  std::vector<std::string> time_problems = {};  ///< files of repeated times that cannot be used, and why
+};
+/// Throws InputError as read_records() does, and where the folder has no study.json.
+StudyResults read_results(const std::filesystem::path& folder);
+
+/// The tables of an experiment, from the records of its cells and its study.json alone. Cells that differ in
+/// nothing but the seed make one row: means, and the half-widths of their 95 % confidence intervals. What is
+/// marked or called better is proven, see docs/statistics.md.
+Outcome make_tables(const StudyResults& results);
+/// Throws InputError as read_results() does.
+Outcome make_tables(const std::filesystem::path& folder);
+/// Writes the tables that have rows in every format, and the figures; returns what could not be written.
+std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);
+/// Every name that an experiment itself takes in the folder of its results.
+std::vector<std::string> result_files();
+
+}  // namespace delquad

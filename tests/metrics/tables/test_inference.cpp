@@ -1,0 +1,355 @@
+#include "metrics/tables/inference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+
+#include "metrics/tables/tables.h"
+
+namespace delquad {
+namespace {
+
+/// A study made up: what each pipeline has on a domain, with a seed. No meshes.
+struct Shape {
+  std::vector<std::string> words;
+  int domains, seeds;
+  std::vector<std::string> measures = {"eta_mean", "eta_worst", "d4", "tau"};
+};
+
+using Value = std::function<double(int word, int domain, int seed)>;
+
+StudyResults make_study(const Shape& shape, const Value& value) {
+  StudyResults results;
+  results.study.title = "Made up";
+  results.study.pipelines = shape.words;
+  for (int d = 0; d < shape.domains; ++d) {
+    const std::string name = "domain" + std::to_string(d);
+    results.study.cases.push_back(name);
+    for (int s = 0; s < shape.seeds; ++s)
+      for (int w = 0; w < static_cast<int>(shape.words.size()); ++w) {
+        const std::string seed = std::to_string(s + 1);
+        CellRecord record{name + "@seed=" + seed, shape.words[static_cast<std::size_t>(w)], "", {}};
+        record.name = name;
+        record.variant = {{"seed", seed}};
+        record.values = {{"n_quads", 100}, {"n_triangles", 0}, {"seconds", 1}};
+        for (const std::string& key : shape.measures) record.values[key] = value(w, d, s);
+        results.records.push_back(record);
+      }
+  }
+  results.study.cells = results.records.size();
+  return results;
+}
+
+int claims_of(const StudyResults& results) {
+  const Inference inference(results.study, results.records);
+  int claims = 0;
+  for (std::size_t i = 0; i < inference.family().size(); ++i)
+    claims += inference.family().finding(i) == Finding::kProven;
+  return claims;
+}
+
+/// All that a table shows as proven.
+int claims_of(const Table& table) {
+  int claims = 0;
+  for (const TableRow& row : table.rows) {
+    const auto word = row.texts.find("first_is");
+    claims += word != row.texts.end() && (word->second == "better" || word->second == "worse");
+    for (const auto& [key, mark] : row.marks) claims += mark == Mark::kBest;
+  }
+  return claims;
+}
+
+int pair_claims_of(const StudyResults& results) {
+  const Inference inference(results.study, results.records);
+  return static_cast<int>(std::ranges::count_if(inference.pairs(), [&](const PairComparison& pair) {
+    return inference.family().finding(pair.test) == Finding::kProven;
+  }));
+}
+
+/// Studies without any effect, and how many of them may claim something: 5 %, and three standard errors of
+/// that where the tests use all of their 5 % up.
+struct Trial {
+  Shape shape;
+  int studies, most;
+};
+
+void PrintTo(const Trial& trial, std::ostream* out) {
+  *out << trial.shape.words.size() << " words, " << trial.shape.domains << " domains, " << trial.shape.seeds
+       << " seeds";
+}
+class NoEffect : public testing::TestWithParam<Trial> {};
+
+/// Words that are alike on every domain: nothing at all may be claimed, anywhere.
+TEST_P(NoEffect, AtMostOneStudyInTwentyClaimsAnything) {
+  const auto& [shape, studies, most] = GetParam();
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal;
+  int claiming = 0;
+  for (int study = 0; study < studies; ++study)
+    claiming += claims_of(make_study(shape, [&](int, int, int) { return normal(random); })) > 0;
+  EXPECT_LE(claiming, most);
+}
+
+/// Now the one, now the other is truly better on a domain, with all of its seeds, and none over domains:
+/// nothing may be claimed of pairs.
+TEST_P(NoEffect, SeedsOfOneDomainDoNotClaimAnythingOfPairs) {
+  const auto& [shape, studies, most] = GetParam();
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  int claiming = 0;
+  for (int study = 0; study < studies; ++study) {
+    std::map<std::pair<int, int>, double> leaning;  // of a word on a domain
+    const auto value = [&](int word, int domain, int) {
+      const auto [at, is_new] = leaning.try_emplace({word, domain});
+      if (is_new) at->second = 3 * normal(random);
+      return at->second + 0.3 * normal(random);
+    };
+    claiming += pair_claims_of(make_study(shape, value)) > 0;
+  }
+  EXPECT_LE(claiming, most);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, NoEffect,
+                         testing::Values(Trial{{{"A", "B", "C"}, 25, 8}, 200, 10},
+                                         Trial{{{"A", "B"}, 6, 8}, 1000, 70},
+                                         Trial{{{"A", "B"}, 12, 1}, 2000, 129},
+                                         Trial{{{"A", "B", "C"}, 2, 20}, 500, 39},
+                                         Trial{{{"A", "B"}, 1, 12}, 2000, 129}));
+
+/// With one pair and one measure the only test is Wilcoxon's of twelve normal differences with a mean of .8
+/// deviations: its power at 5 % is .669 by 200 000 draws with NumPy.
+constexpr double kPower = 0.669;
+constexpr int kStudies = 600;
+constexpr double kTolerance = 0.06;  // three standard errors of the part of so many studies
+
+TEST(Inference, FindsEffectsOverDomainsAsOftenAsComputed) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const Shape shape = {{"A", "B"}, 12, 4, {"eta_mean"}};
+  int found = 0;
+  for (int study = 0; study < kStudies; ++study) {
+    double lean = 0;
+    const auto value = [&](int word, int, int seed) {
+      if (word == 0 && seed == 0) lean = 0.8 + std::sqrt(0.75) * normal(random);
+      return word == 0 ? lean + normal(random) : 0;  // of four seeds: a variance of .25
+    };
+    const StudyResults results = make_study(shape, value);
+    const Inference inference(results.study, results.records);
+    ASSERT_EQ(inference.pairs().size(), 1u);
+    found += inference.family().finding(inference.pairs()[0].test) == Finding::kProven;
+  }
+  EXPECT_NEAR(double(found) / kStudies, kPower, kTolerance);
+}
+
+TEST(Inference, FindsTheBestOfADomainAsOftenAsComputed) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  const Shape shape = {{"A", "B"}, 1, 12, {"eta_mean"}};
+  int found = 0;
+  for (int study = 0; study < kStudies; ++study)
+    found += claims_of(
+        make_study(shape, [&](int word, int, int) { return word == 0 ? 0.8 + normal(random) : 0; }));
+  EXPECT_NEAR(double(found) / kStudies, kPower, kTolerance);
+}
+
+TEST(Inference, SeedsOfOneDomainAreNoSampleOfDomains) {
+  // Better on the one domain, with every one of thirty seeds; a little worse on the other.
+  const StudyResults results =
+      make_study({{"A", "B"}, 2, 30, {"eta_mean"}}, [](int word, int domain, int seed) {
+        return word == 0 ? (domain == 0 ? 0.1 : -0.01) + 1e-4 * seed : 0;
+      });
+  const Outcome outcome = make_tables(results);
+  ASSERT_EQ(outcome.pairs.rows.size(), 1u);
+  const TableRow& row = outcome.pairs.rows[0];
+  EXPECT_EQ(row.texts.at("first_is"), "too few domains");
+  EXPECT_EQ(row.values.at("domains"), 2);
+  EXPECT_EQ(row.values.at("runs"), 60);
+  EXPECT_EQ(row.values.at("better"), 1) << "the second; first minus second is B - A";
+  EXPECT_TRUE(row.marks.empty());
+  EXPECT_NE(to_markdown(outcome.pairs).find("fewer than 6 domains nothing can be proven"), std::string::npos);
+}
+
+TEST(Inference, PairsSayWhatIsProvenWithEffectAndInterval) {
+  const StudyResults results = make_study(
+      {{"A", "B"}, 12, 2, {"eta_mean"}},
+      [](int word, int domain, int seed) { return word == 1 ? 0.02 + 0.001 * domain + 0.0001 * seed : 0; });
+  const Outcome outcome = make_tables(results);
+  ASSERT_EQ(outcome.pairs.rows.size(), 1u);
+  const TableRow& row = outcome.pairs.rows[0];
+  EXPECT_EQ(row.name, "eta mean");
+  EXPECT_EQ(row.texts.at("first_is"), "better");
+  EXPECT_NEAR(row.values.at("effect"), 0.02 + 0.0055 + 0.00005, 1e-12);
+  EXPECT_LT(row.values.at("low"), row.values.at("effect"));
+  EXPECT_GT(row.values.at("low"), 0.02);
+  EXPECT_GT(row.values.at("high"), row.values.at("effect"));
+  EXPECT_DOUBLE_EQ(row.values.at("p"), std::exp2(-11));
+  EXPECT_EQ(to_markdown(outcome.pairs), to_markdown(make_tables(results).pairs)) << "the same bytes";
+}
+
+TEST(Inference, SizesOfADomainAreTheSameDomain) {
+  StudyResults results =
+      make_study({{"A", "B"}, 2, 4, {"eta_mean"}}, [](int word, int, int) { return word == 0 ? 1 : 0.5; });
+  const std::vector<CellRecord> fine = results.records;
+  for (CellRecord record : fine) {
+    record.variant.insert(record.variant.begin(), {"size", "0.1"});
+    record.group = record.name + "@size=0.1,seed=" + record.variant[1].second;
+    results.records.push_back(record);
+  }
+  const Inference inference(results.study, results.records);
+  ASSERT_EQ(inference.pairs().size(), 1u);
+  EXPECT_EQ(inference.pairs()[0].domains.names.size(), 2u);
+  EXPECT_EQ(inference.pairs()[0].domains.runs, 16u);
+}
+
+TEST(Marks, SingleRunsProveNothing) {
+  const Outcome outcome =
+      make_tables(make_study({{"A", "B"}, 5, 1}, [](int word, int, int) { return 0.5 + 0.1 * word; }));
+  EXPECT_EQ(claims_of(outcome.table), 0);
+  const std::string text = to_markdown(outcome.table);
+  EXPECT_EQ(text.find("**"), std::string::npos) << text;
+  EXPECT_NE(text.find("Single runs"), std::string::npos) << text;
+}
+
+TEST(Marks, TooFewSeedsAreSaid) {
+  // Five seeds that all agree: p = .0625 at best.
+  const std::string text =
+      to_markdown(make_tables(make_study({{"A", "B"}, 1, 5}, [](int word, int, int seed) {
+                    return word + 0.1 * seed;
+                  })).table);
+  EXPECT_EQ(text.find("**"), std::string::npos) << text;
+  EXPECT_NE(text.find("too few seeds to tell"), std::string::npos) << text;
+}
+
+TEST(Marks, TheBestIsBoldWhereItIsProven) {
+  const Outcome outcome =
+      make_tables(make_study({{"A", "B", "C"}, 1, 20, {"eta_mean"}}, [](int word, int, int seed) {
+        return word == 0 ? 0.9 + 0.001 * seed : word == 1 ? 0.5 + 0.001 * seed : 0.1 * (seed % 3);
+      }));
+  EXPECT_EQ(outcome.table.rows[0].marks.at("eta_mean"), Mark::kBest);
+  EXPECT_FALSE(outcome.table.rows[1].marks.contains("eta_mean"));
+  const std::string text = to_markdown(outcome.table);
+  EXPECT_NE(text.find("over 3 tests"), std::string::npos) << text;
+  EXPECT_NE(text.find("Bold: proven"), std::string::npos) << text;
+}
+
+TEST(Marks, WhatIsNotProvenIsAsGood) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  const Outcome outcome =
+      make_tables(make_study({{"A", "B", "C"}, 1, 20, {"eta_mean"}},
+                             [&](int word, int, int) { return (word < 2 ? 9 : 0) + normal(random); }));
+  EXPECT_EQ(outcome.table.rows[0].marks.at("eta_mean"), Mark::kAsGoodAsBest);
+  EXPECT_EQ(outcome.table.rows[1].marks.at("eta_mean"), Mark::kAsGoodAsBest);
+  EXPECT_FALSE(outcome.table.rows[2].marks.contains("eta_mean")) << "proven to be worse";
+}
+
+/// Most seeds are a little better, one is far worse: ranks and means disagree, and nothing is claimed.
+TEST(Marks, NothingIsBestAgainstItsRanks) {
+  const Outcome outcome =
+      make_tables(make_study({{"A", "B"}, 1, 20, {"eta_mean"}}, [](int word, int, int seed) {
+        return word == 0 ? (seed == 0 ? -100 : 1 + 0.01 * seed) : 0;
+      }));
+  EXPECT_EQ(claims_of(outcome.table), 0);
+}
+
+TEST(Marks, WordsThatLeaveTrianglesDoNotCompeteInMeasuresOfQuads) {
+  StudyResults results = make_study({{"A", "B", "G"}, 12, 20, {"eta_mean", "tau"}},
+                                    [](int word, int, int seed) { return word + 0.001 * seed; });
+  for (CellRecord& record : results.records)
+    if (record.pipeline == "G") record.values["n_triangles"] = 7;
+  const Outcome outcome = make_tables(results);
+  EXPECT_FALSE(outcome.table.rows[2].marks.contains("eta_mean"));
+  EXPECT_EQ(outcome.table.rows[1].marks.at("eta_mean"), Mark::kBest);
+  EXPECT_EQ(outcome.table.rows[2].marks.at("tau"), Mark::kBest);
+  for (const TableRow& row : outcome.pairs.rows)
+    EXPECT_FALSE(row.group.find('G') != row.group.npos && row.name == "eta mean") << row.group;
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(Notes, SayThatFewDomainsProveNothing) {
+  const auto tables_of = [](int domains, int seeds) {
+    return make_tables(make_study({{"A", "B"}, domains, seeds, {"eta_mean"}},
+                                  [](int word, int, int seed) { return word + 0.001 * seed; }));
+  };
+  const std::string few = "fewer than 6 domains (cases) nothing can be proven over domains";
+  const Outcome seeds = tables_of(2, 20), cases = tables_of(12, 1), nothing = tables_of(3, 4);
+  EXPECT_TRUE(says(to_markdown(seeds.table), "Proven: ")) << "of single cases";
+  EXPECT_TRUE(says(to_markdown(seeds.table), few));
+  EXPECT_FALSE(says(to_markdown(seeds.pairs), "Holm")) << to_markdown(seeds.pairs);
+  EXPECT_TRUE(says(to_markdown(cases.pairs), "Corrected (Holm) over 1 test,")) << to_markdown(cases.pairs);
+  EXPECT_FALSE(says(to_markdown(cases.table), "Proven: ")) << "in the pairs alone";
+  EXPECT_FALSE(says(to_markdown(cases.table), few));
+  EXPECT_FALSE(says(to_markdown(nothing.table), "Holm"));
+  EXPECT_TRUE(says(to_markdown(nothing.table), few));
+}
+
+TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
+  StudyResults results = make_study({{"A", "B", "G", "H"}, 12, 2, {"eta_mean", "tau"}},
+                                    [](int word, int, int seed) { return word + 0.001 * seed; });
+  for (CellRecord& record : results.records) {
+    if (record.pipeline == "G" && record.name.size() == 7) record.values["n_triangles"] = 7;
+    if (record.pipeline == "H" && record.group == "domain11@seed=2") record.values["n_triangles"] = 1;
+    if (record.pipeline == "H" && record.name == "domain3") record.values["n_quads"] = 0;
+  }
+  const Outcome outcome = make_tables(results);
+  const std::string g =
+      "G leaves triangles in 10 of 12 cases (domain0, domain1, domain2, domain3, domain4 and 5 more): ";
+  const std::string h = "H leaves triangles in 1 of 11 cases (domain11): ";
+  for (const auto print : {to_markdown, to_json}) {
+    const std::string table = print(outcome.table), pairs = print(outcome.pairs);
+    EXPECT_TRUE(says(table, g + "there it does not compete in measures of quads")) << table;
+    EXPECT_TRUE(says(table, h + "there it does not compete")) << table;
+    EXPECT_TRUE(says(pairs, g + "no pair with it is compared in measures of quads (eta, d4")) << pairs;
+    EXPECT_TRUE(says(pairs, h + "no pair with it")) << pairs;
+    EXPECT_TRUE(says(pairs, "H made no quads on one case (domain3): no pair with it has these")) << pairs;
+    EXPECT_FALSE(says(pairs, "A made no quads")) << pairs;
+    EXPECT_FALSE(says(table, "A leaves")) << table;
+  }
+}
+
+TEST(Times, OneRunOfEachSaysNothing) {
+  StudyResults results =
+      make_study({{"A", "B"}, 12, 12}, [](int word, int, int) { return 0.5 + 0.1 * word; });
+  for (CellRecord& record : results.records) record.values["seconds"] = record.pipeline == "A" ? 1 : 100;
+  const Outcome outcome = make_tables(results);
+  for (const TableRow& row : outcome.table.rows) EXPECT_FALSE(row.marks.contains("seconds"));
+  for (const TableRow& row : outcome.pairs.rows) EXPECT_NE(row.name, "s");
+}
+
+TEST(Times, RepeatedRunsAreShownAndTested) {
+  StudyResults results = make_study({{"A", "B"}, 1, 1, {"eta_mean"}}, [](int, int, int) { return 0.5; });
+  results.study.repeat_times = 10;
+  for (CellRecord& record : results.records)
+    for (int i = 0; i < 10; ++i)
+      record.times["seconds"].push_back((record.pipeline == "A" ? 2 : 3) + 0.01 * i);
+  const Outcome outcome = make_tables(results);
+  const TableRow& fast = outcome.table.rows[0];
+  EXPECT_EQ(fast.marks.at("seconds"), Mark::kBest);
+  EXPECT_DOUBLE_EQ(fast.values.at("seconds"), 2.045);
+  EXPECT_DOUBLE_EQ(fast.values.at(kLeastTime), 2);
+  EXPECT_FALSE(outcome.table.rows[1].marks.contains("seconds"));
+}
+
+TEST(Rows, SayHowManyRunsTheyAreOfAndHowManyFailed) {
+  StudyResults results = make_study({{"A", "B"}, 1, 4}, [](int word, int, int seed) { return word + seed; });
+  results.records[0].reason = "no way";
+  for (CellRecord& record : results.records)
+    if (record.pipeline == "B") record.reason = "neither";
+  const Outcome outcome = make_tables(results);
+  for (const std::string& text : {to_markdown(outcome.table), to_tex(outcome.table)}) {
+    EXPECT_NE(text.find("A (1 of 4 failed)"), std::string::npos) << text;
+    EXPECT_NE(text.find("failed"), std::string::npos) << text;
+    EXPECT_NE(text.find("neither"), std::string::npos) << text;
+    EXPECT_NE(text.find("no way"), std::string::npos) << text;
+  }
+  EXPECT_EQ(outcome.table.rows[0].values.at(kRuns), 3);
+  EXPECT_EQ(outcome.table.rows[1].values.at(kRuns), 0);
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/tables/table.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+Table example() {
+  Table table;
+  table.title = "Title";
+  table.columns = {{"eta_mean", "eta mean", 3}, {"d4", "d4", 1}};
+  table.rows = {{"case_1", "DB", {{"eta_mean", 0.875}, {"d4", 88.25}}, {{"eta_mean", 0.75}}, "Table I", ""},
+                {"case_1", "FB", {{"eta_mean", 0.5}, {"d4", std::nan("")}}, {}, "", ""},
+                {"case|2", "DB", {}, {}, "", "size, \"x\", is < 0"}};
+  table.notes = {"a note"};
+  return table;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Tables, MarkdownShowsPublishedAndDifference) {
+  const std::string text = to_markdown(example());
+  EXPECT_TRUE(holds(text, "| 0.875 (0.75, +0.125) |")) << text;
+  EXPECT_TRUE(holds(text, "88.3 |")) << text;
+  EXPECT_TRUE(holds(text, " - |")) << text;
+  EXPECT_TRUE(holds(text, "case\\|2")) << text;
+  EXPECT_TRUE(holds(text, " failed |")) << text;
+  EXPECT_TRUE(holds(text, "- case|2 DB failed: size, \"x\", is < 0\n")) << text;
+  EXPECT_TRUE(holds(text, "- a note\n")) << text;
+}
+
+TEST(Tables, CsvQuotesAndKeepsDigits) {
+  EXPECT_EQ(to_csv(example()),
+            "case,pipeline,status,source,eta_mean,eta_mean_half_width,eta_mean_published,eta_mean_difference,"
+            "d4,d4_half_width,d4_published,d4_difference\n"
+            "case_1,DB,ok,Table I,0.875,,0.75,0.125,88.25,,,\n"
+            "case_1,FB,ok,,0.5,,,,,,,\n"
+            "case|2,DB,\"failed: size, \"\"x\"\", is < 0\",,,,,,,,,\n");
+}
+
+TEST(Tables, TexIsEscapedBooktabs) {
+  Table table = example();
+  table.columns[1].title = "d_4 %";
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text,
+                    "\\begin{tabular}{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d\\_4 \\% "
+                    "\\\\\n\\midrule\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "case\\_1 & DB & 0.875 (0.75, +0.125) & 88.3 \\\\\n")) << text;
+  EXPECT_TRUE(holds(text, "\\bottomrule\n\\end{tabular}")) << text;
+}
+
+/// What a reader of the paper has to know stands in the paper, not in comments.
+TEST(Tables, TexSaysWhatFailedAndWhatMarksMean) {
+  const std::string text = to_tex(example());
+  EXPECT_TRUE(holds(text, "case$|$2 & DB & failed &  \\\\\n")) << text;
+  const auto notes = text.substr(text.find("\\end{tabular}"));
+  for (const char* part : {"is $<$", "Table", "note", "In brackets"})
+    EXPECT_TRUE(holds(notes, part)) << notes;
+  EXPECT_FALSE(holds(notes, "\n%")) << notes;
+}
+
+TEST(Tables, ColumnsCanBeChosenAndOrdered) {
+  Table table = example();
+  table.shown = {"d4", "eta_mean"};
+  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |     d4 |             eta mean |"))
+      << to_markdown(table);
+  EXPECT_TRUE(holds(to_tex(table), "case & pipeline & d4 & eta mean \\\\")) << to_tex(table);
+  table.shown = {"d4"};
+  EXPECT_FALSE(holds(to_markdown(table), "eta mean")) << to_markdown(table);
+  EXPECT_EQ(to_csv(table), to_csv(example())) << "has all";
+  EXPECT_TRUE(holds(to_json(table), "\"eta_mean\": 0.875"));
+}
+
+TEST(Tables, WideOnesAreBrokenIntoTabularsOverTheSameRows) {
+  Table table = example();
+  for (int k = 0; k < 20; ++k)
+    table.columns.push_back({"c" + std::to_string(k), "column " + std::to_string(k), 3});
+  const std::string text = to_tex(table);
+  std::size_t tabulars = 0, rows = 0, failed = 0;
+  for (std::size_t at = 0; (at = text.find("\\begin{tabular}", at)) != text.npos; ++at) ++tabulars;
+  for (std::size_t at = 0; (at = text.find("\ncase\\_1 & DB", at)) != text.npos; ++at) ++rows;
+  for (std::size_t at = 0; (at = text.find("& failed", at)) != text.npos; ++at) ++failed;
+  EXPECT_GT(tabulars, 2u) << text;
+  EXPECT_EQ(rows, tabulars);
+  EXPECT_EQ(failed, tabulars);
+  for (int k = 0; k < 20; ++k) EXPECT_TRUE(holds(text, "column " + std::to_string(k) + " ")) << k;
+}
+
+/// A tabular would run off the page, and in a float it would do so without a word.
+TEST(Tables, LongOnesGoOverPagesInTex) {
+  Table table = example();
+  while (table.rows.size() < 40) table.rows.push_back(table.rows[0]);
+  EXPECT_FALSE(holds(to_tex(table), "longtable"));
+  table.rows.push_back(table.rows[0]);
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text,
+                    "\\begin{longtable}[l]{@{}llrr@{}}\n\\toprule\ncase & pipeline & eta mean & d4 "
+                    "\\\\\n\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "not in a float, with booktabs and longtable")) << text;
+  EXPECT_FALSE(holds(text, "{tabular}")) << text;
+}
+
+TEST(Tables, WordsOfNotesAreNotBrokenInTex) {
+  Table table = example();
+  table.notes = {"Wilcoxon's signed-rank test over administratively-named (see `a_b`) seeds.",
+                 "/home/of/somebody/with/a_long/path/to/the/model.step is missing"};
+  const std::string text = to_tex(table);
+  EXPECT_TRUE(holds(text, "Wilcoxon's signed-rank test over administratively-named (see `a\\_b`) seeds."))
+      << text;
+  EXPECT_TRUE(holds(text, "/\\allowbreak{}home/\\allowbreak{}of/\\allowbreak{}somebody/")) << text;
+  EXPECT_TRUE(holds(text, " is missing")) << text;
+}
+
+TEST(Tables, JsonHoldsValuesAndReasons) {
+  const std::string text = to_json(example());
+  EXPECT_TRUE(holds(text, "\"difference\": {")) << text;
+  EXPECT_TRUE(holds(text, "\"d4\": null")) << text;
+  EXPECT_TRUE(holds(text, "\"reason\": \"size, \\\"x\\\", is < 0\"")) << text;
+}
+
+TEST(Tables, MarksAndSpreadsAreShown) {
+  Table table = example();
+  table.rows[0].half_widths["d4"] = 1.25;
+  table.rows[0].marks["d4"] = Mark::kBest;
+  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  const std::string markdown = to_markdown(table), tex = to_tex(table), json = to_json(table);
+  EXPECT_TRUE(holds(markdown, "**88.3** ± 1.3 |")) << markdown;
+  EXPECT_TRUE(holds(markdown, "~0.500 |")) << markdown;
+  EXPECT_TRUE(holds(tex, "\\textbf{88.3} $\\pm$ 1.3")) << tex;
+  EXPECT_TRUE(holds(tex, "$\\sim$0.500")) << tex;
+  EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
+  EXPECT_TRUE(holds(json, "\"d4\": \"best\"")) << json;
+  EXPECT_TRUE(holds(json, "\"d4\": \"88.3 ± 1.3\"")) << json;
+}
+
+TEST(Tables, RoundingHidesNoInterval) {
+  Table table = example();
+  table.columns.push_back({"d_max", "dmax", 0});
+  table.rows[0].values["d_max"] = 5.375;
+  table.rows[0].half_widths["d_max"] = 0.43;
+  EXPECT_TRUE(holds(to_markdown(table), "5.38 ± 0.43")) << to_markdown(table);
+  EXPECT_TRUE(holds(to_tex(table), "5.38 $\\pm$ 0.43")) << to_tex(table);
+}
+
+TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
+  Table table = example();
+  table.columns[0].range = {0, 1};
+  table.columns[1].range = {0, 100};
+  table.rows[0].half_widths = {{"eta_mean", 0.25}, {"d4", 1.25}};
+  table.rows[1].half_widths = {{"eta_mean", 1e-16}};
+  table.rows[1].values["eta_mean"] = 1;
+  const testing_support::TemporaryFolder folder;
+  const Table read = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
+  for (const std::string& text : {to_markdown(table), to_json(table), to_markdown(read)}) {
+    EXPECT_TRUE(holds(text, "0.88 [0.63, 1.00]")) << text;
+    EXPECT_TRUE(holds(text, "88.3 ± 1.3")) << text;
+    EXPECT_TRUE(holds(text, "1.000 ± < 0.001")) << text;
+  }
+  EXPECT_TRUE(holds(to_csv(table), "0.875,0.25,")) << "has the half-width";
+}
+
+TEST(Tables, JsonCanBeReadAgain) {
+  Table table = example();
+  table.rows[0].half_widths["d4"] = 1.25;
+  table.rows[0].marks["d4"] = Mark::kBest;
+  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  table.rows[1].incomplete = "2 of 8 failed";
+  const testing_support::TemporaryFolder folder;
+  const Table same = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
+  ASSERT_EQ(same.rows.size(), table.rows.size());
+  for (std::size_t i = 0; i < same.rows.size(); ++i) {
+    EXPECT_EQ(same.rows[i].half_widths, table.rows[i].half_widths);
+    EXPECT_EQ(same.rows[i].marks, table.rows[i].marks);
+    EXPECT_EQ(same.rows[i].incomplete, table.rows[i].incomplete);
+  }
+}
+
+}  // namespace
+}  // namespace delquad
