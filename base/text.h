@@ -15,6 +15,10 @@ std::string show_point(Vec2 p);
 std::string show_point(const Vec3& p);
 /// "1 triangle", "2 triangles"
 std::string counted(long long n, std::string_view what);
+/// Without blanks, tabs and line breaks around it.
+std::string_view trimmed(std::string_view text);
+/// With capitals for a to z.
+std::string upper(std::string_view text);
 /// The value of a text that is a number and nothing else.
 std::optional<double> as_number(std::string_view text);
 /// A file's bytes. Throws InputError naming the file, and why it cannot be read.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "fields/check_size.h"
@@ -61,10 +62,7 @@ class SourceSize final : public SizeField {
 
  private:
   static double size_by(const SizeSource& s, const Vec3& x) {
-    const Vec3 d = s.b - s.a;
-    const double length2 = dot(d, d);
-    const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
-    const double r = norm(x - s.a - along * d);
+    const double r = norm(x - s.a - nearest_part(x, s.a, s.b) * (s.b - s.a));
     if (r <= s.radius_near) return s.size_near;
     if (r >= s.radius_far) return s.size_far;
     const double t = (r - s.radius_near) / (s.radius_far - s.radius_near);

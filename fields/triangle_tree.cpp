@@ -5,17 +5,11 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "base/segment.h"
 
 namespace delquad {
 
 namespace {
-
-Vec2 nearest_on_segment(Vec2 a, Vec2 b, Vec2 u) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0 ? std::clamp(dot(u - a, d) / length2, 0.0, 1.0) : 0;
-  return a + t * d;
-}
 
 bool contains(const TriPatch& tri, int t, Vec2 u) {
   const auto& [i, j, k] = tri.triangles[t];
@@ -50,7 +44,7 @@ TriangleTree::Nearest TriangleTree::nearest(const TriPatch& tri, Vec2 u) const {
     const bool inside = contains(tri, t, u);
     for (int k = 0; k < 3; ++k) {
       const auto& v = tri.triangles[t];
-      const Vec2 p = inside ? u : nearest_on_segment(tri.points[v[k]], tri.points[v[(k + 1) % 3]], u);
+      const Vec2 p = inside ? u : nearest_on_segment(u, tri.points[v[k]], tri.points[v[(k + 1) % 3]]);
       const double d2 = dot(p - u, p - u);
       if (best.triangle < 0 || d2 < best2 || (d2 == best2 && t < best.triangle)) {
         best = {t, p};

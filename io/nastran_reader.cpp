@@ -6,6 +6,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/mesh_io.h"
@@ -15,17 +16,6 @@
 namespace delquad {
 
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \r"), last = text.find_last_not_of(" \r");
-  return first == std::string_view::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::string in_capitals(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-  return result;
-}
 
 /// A line with blanks for its tabs, without what stands behind a "$".
 std::string without_tabs(std::string_view line) {
@@ -58,7 +48,7 @@ class NastranReader {
  public:
   explicit NastranReader(const std::filesystem::path& path) : in_(path) {
     refuse_other_kinds(in_, "Nastran");
-    const std::string text = in_capitals(in_.text());
+    const std::string text = upper(in_.text());
     in_bulk_ = !text.starts_with("BEGIN") && text.find("\nBEGIN") == std::string::npos;
   }
 
@@ -74,8 +64,8 @@ class NastranReader {
   void take_line(std::string_view line) {
     if (line.starts_with('$')) return take_comment(line);
     const std::string text = without_tabs(line);
-    if (without_blanks(text).empty()) return;
-    const std::string title = in_capitals(without_blanks(text));
+    if (trimmed(text).empty()) return;
+    const std::string title = upper(trimmed(text));
     if (title.starts_with("INCLUDE")) in_.fail("INCLUDE: expected a file that holds the whole mesh");
     if (title.starts_with("ENDDATA")) is_over_ = true;
     if (title.starts_with("BEGIN")) in_bulk_ = true;
@@ -91,7 +81,7 @@ class NastranReader {
     constexpr std::string_view kPoint = ", nodes of point ";
     const size_t at = line.find(kPoint);
     if (line.starts_with("$ set ") && at != std::string_view::npos)
-      point_name_ = without_blanks(line.substr(at + kPoint.size()));
+      point_name_ = trimmed(line.substr(at + kPoint.size()));
   }
 
   /// "SET 3 = 7, 8," and lines after it.
@@ -101,7 +91,7 @@ class NastranReader {
     const bool goes_on = title.ends_with(',');
     while (!title.empty()) {
       const size_t comma = std::min(title.find(','), title.size());
-      const std::string_view number = without_blanks(title.substr(0, comma));
+      const std::string_view number = trimmed(title.substr(0, comma));
       if (!number.empty())
         point_names_.push_back({integer(number, "a node's number", in_.line()), point_name_, in_.line()});
       title.remove_prefix(std::min(comma + 1, title.size()));
@@ -114,7 +104,7 @@ class NastranReader {
     const bool is_free = text.find(',') != std::string::npos;
     constexpr size_t kSmall = 8, kLarge = 16;
     std::string head = is_free ? text.substr(0, text.find(',')) : text.substr(0, kSmall);
-    head = in_capitals(without_blanks(head));
+    head = upper(trimmed(head));
     const bool goes_on = head.empty() || head[0] == '+' || head[0] == '*';
     const bool is_large = head.find('*') != std::string::npos;
     if (!goes_on) {
@@ -129,8 +119,7 @@ class NastranReader {
     for (size_t k = 0; k < n_fields; ++k) {
       const size_t end =
           is_free ? std::min(text.find(',', std::min(at, text.size())), text.size()) : at + width;
-      card_.fields.emplace_back(at < text.size() ? without_blanks(std::string_view(text).substr(at, end - at))
-                                                 : "");
+      card_.fields.emplace_back(at < text.size() ? trimmed(std::string_view(text).substr(at, end - at)) : "");
       at = is_free ? end + 1 : end;
     }
   }

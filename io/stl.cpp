@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/weld.h"
@@ -19,13 +20,8 @@ namespace {
 
 constexpr size_t kHeader = 80, kFirstFacet = kHeader + 4, kFacet = 50;  // bytes of a binary file
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-
 /// Whether the words are the same but for capitals.
-bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char c, char d) { return lower(c) == lower(d); });
-}
+bool same_word(std::string_view a, std::string_view b) { return upper(a) == upper(b); }
 
 std::uint32_t little_endian(std::string_view bytes, size_t at) {
   std::uint32_t value = 0;
@@ -132,11 +128,7 @@ class TextReader {
     }
   }
 
-  std::string rest_of_line() {
-    const std::string_view rest = in_.rest_of_line();
-    const size_t first = rest.find_first_not_of(" \t\r"), last = rest.find_last_not_of(" \t\r");
-    return first == std::string_view::npos ? "" : std::string(rest.substr(first, last - first + 1));
-  }
+  std::string rest_of_line() { return std::string(trimmed(in_.rest_of_line())); }
 
   /// False at the end of the solid.
   bool read_facet() {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/segment.h"
 
 namespace delquad {
 
@@ -101,8 +102,8 @@ void AcrossView::look_from(const Side& side, double t, double reach, std::vector
     const int next = map.flat.neighbours[triangle][exit];
     if (next < 0) {
       const Side& other = sides_[side_at_[side.patch][triangle][exit]];
-      const Vec2 p = flat_point(map, other.curve->from), e = flat_point(map, other.curve->to) - p;
-      const double along = std::clamp(dot(start + way * direction - p, e) / dot(e, e), 0.0, 1.0);
+      const double along = nearest_part(start + way * direction, flat_point(map, other.curve->from),
+                                        flat_point(map, other.curve->to));
       if (faces(side, t, direction, other, along, distance))
         seen.push_back({side.patch, other.curve->chain,
                         other.curve->line + (other.curve->forward ? along : 1 - along), distance});

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/segment.h"
 #include "delquad/error.h"
 #include "geometry/surface/periodic_lines.h"
 #include "patches/divided_chains.h"
@@ -41,10 +42,7 @@ std::pair<double, double> nearest_place(const Mesh& fine, const CurveChain& chai
   std::pair<double, double> best{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
     const Vec3 &a = fine.points[chain.points[i]], &b = fine.points[chain.points[i + 1]];
-    const Vec3 d = b - a;
-    const double length2 = dot(d, d);
-    const double t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-    const double distance = norm(a + t * d - x);
+    const double t = nearest_part(x, a, b), distance = norm(a + t * (b - a) - x);
     if (distance < best.second) best = {static_cast<double>(i) + t, distance};
   }
   return best;

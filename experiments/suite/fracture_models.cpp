@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/segment.h"
 #include "experiments/suite/model_text.h"
 #include "experiments/suite/planar_models.h"
 #include "experiments/suite/random.h"
@@ -13,12 +14,6 @@ struct Segment {
   Vec2 a, b;
 };
 
-double distance(Vec2 p, const Segment& s) {
-  const Vec2 along = s.b - s.a;
-  const double t = std::clamp(dot(p - s.a, along) / dot(along, along), 0.0, 1.0);
-  return norm(p - (s.a + t * along));
-}
-
 bool cross_each_other(const Segment& s, const Segment& t) {
   const auto side = [](const Segment& line, Vec2 p) { return cross(line.b - line.a, p - line.a) > 0; };
   return side(s, t.a) != side(s, t.b) && side(t, s.a) != side(t, s.b);
@@ -26,7 +21,8 @@ bool cross_each_other(const Segment& s, const Segment& t) {
 
 double distance(const Segment& s, const Segment& t) {
   if (cross_each_other(s, t)) return 0;
-  return std::min({distance(s.a, t), distance(s.b, t), distance(t.a, s), distance(t.b, s)});
+  return std::min({distance_to_segment(s.a, t.a, t.b), distance_to_segment(s.b, t.a, t.b),
+                   distance_to_segment(t.a, s.a, s.b), distance_to_segment(t.b, s.a, s.b)});
 }
 
 /// What of a convex polygon lies left of the line from `a` along `direction`.

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/sweep/command_files.h"
 #include "experiments/sweep/peer.h"
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 
 /// Of what a program printed: as much as is read, and as much as is shown in a message.
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
-constexpr const char* kBlank = " \t\r\n";
 
 std::vector<std::string> fill_in(const MetricCommand& metric, const Case& c, const std::string& pipeline,
                                  const fs::path& folder) {
@@ -58,17 +58,16 @@ std::string read_start(const fs::path& file) {
   return text;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(kBlank);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+std::string last_line(const std::string& text) {
+  return std::string(trimmed(text.substr(text.rfind('\n') + 1)));
 }
-
-std::string last_line(const std::string& text) { return trimmed(text.substr(text.rfind('\n') + 1)); }
-std::string first_line(const std::string& text) { return trimmed(text.substr(0, text.find('\n'))); }
+std::string first_line(const std::string& text) {
+  return std::string(trimmed(text.substr(0, text.find('\n'))));
+}
 
 /// What it says went wrong: its first line, but of a Python traceback the last one.
 std::string complaint(const std::string& errors) {
-  const std::string text = trimmed(errors);
+  const std::string text(trimmed(errors));
   if (text.empty()) return "";
   return ": " + (text.starts_with("Traceback") ? last_line(text) : first_line(text)).substr(0, kMostShown);
 }
@@ -120,7 +119,7 @@ const std::vector<std::string>& metric_placeholders() {
 }
 
 MetricOutcome parse_metric_output(const std::string& key, const std::string& printed) {
-  const std::string text = trimmed(printed);
+  const std::string text(trimmed(printed));
   if (text.empty()) return failed("printed nothing");
   for (const std::string& part : {text, last_line(text)}) {
     if (const auto number = number_in(part)) {

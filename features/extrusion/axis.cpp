@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/extrusion/moving_section.h"
@@ -33,13 +34,6 @@ int winding(const std::array<Vec2, 4>& corners) {
   return turns;
 }
 
-double distance_to_origin(Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0 ? std::clamp(-dot(a, d) / length2, 0.0, 1.0) : 0;
-  return norm(a + t * d);
-}
-
 }  // namespace
 
 void require_beside_axis(const Section& section, const Vec3& point, const Vec3& axis) {
@@ -62,7 +56,7 @@ void require_beside_axis(const Section& section, const Vec3& point, const Vec3& 
     std::array<Vec2, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = seen[quad[k]];
     for (int k = 0; k < 4; ++k)
-      if (distance_to_origin(corners[k], corners[(k + 1) % 4]) <= kOnAxis * reach)
+      if (distance_to_segment(Vec2{}, corners[k], corners[(k + 1) % 4]) <= kOnAxis * reach)
         throw InputError(fmt::format("the section crosses its axis between {} and {}",
                                      show_point(points[quad[k]]), show_point(points[quad[(k + 1) % 4]])));
     if (winding(corners) != 0)

@@ -11,6 +11,7 @@
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 
 namespace delquad {
 
@@ -83,15 +84,7 @@ void orient(Section& section, std::span<const HalfEdge> sides) {
 
 /// Takes out lines that are no edges of quads, and points that no quad has.
 void drop_strange(Mesh& mesh, std::span<const HalfEdge> sides, ReadNotes* notes) {
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty()) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  const std::size_t lines = mesh.lines.size() - kept, names = mesh.named_points.size();
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+  const std::size_t lines = drop_stray_lines(mesh, sides), names = mesh.named_points.size();
   drop_unused_points(mesh);
   if (notes == nullptr) return;
   if (lines > 0) notes->push_back(fmt::format("{} lines are no edges of quads and were left out", lines));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
@@ -286,7 +287,8 @@ class PatchMaker {
         const Side& side = cycle[i];
         const Vec2 p = at(start(side));
         const int back = start(cycle[(i + n - 1) % n]);
-        boundary.points.push_back(visits.at({p.x, p.y}) > 1 ? opened_corner(at(back), p, at(end(side))) : p);
+        boundary.points.push_back(
+            visits.at({p.x, p.y}) > 1 ? p + into_corner(at(back), p, at(end(side)), kOpening) : p);
         boundary.point_node.push_back(node_of[start(side)]);
         boundary.edges.push_back({base + i, base + (i + 1) % n});
         const auto curve = curve_of.find(std::minmax(start(side), end(side)));
@@ -295,16 +297,6 @@ class PatchMaker {
         for (Side s = side; s.element >= 0; s = twin(before(s))) point[{s.element, s.corner}] = base + i;
       }
     }
-  }
-
-  /// Moved into the corner along its bisector, see build_domain().
-  static Vec2 opened_corner(Vec2 back, Vec2 p, Vec2 ahead) {
-    const Vec2 out = ahead - p, in = back - p;
-    const double from = std::atan2(out.y, out.x);
-    double turn = std::atan2(in.y, in.x) - from;
-    if (turn <= 0) turn += 2 * std::numbers::pi;
-    const double angle = from + turn / 2;
-    return p + kOpening * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
   }
 
   void add_elements(const std::vector<int>& elements, const std::map<std::pair<int, int>, int>& on_outline,

@@ -14,6 +14,7 @@
 #include "base/box_tree.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/triangulated_model.h"
@@ -121,19 +122,13 @@ void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> side
 void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> sides, Mesh& mesh,
                               std::vector<Warning>& warnings) {
   std::set<std::pair<int, int>> seen;
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+  const std::size_t gone = keep_lines(mesh, [&](std::size_t l) {
     const auto [a, b] = mesh.lines[l];
-    if (sides_of_edge(sides, a, b).empty() || !seen.insert(std::minmax({a, b})).second) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  if (kept < mesh.lines.size())
-    warnings.push_back(
-        fmt::format("{}: {} lines are left out: they are no edges of elements, or are there twice",
-                    given.source, mesh.lines.size() - kept));
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+    return !sides_of_edge(sides, a, b).empty() && seen.insert(std::minmax({a, b})).second;
+  });
+  if (gone > 0)
+    warnings.push_back(fmt::format(
+        "{}: {} lines are left out: they are no edges of elements, or are there twice", given.source, gone));
   mesh.periodic.clear();
   if (const int unused = drop_unused_points(mesh); unused > 0)
     warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));

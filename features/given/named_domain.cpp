@@ -10,6 +10,7 @@
 
 #include "base/predicates.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/whiskers.h"
 
@@ -135,14 +136,9 @@ Mesh lines_of(const Mesh& mesh, const std::string& source) {
   }
   if (lines.lines.size() == mesh.lines.size()) return lines;
   const Arrangement arrangement = arrange_lines(lines, names_of_curves(lines, source));
-  std::size_t kept = mesh.lines.size();
-  for (std::size_t l = kept; l < lines.lines.size(); ++l) {
-    if (arrangement.has_one_face(static_cast<int>(l))) continue;
-    lines.lines[kept] = lines.lines[l];
-    lines.line_curve[kept++] = lines.line_curve[l];
-  }
-  lines.lines.resize(kept);
-  lines.line_curve.resize(kept);
+  keep_lines(lines, [&](std::size_t l) {
+    return l < mesh.lines.size() || !arrangement.has_one_face(static_cast<int>(l));
+  });
   return lines;
 }
 

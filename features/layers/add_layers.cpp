@@ -15,7 +15,7 @@
 #include "features/layers/layer_heights.h"
 #include "features/layers/mirror_layers.h"
 #include "geometry/mesh/entity_names.h"
-#include "geometry/mesh/renumber_nodes.h"
+#include "geometry/planar/domain_builder.h"
 
 namespace delquad {
 namespace {
@@ -104,33 +104,16 @@ void replace(Mesh& mesh, ReplacedLines& replaced) {
 
 /// Nodes that walls had before.
 void drop_unused_nodes(PlanarDomain& domain) {
-  Mesh& mesh = domain.boundary;
-  std::vector<int> renamed(mesh.points.size(), -1);
+  const Mesh& mesh = domain.boundary;
+  std::vector<char> used(mesh.points.size(), 0);
   for (const auto& line : mesh.lines)
-    for (const int v : line) renamed[v] = 0;
+    for (const int v : line) used[v] = 1;
   for (const auto& quad : mesh.quads)
-    for (const int v : quad) renamed[v] = 0;
+    for (const int v : quad) used[v] = 1;
   for (const PatchBoundary& patch : domain.patches)
-    for (const int v : patch.point_node) renamed[v] = 0;
-  int n = 0;
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] < 0) continue;
-    mesh.points[n] = mesh.points[v];
-    if (!domain.places.empty()) domain.places[n] = domain.places[v];
-    renamed[v] = n++;
-  }
-  mesh.points.resize(n);
-  if (!domain.places.empty()) domain.places.resize(n);
-  const auto rename = [&](auto& nodes) {
-    for (int& v : nodes) v = renamed[v];
-  };
-  for (auto& line : mesh.lines) rename(line);
-  for (auto& quad : mesh.quads) rename(quad);
-  for (PatchBoundary& patch : domain.patches) rename(patch.point_node);
-  for (PatchBoundary& patch : domain.outlines) rename(patch.point_node);
-  rename(domain.on_crack);
-  renumber_nodes(mesh, renamed);
+    for (const int v : patch.point_node) used[v] = 1;
   domain.pieces.clear();
+  keep_nodes(domain, used);
 }
 
 /// All nodes of a wall in the place of its first line, none in that of the others.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "base/segment.h"
 #include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
@@ -25,10 +26,7 @@ double distance_to(const FineSpot& s, const Vec3& x) {
     const auto w = nearest_weights(s.a, s.b, *s.c, x);
     return norm(w[0] * s.a + w[1] * s.b + w[2] * *s.c - x);
   }
-  const Vec3 d = s.b - s.a;
-  const double length2 = dot(d, d);
-  const double along = length2 > 0 ? std::clamp(dot(x - s.a, d) / length2, 0.0, 1.0) : 0;
-  return norm(x - s.a - along * d);
+  return norm(x - s.a - nearest_part(x, s.a, s.b) * (s.b - s.a));
 }
 
 class SpotSize final : public SizeField {

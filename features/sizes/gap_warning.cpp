@@ -11,6 +11,7 @@
 
 #include "base/box_tree.h"
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "base/text.h"
 #include "geometry/mesh/entity_names.h"
 
@@ -47,12 +48,6 @@ std::vector<OuterEdge> outer_edges(const PlanarDomain& domain) {
   return edges;
 }
 
-Vec2 nearest_on(const OuterEdge& edge, Vec2 x) {
-  const Vec2 along = edge.b - edge.a;
-  const double t = std::clamp(dot(x - edge.a, along) / dot(along, along), 0.0, 1.0);
-  return edge.a + t * along;
-}
-
 }  // namespace
 
 void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
@@ -76,7 +71,7 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
           if (edge.nodes[0] == node || edge.nodes[1] == node || edge.nodes[0] == from.nodes[1] ||
               orient2d(edge.a, edge.b, from.a) >= 0)
             return;
-          const double gap = norm(nearest_on(edge, from.a) - from.a);
+          const double gap = norm(nearest_on_segment(from.a, edge.a, edge.b) - from.a);
           if (!(gap > 0) || gap > std::min(reach, kNarrow * norm(edge.b - edge.a))) return;
           near.insert(node);
           // Of gaps that are equal, that between curves side by side says most.

@@ -1,4 +1,6 @@
 #include "features/symmetry/mirror_mesh.h"
+#include "base/segment.h"
+#include "geometry/mesh/keep_elements.h"
 
 #include <fmt/format.h>
 
@@ -40,16 +42,13 @@ class MeshMirror {
 
  private:
   void take_curves_of_whole() {
-    std::size_t kept = 0;
-    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
-      const int curve = mesh_.line_curve[l];
-      if (m_.whole_curve[curve] < 0) continue;
-      mesh_.lines[kept] = mesh_.lines[l];
-      mesh_.line_curve[kept++] = m_.whole_curve[curve];
+    keep_lines(mesh_, [&](std::size_t l) {
+      int& curve = mesh_.line_curve[l];
+      if (m_.whole_curve[curve] < 0) return false;
       line_planes_.push_back(m_.curve_planes[curve]);
-    }
-    mesh_.lines.resize(kept);
-    mesh_.line_curve.resize(kept);
+      curve = m_.whole_curve[curve];
+      return true;
+    });
     mesh_.curves = m_.whole.fine.curves;
     mesh_.named_points.clear();
   }
@@ -104,9 +103,7 @@ class MeshMirror {
     double least = std::numeric_limits<double>::infinity();
     for (const int other : among)
       for (const auto& [a, b] : lines_of_[other]) {
-        const Vec3 p = m_.whole.fine.points[a], d = m_.whole.fine.points[b] - p;
-        const double t = dot(d, d) > 0 ? std::clamp(dot(middle - p, d) / dot(d, d), 0.0, 1.0) : 0;
-        const double distance = norm(p + t * d - middle);
+        const double distance = distance_to_segment(middle, m_.whole.fine.points[a], m_.whole.fine.points[b]);
         if (distance < least) least = distance, nearest = other;
       }
     return nearest;

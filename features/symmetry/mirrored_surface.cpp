@@ -11,6 +11,7 @@
 #include "delquad/error.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "features/symmetry/symmetric_size.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/curve_divisions.h"
 #include "geometry/surface/find_planes.h"
 
@@ -33,16 +34,10 @@ std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const Symmetry
 /// Seams without an image, which are only where a surface was cut open, go.
 void drop_loose_seams(SurfaceModel& model, const std::vector<MirrorMatch>& matches) {
   Mesh& mesh = model.fine;
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const int curve = mesh.line_curve[l];
-    if (std::ranges::any_of(matches, [&](const MirrorMatch& m) { return m.is_loose_seam[curve] != 0; }))
-      continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = curve;
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+  keep_lines(mesh, [&](std::size_t l) {
+    return std::ranges::none_of(
+        matches, [&](const MirrorMatch& m) { return m.is_loose_seam[mesh.line_curve[l]] != 0; });
+  });
 }
 
 std::vector<double> lengths_of_curves(const Mesh& mesh) {

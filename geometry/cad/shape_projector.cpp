@@ -20,6 +20,7 @@
 #include <variant>
 
 #include "base/cancel.h"
+#include "base/segment.h"
 #include "geometry/cad/nearest_point.h"
 #include "geometry/mesh/nearest_triangle.h"
 
@@ -125,10 +126,8 @@ class CurveProjector {
   Vec3 nearest(const Vec3& x, double tolerance) const {
     double best2 = std::numeric_limits<double>::infinity(), best = first_;
     for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
-      const Vec3 d = points_[k + 1] - points_[k];
-      const double length2 = dot(d, d);
-      const double t = length2 > 0 ? std::clamp(dot(x - points_[k], d) / length2, 0.0, 1.0) : 0;
-      const Vec3 away = points_[k] + t * d - x;
+      const double t = nearest_part(x, points_[k], points_[k + 1]);
+      const Vec3 away = points_[k] + t * (points_[k + 1] - points_[k]) - x;
       if (dot(away, away) >= best2) continue;
       best2 = dot(away, away);
       best = parameters_[k] + t * (parameters_[k + 1] - parameters_[k]);

@@ -1,4 +1,5 @@
 #include "geometry/mesh/nearest_triangle.h"
+#include "base/segment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,17 +7,6 @@
 #include <utility>
 
 namespace delquad {
-
-namespace {
-
-/// How far along from a to b the point nearest to x lies, in [0, 1].
-double nearest_fraction(const Vec3& a, const Vec3& b, const Vec3& x) {
-  const Vec3 d = b - a;
-  const double length2 = dot(d, d);
-  return length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-}
-
-}  // namespace
 
 std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
   const Vec3 normal = cross(b - a, c - a);
@@ -30,7 +20,7 @@ std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& 
   double best2 = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
-    const double t = nearest_fraction(p[k], p[next], x);
+    const double t = nearest_part(x, p[k], p[next]);
     const Vec3 d = p[k] + t * (p[next] - p[k]) - x;
     if (dot(d, d) >= best2) continue;
     best2 = dot(d, d);
@@ -62,7 +52,7 @@ std::vector<Box<Vec3>> boxes_of(std::array<Vec3, 3> x) {
   const double wanted = side2 > kAspectOfPart * area2 ? side2 / (kAspectOfPart * area2) : 1;
   const int n = wanted < kMostParts ? static_cast<int>(wanted) : static_cast<int>(kMostParts);
   if (n <= 1 || c == a || c == b) return {Box<Vec3>::around({a, b, c})};
-  const double peak = std::clamp(dot(c - a, b - a) / side2, 0.0, 1.0);
+  const double peak = nearest_part(c, a, b);
   const auto below = [&](double t) { return a + t * (b - a); };
   const auto above = [&](double t) {
     return t < peak ? a + (t / peak) * (c - a) : t < 1 ? c + ((t - peak) / (1 - peak)) * (b - c) : b;

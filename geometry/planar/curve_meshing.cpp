@@ -10,6 +10,7 @@
 
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/domain_builder.h"
@@ -160,14 +161,7 @@ class CurveMesher {
       dropped[c] = had && curves.empty();
     }
     Mesh& mesh = domain.boundary;
-    std::size_t kept = 0;
-    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-      if (dropped[mesh.line_curve[l]]) continue;
-      mesh.lines[kept] = mesh.lines[l];
-      mesh.line_curve[kept++] = mesh.line_curve[l];
-    }
-    mesh.lines.resize(kept);
-    mesh.line_curve.resize(kept);
+    keep_lines(mesh, [&](std::size_t l) { return !dropped[mesh.line_curve[l]]; });
     for (PatchBoundary& patch : domain.patches)
       for (int& curve : patch.edge_curve)
         if (curve >= 0 && dropped[curve]) curve = -1;

@@ -1,4 +1,5 @@
 #include "geometry/planar/curve_search.h"
+#include "base/segment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,8 @@ constexpr int kSpanChords = 64;
 constexpr int kGoldenSteps = 60;
 
 std::pair<double, double> nearest_on_chord(Vec2 a, Vec2 b, Vec2 x) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d), s = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-  const Vec2 off = a + s * d - x;
+  const double s = nearest_part(x, a, b);
+  const Vec2 off = a + s * (b - a) - x;
   return {s, dot(off, off)};
 }
 

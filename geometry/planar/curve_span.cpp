@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/predicates.h"
+#include "base/segment.h"
 
 namespace delquad {
 
@@ -17,10 +18,8 @@ constexpr int kMostHalvings = 12;
 constexpr int kSteps = 80, kNewtonSteps = 30;
 
 double to_chord(Vec2 p, Vec2 a, Vec2 b, double& part) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  part = length2 > 0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0;
-  return norm(p - (a + part * d));
+  part = nearest_part(p, a, b);
+  return norm(p - (a + part * (b - a)));
 }
 
 Vec2 derivative(const Curve& shape, double t, double h) {

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/segment.h"
 #include "delquad/error.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/renumber_nodes.h"
 
 namespace delquad {
@@ -198,12 +200,7 @@ class DomainBuilder {
   /// The corner between two sides, moved into it along its bisector.
   Vec2 opened(int before, int after) const {
     const int v = start(after);
-    const Vec2 out = at(start(after ^ 1)) - at(v), in = at(start(before)) - at(v);
-    const double from = std::atan2(out.y, out.x);
-    double turn = std::atan2(in.y, in.x) - from;
-    if (turn <= 0) turn += 2 * std::numbers::pi;
-    const double angle = from + turn / 2;
-    return at(v) + kOpening * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
+    return at(v) + into_corner(at(start(before)), at(v), at(start(after ^ 1)), kOpening);
   }
 
   int curve_of(int side) const {
@@ -226,15 +223,10 @@ class DomainBuilder {
 void drop_curve(PlanarDomain& domain, int curve) {
   Mesh& mesh = domain.boundary;
   const auto rename = [&](int& c) { c = c == curve ? -1 : c - (c > curve); };
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+  keep_lines(mesh, [&](std::size_t l) {
     rename(mesh.line_curve[l]);
-    if (mesh.line_curve[l] < 0) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+    return mesh.line_curve[l] >= 0;
+  });
   mesh.curves.erase(mesh.curves.begin() + curve);
   for (PatchBoundary& patch : domain.patches) std::ranges::for_each(patch.edge_curve, rename);
 }
@@ -252,39 +244,43 @@ PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegion
 
 void drop_stray_lines(PlanarDomain& domain) {
   std::set<std::pair<int, int>> of_patches;
-  std::vector<int> renamed(domain.boundary.points.size(), -1);
+  std::vector<char> used(domain.boundary.points.size(), 0);
   for (const PatchBoundary& patch : domain.patches)
     for (const auto& edge : patch.edges) {
       const int a = patch.point_node[edge[0]], b = patch.point_node[edge[1]];
       of_patches.insert(std::minmax(a, b));
-      renamed[a] = renamed[b] = 0;
+      used[a] = used[b] = 1;
     }
   Mesh& mesh = domain.boundary;
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    if (!of_patches.contains(std::minmax(mesh.lines[l][0], mesh.lines[l][1]))) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+  keep_lines(mesh, [&](std::size_t l) {
+    return of_patches.contains(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
+  });
+  keep_nodes(domain, used);
+}
+
+void keep_nodes(PlanarDomain& domain, const std::vector<char>& used) {
+  Mesh& mesh = domain.boundary;
+  std::vector<int> renamed(used.size(), -1);
   int n = 0;
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] < 0) continue;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
     mesh.points[n] = mesh.points[v];
     if (!domain.places.empty()) domain.places[n] = domain.places[v];
     renamed[v] = n++;
   }
   mesh.points.resize(n);
   if (!domain.places.empty()) domain.places.resize(n);
-  for (auto& line : mesh.lines)
-    for (int& v : line) v = renamed[v];
-  for (PatchBoundary& patch : domain.patches)
-    for (int& v : patch.point_node) v = renamed[v];
-  for (int& v : domain.on_crack) v = renamed[v];
+  const auto rename = [&](auto& nodes) {
+    for (int& v : nodes) v = renamed[v];
+  };
+  std::ranges::for_each(mesh.lines, rename);
+  std::ranges::for_each(mesh.quads, rename);
+  for (auto* patches : {&domain.patches, &domain.outlines})
+    for (PatchBoundary& patch : *patches) rename(patch.point_node);
+  rename(domain.on_crack);
   for (DomainPiece& piece : domain.pieces) {
-    for (int& v : piece.ends) v = renamed[v];
-    for (int& v : piece.nodes) v = renamed[v];
+    rename(piece.ends);
+    rename(piece.nodes);
   }
   renumber_nodes(mesh, renamed);
 }

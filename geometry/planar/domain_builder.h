@@ -27,6 +27,8 @@ PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegion
 
 /// Takes out the lines that no patch has, and their points.
 void drop_stray_lines(PlanarDomain& domain);
+/// Takes out the nodes that are not used; all that has numbers of nodes gets new ones.
+void keep_nodes(PlanarDomain& domain, const std::vector<char>& used);
 
 /// Part of the shortest line at a node: far above rounding, far below any edge.
 inline constexpr double kOpening = 1e-6;

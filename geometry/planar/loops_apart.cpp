@@ -10,6 +10,7 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -21,13 +22,6 @@ constexpr double kSafety = 2;
 /// Halves of halves: by then the parts are shorter than rounding.
 constexpr int kMostHalvingsOfPairs = 60;
 
-double distance(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0;
-  return norm(p - (a + t * d));
-}
-
 /// An edge or a part of one.
 struct Part {
   const Curve* shape;
@@ -38,7 +32,8 @@ struct Part {
   static Part make(const Curve* shape, double t0, double t1, Vec2 a, Vec2 b) {
     Part part{shape, t0, t1, a, b};
     for (const double s : {0.25, 0.5, 0.75})
-      part.bulge = std::max(part.bulge, kSafety * distance(shape->point(t0 + s * (t1 - t0)), a, b));
+      part.bulge =
+          std::max(part.bulge, kSafety * distance_to_segment(shape->point(t0 + s * (t1 - t0)), a, b));
     return part;
   }
   std::pair<Part, Part> halves() const {
@@ -48,19 +43,19 @@ struct Part {
   }
 };
 
-double distance(const Part& p, const Part& q) {
+double distance_of_parts(const Part& p, const Part& q) {
   if (orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) < 0 &&
       orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) < 0)
     return 0;
-  return std::min(
-      {distance(p.a, q.a, q.b), distance(p.b, q.a, q.b), distance(q.a, p.a, p.b), distance(q.b, p.a, p.b)});
+  return std::min({distance_to_segment(p.a, q.a, q.b), distance_to_segment(p.b, q.a, q.b),
+                   distance_to_segment(q.a, p.a, p.b), distance_to_segment(q.b, p.a, p.b)});
 }
 
 /// Where two curves come nearer than the tolerance. The search ends: it goes on with halves of the part that
 /// strays the most, which stray half as much at most, until both stray by less than the tolerance.
 std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
   check_cancelled();
-  if (distance(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;
+  if (distance_of_parts(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;
   if (p.bulge + q.bulge <= tolerance || halvings == kMostHalvingsOfPairs) {
     const Part& shorter = norm(p.b - p.a) < norm(q.b - q.a) ? p : q;
     return 0.5 * (shorter.a + shorter.b);

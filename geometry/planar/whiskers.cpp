@@ -10,6 +10,7 @@
 
 #include "base/box_tree.h"
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -74,7 +75,8 @@ class Surroundings {
             is_free = is_free && span.crossings(curves_[k]).empty();
           } else if (const std::size_t other = k - curves_.size(); other != point) {
             const Vec2 p = points_[other];
-            is_free = is_free && distance(p, x - along, x + along) >= std::min(kAside * norm(p - x), aside);
+            is_free = is_free &&
+                      distance_to_segment(p, x - along, x + along) >= std::min(kAside * norm(p - x), aside);
           }
         });
     return is_free && std::ranges::none_of(taken_, [&](const auto& other) {
@@ -84,14 +86,11 @@ class Surroundings {
   void take(std::array<Vec2, 2> ends) { taken_.push_back(ends); }
 
  private:
-  static double distance(Vec2 p, Vec2 a, Vec2 b) {
-    const Vec2 d = b - a;
-    return norm(p - (a + std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) * d));
-  }
   /// Of two segments.
   static double distance(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     if (orient2d(a, b, c) * orient2d(a, b, d) < 0 && orient2d(c, d, a) * orient2d(c, d, b) < 0) return 0;
-    return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
+    return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                     distance_to_segment(d, a, b)});
   }
 
   const std::vector<CurveSpan>& curves_;

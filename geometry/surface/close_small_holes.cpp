@@ -12,6 +12,7 @@
 #include "base/disjoint_sets.h"
 #include "base/text.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/tidy_model.h"
 
@@ -190,32 +191,15 @@ class SmallHoles {
     model_.warnings.push_back({"small holes that were closed", 1 / hole.length,
                                fmt::format("face {}: closed a hole of {:.3g} around at {}", face.tag,
                                            hole.length, show_point(middle))});
-    drop_lines([&](int a, int b) { return gone.contains({std::min(a, b), std::max(a, b)}); });
-  }
-
-  template <class Goes>
-  void drop_lines(Goes goes) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
-      if (goes(mesh_.lines[i][0], mesh_.lines[i][1])) continue;
-      mesh_.lines[kept] = mesh_.lines[i];
-      mesh_.line_curve[kept++] = mesh_.line_curve[i];
-    }
-    mesh_.lines.resize(kept);
-    mesh_.line_curve.resize(kept);
+    keep_lines(mesh_, [&](std::size_t i) {
+      const auto [a, b] = mesh_.lines[i];
+      return !gone.contains({std::min(a, b), std::max(a, b)});
+    });
   }
 
   void drop_tubes() {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (tube_[mesh_.triangle_region[t]] > 0) continue;
-      mesh_.triangles[kept] = mesh_.triangles[t];
-      mesh_.triangle_region[kept++] = mesh_.triangle_region[t];
-    }
-    mesh_.triangles.resize(kept);
-    mesh_.triangle_region.resize(kept);
-    const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
-    drop_lines([&](int a, int b) { return sides_of_edge(std::span(sides), a, b).empty(); });
+    keep_triangles(mesh_, [&](std::size_t t) { return tube_[mesh_.triangle_region[t]] <= 0; });
+    drop_stray_lines(mesh_, sorted_half_edges(mesh_));
     for (std::size_t face = 0; face < tube_.size(); ++face)
       if (tube_[face] > 0)
         model_.warnings.push_back(

@@ -10,6 +10,7 @@
 
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangle_sides.h"
@@ -126,18 +127,12 @@ std::vector<char> marked_corners(const SurfaceModel& model) {
 std::vector<char> drop_inner_lines(Mesh& mesh, const std::vector<int>& group_of) {
   std::vector<char> ends(mesh.points.size(), 0);
   const auto faces = faces_of_lines(mesh);
-  size_t kept = 0;
-  for (size_t i = 0; i < faces.size(); ++i) {
+  keep_lines(mesh, [&](size_t i) {
     const auto [f, g] = faces[i];
-    if (f >= 0 && group_of[f] >= 0 && group_of[f] == group_of[g]) {
-      for (const int p : mesh.lines[i]) ends[p] = 1;
-      continue;
-    }
-    mesh.lines[kept] = mesh.lines[i];
-    mesh.line_curve[kept++] = mesh.line_curve[i];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+    if (f < 0 || group_of[f] < 0 || group_of[f] != group_of[g]) return true;
+    for (const int p : mesh.lines[i]) ends[p] = 1;
+    return false;
+  });
   return ends;
 }
 

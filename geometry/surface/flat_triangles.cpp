@@ -10,6 +10,7 @@
 #include "base/cancel.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/keep_elements.h"
 
 namespace delquad {
 
@@ -161,22 +162,8 @@ class FlatRemover {
   }
 
   void finish() {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < gone_.size(); ++t) {
-      if (gone_[t]) continue;
-      mesh_.triangles[kept] = mesh_.triangles[t];
-      mesh_.triangle_region[kept++] = mesh_.triangle_region[t];
-    }
-    mesh_.triangles.resize(kept);
-    mesh_.triangle_region.resize(kept);
-    kept = 0;
-    for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
-      if (mesh_.lines[i][0] == mesh_.lines[i][1]) continue;
-      mesh_.lines[kept] = mesh_.lines[i];
-      mesh_.line_curve[kept++] = mesh_.line_curve[i];
-    }
-    mesh_.lines.resize(kept);
-    mesh_.line_curve.resize(kept);
+    keep_triangles(mesh_, [&](std::size_t t) { return !gone_[t]; });
+    keep_lines(mesh_, [&](std::size_t i) { return mesh_.lines[i][0] != mesh_.lines[i][1]; });
   }
 
   Mesh& mesh_;

@@ -16,6 +16,7 @@
 #include "base/activity.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/segment.h"
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/element_cuts.h"
@@ -218,13 +219,8 @@ std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vecto
     for (const auto& loop : part.loops)
       for (std::size_t i = 0; i < loop.size(); ++i) {
         if (visits[vertex[loop[i]]] < 2) continue;
-        const Vec2 at = closed[loop[i]], out = closed[loop[(i + 1) % loop.size()]] - at,
-                   in = closed[loop[(i + loop.size() - 1) % loop.size()]] - at;
-        const double from = std::atan2(out.y, out.x);
-        double turn = std::atan2(in.y, in.x) - from;
-        if (turn <= 0) turn += 2 * std::numbers::pi;
-        const double angle = from + turn / 2;
-        flat[loop[i]] += opening * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
+        flat[loop[i]] += into_corner(closed[loop[(i + loop.size() - 1) % loop.size()]], closed[loop[i]],
+                                     closed[loop[(i + 1) % loop.size()]], opening);
       }
     if (is_one_to_one(part, flat)) return flat;
   }

@@ -9,6 +9,7 @@
 
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/close_small_holes.h"
 #include "geometry/surface/surface_editor.h"
 #include "geometry/surface/tidy_model.h"
@@ -190,27 +191,17 @@ bool contract_line(SurfaceModel& model, int a, int b) {
   if (outline.touch(a) && outline.touch(b) && !outline.has(a, b)) return false;
   part_common_edges(model, a, b);
   if (!keeps_sides(mesh, a, b)) return false;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    auto triangle = mesh.triangles[t];
+  keep_triangles(mesh, [&](std::size_t t) {
+    auto& triangle = mesh.triangles[t];
     const bool has_b = std::ranges::find(triangle, b) != triangle.end();
-    if (has_b && std::ranges::find(triangle, a) != triangle.end()) continue;
+    if (has_b && std::ranges::find(triangle, a) != triangle.end()) return false;
     std::ranges::replace(triangle, a, b);
-    mesh.triangles[kept] = triangle;
-    mesh.triangle_region[kept++] = mesh.triangle_region[t];
-  }
-  mesh.triangles.resize(kept);
-  mesh.triangle_region.resize(kept);
-  kept = 0;
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
-    auto line = mesh.lines[i];
-    std::ranges::replace(line, a, b);
-    if (line[0] == line[1]) continue;
-    mesh.lines[kept] = line;
-    mesh.line_curve[kept++] = mesh.line_curve[i];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+    return true;
+  });
+  keep_lines(mesh, [&](std::size_t i) {
+    std::ranges::replace(mesh.lines[i], a, b);
+    return mesh.lines[i][0] != mesh.lines[i][1];
+  });
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 
 namespace delquad {
 
@@ -34,17 +35,6 @@ std::vector<char> points_of_both(const Mesh& half, const std::vector<double>& he
   return both;
 }
 
-void drop_lines_between(Mesh& mesh, const std::vector<char>& marked) {
-  size_t kept = 0;
-  for (size_t i = 0; i < mesh.lines.size(); ++i) {
-    if (marked[mesh.lines[i][0]] && marked[mesh.lines[i][1]]) continue;
-    mesh.lines[kept] = mesh.lines[i];
-    mesh.line_curve[kept++] = mesh.line_curve[i];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
-}
-
 /// Appends regions for the other half, with new tags; returns how many there were.
 int double_regions(Mesh& mesh) {
   const int n = static_cast<int>(mesh.regions.size());
@@ -70,7 +60,7 @@ Mesh add_mirror_image(Mesh half, const MirrorPlane& plane, const std::string& so
   if (std::find(both.begin(), both.end(), 1) == both.end())
     throw InputError(
         fmt::format("{}: no open edge lies in the mirror's plane, within {:.3g} of it", source, tolerance));
-  drop_lines_between(half, both);
+  keep_lines(half, [&](size_t i) { return !both[half.lines[i][0]] || !both[half.lines[i][1]]; });
 
   const int offset = plane.join ? 0 : double_regions(half);
   std::vector<int> image;

@@ -14,6 +14,7 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/segment.h"
 #include "base/text.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
@@ -24,12 +25,6 @@ namespace {
 
 /// So many places of a face or a curve are compared with the true surface.
 constexpr std::size_t kTruePlaces = 64;
-
-double distance_to_segment(const Vec3& a, const Vec3& b, const Vec3& x) {
-  const Vec3 d = b - a;
-  const double length2 = dot(d, d), t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-  return norm(a + t * d - x);
-}
 
 /// How far each line may lie off the curve that it stands for: its length times the turn at its ends.
 std::vector<double> bends_of_lines(const Mesh& mesh) {
@@ -339,7 +334,7 @@ MirrorMatcher::Tables::Off MirrorMatcher::Tables::match_curve(int c, const Symme
       lines.nearest(x, best2, [&](int other) {
         if (!may_be[mesh.line_curve[other]]) return;
         const auto& [p, q] = mesh.lines[other];
-        const double d = distance_to_segment(mesh.points[p], mesh.points[q], x);
+        const double d = distance_to_segment(x, mesh.points[p], mesh.points[q]);
         if (d * d < best2) best2 = d * d, nearest = other;
       });
       if (nearest < 0) return {std::numeric_limits<double>::infinity(), x, false};

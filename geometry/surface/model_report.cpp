@@ -12,6 +12,7 @@
 #include "base/box.h"
 #include "base/box_tree.h"
 #include "base/disjoint_sets.h"
+#include "base/segment.h"
 #include "base/text.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/surface/chart.h"
@@ -48,13 +49,6 @@ struct BoundarySide {
   int curve;
 };
 
-Vec3 nearest_on(const BoundarySide& side, const Vec3& x) {
-  const Vec3 d = side.to - side.from;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0 ? std::clamp(dot(x - side.from, d) / length2, 0.0, 1.0) : 0;
-  return side.from + t * d;
-}
-
 /// Least distance between sides that look at each other, but for those of pairs of curves in `corners`.
 double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::array<int, 2>>& corners) {
   std::vector<Box<Vec3>> boxes;
@@ -67,7 +61,7 @@ double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::
     tree.nearest(x, least2, [&](int j) {
       const BoundarySide& other = sides[j];
       if (dot(side.inwards, other.inwards) > kOpposite) return;
-      const Vec3 way = nearest_on(other, x) - x;
+      const Vec3 way = nearest_on_segment(x, other.from, other.to) - x;
       const double gap2 = dot(way, way), gap = std::sqrt(gap2);
       if (gap2 >= least2 || dot(way, side.inwards) < kAcross * gap ||
           dot(way, other.inwards) > -kAcross * gap)

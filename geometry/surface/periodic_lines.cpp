@@ -11,6 +11,7 @@
 
 #include "base/cancel.h"
 #include "base/nearest_name.h"
+#include "base/segment.h"
 #include "delquad/error.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -114,10 +115,8 @@ class CornerMatcher {
   Nearest nearest(const std::vector<std::array<int, 2>>& parts, const Vec3& x) const {
     Nearest best;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Vec3 &a = fine_.points[parts[i][0]], d = fine_.points[parts[i][1]] - a;
-      const double length2 = dot(d, d);
-      const double t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-      const double distance = norm(a + t * d - x);
+      const Vec3 &a = fine_.points[parts[i][0]], &b = fine_.points[parts[i][1]];
+      const double t = nearest_part(x, a, b), distance = norm(a + t * (b - a) - x);
       if (distance < best.distance) best = {static_cast<int>(i), t, distance};
     }
     return best;

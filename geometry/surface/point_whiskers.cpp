@@ -1,4 +1,5 @@
 #include "geometry/surface/point_whiskers.h"
+#include "base/segment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +20,11 @@ constexpr double kWhiskerRoom = 0.6;
 bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
   const Vec3 u = end - x, w = b - a, from = x - a;
   const double uu = dot(u, u), ww = dot(w, w), uw = dot(u, w), area = uu * ww - uw * uw;
-  const auto along = [&](double t) { return std::clamp(dot(a + t * w - x, u) / uu, 0.0, 1.0); };
+  const auto along = [&](double t) { return nearest_part(a + t * w, x, end); };
   double s = area > 0 ? std::clamp((uw * dot(w, from) - ww * dot(u, from)) / area, 0.0, 1.0) : 0;
-  const double t = ww > 0 ? std::clamp(dot(x + s * u - a, w) / ww, 0.0, 1.0) : 0;
+  const double t = nearest_part(x + s * u, a, b);
   s = along(t);
   return norm(x + s * u - (a + t * w)) >= kWhiskerRoom * s * std::sqrt(uu);
-}
-
-double segment_distance(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
-  return norm(x - (a + t * d));
 }
 
 }  // namespace
@@ -48,10 +42,10 @@ double PointWhiskers::distance(std::size_t point, const Vec3& x) const {
   double best = std::numeric_limits<double>::infinity(), best2 = best;
   tree_.nearest(x, best2, [&](int i) {
     if (static_cast<std::size_t>(i) == first_point_ + point) return;
-    best = std::min(best, segment_distance(x, segments_[i][0], segments_[i][1]));
+    best = std::min(best, distance_to_segment(x, segments_[i][0], segments_[i][1]));
     best2 = best * best;
   });
-  for (const auto& [a, b] : taken_) best = std::min(best, segment_distance(x, a, b));
+  for (const auto& [a, b] : taken_) best = std::min(best, distance_to_segment(x, a, b));
   return best;
 }
 

@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_editor.h"
 #include "geometry/surface/triangle_sides.h"
@@ -174,15 +176,8 @@ class SymmetricCutter {
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh());
     mark_shared(plane, side);
     add_sections(plane, side, sides);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < side.size(); ++t) {
-      if (side[t] == Side::kDropped) continue;
-      mesh().triangles[kept] = mesh().triangles[t];
-      mesh().triangle_region[kept++] = mesh().triangle_region[t];
-    }
-    mesh().triangles.resize(kept);
-    mesh().triangle_region.resize(kept);
-    drop_lines();
+    keep_triangles(mesh(), [&](std::size_t t) { return side[t] != Side::kDropped; });
+    drop_stray_lines(mesh(), sorted_half_edges(mesh()));
   }
 
   /// A face in the plane is its own image, or that of another there, of which one is kept.
@@ -250,18 +245,6 @@ class SymmetricCutter {
     });
   }
 
-  void drop_lines() {
-    const std::vector<HalfEdge> sides = sorted_half_edges(mesh());
-    std::size_t kept = 0;
-    for (std::size_t l = 0; l < mesh().lines.size(); ++l) {
-      if (sides_of_edge(sides, mesh().lines[l][0], mesh().lines[l][1]).empty()) continue;
-      mesh().lines[kept] = mesh().lines[l];
-      mesh().line_curve[kept++] = mesh().line_curve[l];
-    }
-    mesh().lines.resize(kept);
-    mesh().line_curve.resize(kept);
-  }
-
   /// Corners behind planes have their images in the half.
   void add_images_of_corners() {
     const Mesh& fine = whole_.fine;
@@ -312,7 +295,7 @@ class SymmetricCutter {
     for (std::size_t l = 0; l < mesh().lines.size(); ++l) {
       if (mesh().line_curve[l] >= n_curves_) continue;
       const Vec3 a = mesh().points[mesh().lines[l][0]], d = mesh().points[mesh().lines[l][1]] - a;
-      const double t = std::clamp(dot(x - a, d) / dot(d, d), 0.0, 1.0);
+      const double t = nearest_part(x, a, mesh().points[mesh().lines[l][1]]);
       // A chord may be as far off as it sags.
       double distance = norm(a + t * d - x);
       if (distance > best + norm(d)) continue;

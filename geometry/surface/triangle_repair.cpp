@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/stray_points.h"
 #include "geometry/mesh/weld.h"
 #include "geometry/surface/flat_triangles.h"
@@ -33,19 +34,13 @@ struct Dropped {
   Vec3 first;
 };
 template <class Keep>
-Dropped keep_triangles(Mesh& mesh, Keep keep) {
+Dropped drop_triangles(Mesh& mesh, Keep keep) {
   Dropped dropped;
-  size_t kept = 0;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (keep(t)) {
-      mesh.triangles[kept] = mesh.triangles[t];
-      mesh.triangle_region[kept++] = mesh.triangle_region[t];
-    } else if (dropped.count++ == 0) {
-      dropped.first = mesh.points[mesh.triangles[t][0]];
-    }
-  }
-  mesh.triangles.resize(kept);
-  mesh.triangle_region.resize(kept);
+  keep_triangles(mesh, [&](size_t t) {
+    const bool stays = keep(t);
+    if (!stays && dropped.count++ == 0) dropped.first = mesh.points[mesh.triangles[t][0]];
+    return stays;
+  });
   return dropped;
 }
 
@@ -65,7 +60,7 @@ void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
             [&](int s, int t) { return keys[s] != keys[t] ? keys[s] < keys[t] : s < t; });
   std::vector<char> twin(order.size(), 0);
   for (size_t i = 1; i < order.size(); ++i) twin[order[i]] = keys[order[i]] == keys[order[i - 1]];
-  const Dropped dropped = keep_triangles(mesh, [&](size_t t) { return !twin[t]; });
+  const Dropped dropped = drop_triangles(mesh, [&](size_t t) { return !twin[t]; });
   if (dropped.count == 0) return;
   warnings.push_back(fmt::format("left out {} on the vertices of another (the first at {})",
                                  counted(dropped.count, "triangle"), show_point(dropped.first)));
@@ -96,23 +91,20 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<int> side_of_line;
   std::vector<char> taken(3 * mesh.triangles.size(), 0);
-  size_t kept = 0;
   int stray = 0;
   Vec3 first_stray;
-  for (size_t i = 0; i < mesh.lines.size(); ++i) {
+  keep_lines(mesh, [&](size_t i) {
     const auto edge = sides_of_edge(sides, mesh.lines[i][0], mesh.lines[i][1]);
     if (edge.empty()) {
       if (stray++ == 0) first_stray = mesh.points[mesh.lines[i][0]];
-      continue;
+      return false;
     }
     const int side = side_number(mesh, edge[0]);
-    if (taken[side]) continue;
+    if (taken[side]) return false;
     taken[side] = 1;
     side_of_line.push_back(side);
-    mesh.line_curve[kept++] = mesh.line_curve[i];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+    return true;
+  });
   if (stray > 0) {
     warnings.push_back(fmt::format("left out {} along no side of a triangle (the first at {})",
                                    counted(stray, "line"), show_point(first_stray)));

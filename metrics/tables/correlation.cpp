@@ -86,14 +86,8 @@ TableRow row_of(const Correlation& c) {
 }  // namespace
 
 std::vector<double> ranks(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(values[i], i); });
-  std::vector<double> result(values.size());
-  for (std::size_t i = 0, j; i < order.size(); i = j) {
-    for (j = i; j < order.size() && values[order[j]] == values[order[i]];) ++j;
-    for (std::size_t k = i; k < j; ++k) result[order[k]] = static_cast<double>(i + j + 1) / 2;
-  }
+  std::vector<double> result;
+  for (const int twice : double_ranks(values)) result.push_back(twice / 2.0);
   return result;
 }
 

@@ -15,20 +15,6 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostExact = 60;  // up to here the numbers of ways are exact enough, and quickly had
 
-/// Twice the rank of each value, whole numbers also where ties share a mean rank.
-std::vector<int> double_ranks(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
-  std::vector<int> ranks(values.size());
-  for (std::size_t first = 0, last; first < order.size(); first = last) {
-    last = first + 1;
-    while (last < order.size() && values[order[last]] == values[order[first]]) ++last;
-    for (std::size_t k = first; k < last; ++k) ranks[order[k]] = static_cast<int>(first + last + 1);
-  }
-  return ranks;
-}
-
 std::vector<double> without_zeros(std::span<const double> differences) {
   std::vector<double> values;
   std::ranges::copy_if(differences, std::back_inserter(values), [](double d) { return d != 0; });
@@ -82,6 +68,19 @@ double normal_choice_tail(const std::vector<int>& ranks, std::size_t n, double o
 }
 
 }  // namespace
+
+std::vector<int> double_ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  std::vector<int> ranks(values.size());
+  for (std::size_t first = 0, last; first < order.size(); first = last) {
+    last = first + 1;
+    while (last < order.size() && values[order[last]] == values[order[first]]) ++last;
+    for (std::size_t k = first; k < last; ++k) ranks[order[k]] = static_cast<int>(first + last + 1);
+  }
+  return ranks;
+}
 
 double mean(std::span<const double> samples) {
   return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());

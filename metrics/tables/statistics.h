@@ -11,6 +11,9 @@ double median(std::span<const double> samples);  ///< NaN of none
 /// Half the width of the 95 % confidence interval of the mean, by Student's t; NaN of fewer than two.
 double confidence_half_width(std::span<const double> samples);
 
+/// Twice the rank of each value, from 1: whole numbers also where ties share a mean rank.
+std::vector<int> double_ranks(std::span<const double> values);
+
 /// A two-sided test by ranks of the hypothesis that there is no difference.
 struct RankTest {
   double p = 1;        ///< how likely it is that samples lean so far to one side when nothing does

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// How far along from a to b, in [0, 1], the point of this segment lies that is nearest to x; 0 where a is b.
+template <class Vec>
+double nearest_part(const Vec& x, const Vec& a, const Vec& b) {
+  const Vec d = b - a;
+  const double length2 = dot(d, d);
+  return length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
+}
+/// That point.
+template <class Vec>
+Vec nearest_on_segment(const Vec& x, const Vec& a, const Vec& b) {
+  return a + nearest_part(x, a, b) * (b - a);
+}
+template <class Vec>
+double distance_to_segment(const Vec& x, const Vec& a, const Vec& b) {
+  return norm(x - nearest_on_segment(x, a, b));
+}
+
+/// From a corner into it along its bisector, by this part of its shorter side. The inside is on the left of
+/// the way from `back` over the corner to `ahead`.
+inline Vec2 into_corner(Vec2 back, Vec2 corner, Vec2 ahead, double part) {
+  const Vec2 out = ahead - corner, in = back - corner;
+  const double from = std::atan2(out.y, out.x);
+  double turn = std::atan2(in.y, in.x) - from;
+  if (turn <= 0) turn += 2 * std::numbers::pi;
+  const double angle = from + turn / 2;
+  return part * std::min(norm(out), norm(in)) * Vec2{std::cos(angle), std::sin(angle)};
+}
+
+}  // namespace delquad
