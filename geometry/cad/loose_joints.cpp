@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/box.h"
@@ -160,10 +161,7 @@ class JointFinder {
 
   Pair parts_of(int f, int g) const { return in_order(faces_[f].part, faces_[g].part); }
 
-  bool has_joint(int f, int g) const {
-    return std::ranges::any_of(
-        joints_, [&](const LooseJoint& j) { return in_order(j.faces[0], j.faces[1]) == in_order(f, g); });
-  }
+  bool has_joint(int f, int g) const { return joined_.contains(in_order(f, g)); }
 
   /// The first of the places where no joint of the same parts is known.
   bool add(LooseJoint::Kind kind, int f, int g, const Places& places) {
@@ -174,6 +172,7 @@ class JointFinder {
       });
       if (is_known) continue;
       joints_.push_back({kind, {f, g}, x});
+      joined_.insert(in_order(f, g));
       return true;
     }
     return false;
@@ -334,6 +333,7 @@ class JointFinder {
   std::map<Pair, int> line_on_;  ///< by its ends
   std::vector<char> is_open_;    ///< by part
   std::vector<LooseJoint> joints_;
+  std::set<Pair> joined_;  ///< faces with a joint, in order
 };
 
 }  // namespace
