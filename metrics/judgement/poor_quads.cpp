@@ -86,9 +86,9 @@ struct PoorQuad {
 /// Of all quads those that are poor.
 class PoorQuads {
  public:
-  PoorQuads(const PreparedProblem& prepared, const Mesh& mesh, const std::vector<char>& on_purpose)
+  PoorQuads(const PreparedProblem& prepared, const Mesh& mesh, const ElementSides& sides,
+            const std::vector<char>& on_purpose)
       : prepared_(prepared), mesh_(mesh), edges_(prepared, mesh) {
-    const ElementSides sides(mesh);
     int hint = -1;
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
       const auto corners = corners_of(mesh, mesh.quads[q]);
@@ -334,7 +334,7 @@ BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, 
   // Most meshes have none.
   if (values.at("eta_worst") < kBadEta || values.at("aspect_max") > kPoorAspect ||
       values.at("edge_min") < kPoorEdge) {
-    const std::vector<PoorQuad> quads = PoorQuads(prepared, mesh, on_purpose).quads;
+    const std::vector<PoorQuad> quads = PoorQuads(prepared, mesh, sides, on_purpose).quads;
     for (const PoorQuad& quad : quads)
       if (quad.eta < kBadEta) ++(quad.cause == kAtCorner ? bad.in_corners : bad.elsewhere);
     warn_of_poor_quads(prepared, label, quads, mesh, warnings);

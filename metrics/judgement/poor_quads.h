@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "delquad/options.h"
+#include "geometry/mesh/quad_corners.h"
 #include "patches/prepared.h"
 
 namespace delquad {
 
 /// A quad is poor with an angle below 10 or above 170 degrees (eta below kBadEta), with longer sides than
 /// this times the shortest, or with a side below this part of the size there.
-inline constexpr double kPoorAspect = 20, kPoorEdge = 0.1;
+inline constexpr double kPoorAspect = 20, kPoorEdge = kShortSide;
 
 /// What no element may be beyond.
 struct LimitOptions {
