@@ -562,8 +562,7 @@ int run_program(int argc, char** argv) {
                error.code().message());
     return kBadInput;
   } catch (const UnsoundError& error) {
-    fmt::print(stderr, "error: {}: nothing was written; another size may help (--allow-unsound writes it)\n",
-               error.what());
+    fmt::print(stderr, "error: {}: nothing was written (--allow-unsound writes it)\n", error.what());
     return kUnsound;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "internal error: out of memory\n");
