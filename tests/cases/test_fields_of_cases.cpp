@@ -4,11 +4,11 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/insertion_options.h"
+#include "algorithms/treatment/recombination_options.h"
 #include "cases/case_file.h"
 #include "cases/problem.h"
 #include "features/crosses/size_aware.h"
 #include "mesher/prepare.h"
-#include "algorithms/treatment/recombination_options.h"
 #include "mesher/runner.h"
 #include "smoothing/optimisation/optimisation_options.h"
 #include "tests/support/expect_input_error.h"

@@ -12,8 +12,8 @@
 #include "base/context.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
-#include "mesher/runner.h"
 #include "mesher/prepare.h"
+#include "mesher/runner.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {

@@ -6,8 +6,8 @@
 #include "delquad/extend.h"
 #include "delquad/matching.h"
 #include "geometry/planar/planar_model.h"
-#include "mesher/runner.h"
 #include "mesher/prepare.h"
+#include "mesher/runner.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/expect_input_error.h"
 

@@ -14,8 +14,9 @@ RunResult lens(const Options& options) {
   MeshProblem problem;
   problem.name = problem.where = "lens";
   problem.options = options;
-  const PreparedProblem prepared = prepare_surface(
-      problem, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3), [](double) {});
+  const PreparedProblem prepared =
+      prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
+                      make_constant_size(0.3), [](double) {});
   return run_word(prepared, parse_word("DBC"));
 }
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "algorithms/insertion/insertion_options.h"
-#include "delquad/matching.h"
 #include "algorithms/treatment/recombination_options.h"
+#include "delquad/matching.h"
 #include "smoothing/cvt/cvt_options.h"
 #include "tests/support/expect_input_error.h"
 
