@@ -20,12 +20,6 @@
 namespace delquad {
 namespace {
 
-/// max_elements bounds what is inserted, too: a quad mesh has about as many points as quads.
-long long most_points(const PreparedProblem& prepared) {
-  constexpr long long kPointsPerElement = 4;
-  return kPointsPerElement * prepared.settings.max_elements;
-}
-
 template <std::size_t N>
 bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, int least = 0) {
   return std::ranges::all_of(elements, [&](const auto& element) {
@@ -81,7 +75,7 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
                          StageLog& log) {
   const PreparedPatch& patch = prepared.patches[i];
   const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.settings.options,
-                         most_points(prepared)};
+                         kPointsPerElement * prepared.settings.max_elements};
   const auto run = [&] {
     if (mesh.form != stage.from) {
       mesh = given_to(stage, prepared, patch);

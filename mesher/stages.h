@@ -25,6 +25,9 @@ struct Counters<DiscardSummary> {
       std::tuple{counter("treatments", &S::treatments), counter("cleanups", &S::cleanups)};
 };
 
+/// max_elements bounds what is inserted, too: a quad mesh has about as many points as quads.
+inline constexpr long long kPointsPerElement = 4;
+
 /// A pipeline: stages read from left to right, each starting from what the one before leaves.
 struct Word {
   std::string text;  ///< "DB"
