@@ -20,6 +20,7 @@
 #include "fields/fields.h"
 #include "geometry/planar/boundary_report.h"
 #include "geometry/planar/planar_model.h"
+#include "io/formats/msh.h"
 #include "io/mesh_io.h"
 #include "mesher/refine_unsound.h"
 #include "mesher/surface_input.h"

@@ -1,11 +1,13 @@
 # A room of the house: the folder that calls this as one static library of all its sources, such as
 # delquad::geometry_planar for geometry/planar. LINKS: the rooms whose headers it includes, and no others;
-# tests/house checks both. PRIVATE: libraries. EXCLUDE, ONLY: sources.
+# tests/house checks both. PRIVATE: libraries. EXCLUDE, ONLY: sources. FOLDERS: inside of
+# it, whose sources are its own.
 function(delquad_room)
-  cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE;EXCLUDE;ONLY" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE;EXCLUDE;ONLY;FOLDERS" ${ARGN})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE "/" "_" name ${folder})
-  file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS *.cpp)
+  list(TRANSFORM ARG_FOLDERS APPEND "/*.cpp")
+  file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS *.cpp ${ARG_FOLDERS})
   list(REMOVE_ITEM sources ${ARG_EXCLUDE} "")
   if(ARG_ONLY)
     set(sources ${ARG_ONLY})

@@ -132,10 +132,4 @@ void require_written(bool done, const std::filesystem::path& path, const std::st
                               : ": " + std::generic_category().message(error)));
 }
 
-void refuse_without_library(const std::filesystem::path& path, const std::string& package) {
-  throw InputError(path.string() + ": this program was built without the library for '" +
-                   path.extension().string() + "': install Debian's package " + package +
-                   " and build it again");
-}
-
 }  // namespace delquad

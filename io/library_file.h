@@ -24,7 +24,4 @@ void write_by_library(const std::filesystem::path& path,
 void require_written(bool done, const std::filesystem::path& path, const std::string& library,
                      const char* what);
 
-/// Throws InputError that names the Debian package without which this program was built.
-[[noreturn]] void refuse_without_library(const std::filesystem::path& path, const std::string& package);
-
 }  // namespace delquad

@@ -3,34 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <map>
-#include <span>
 
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
-#include "io/hex_writers.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "metrics/metrics.h"
 
 namespace delquad {
 
 namespace {
-
-void write_vtu_with_eta(const std::filesystem::path& path, const Mesh& mesh, QuadNodes nodes) {
-  std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
-                          std::numeric_limits<double>::quiet_NaN());
-  const std::vector<double> of_quads = quad_etas(mesh);
-  eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}}, nodes);
-}
-void write_vtu_plainly(const std::filesystem::path& path, const Mesh& mesh) {
-  write_vtu_with_eta(path, mesh, QuadNodes::kAll);
-}
 
 /// A plane mesh is seen from above, one in space from a corner.
 void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
@@ -39,46 +21,8 @@ void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
   (planar ? draw_mesh : draw_surface)(path, mesh, path.stem().string());
 }
 
-/// Readers that note nothing.
-template <Mesh (*read)(const std::filesystem::path&)>
-Mesh read_plainly(const std::filesystem::path& path, ReadNotes*, Strays) {
-  return read(path);
-}
-Mesh read_msh_alone(const std::filesystem::path& path, ReadNotes* notes, Strays) {
-  return read_msh(path, nullptr, notes);
-}
-
-/// Writers of hexahedra that have no binary form.
-template <void (*write)(const std::filesystem::path&, const HexMesh&)>
-void write_plainly(const std::filesystem::path& path, const HexMesh& mesh, bool) {
-  write(path, mesh);
-}
-
 void make_utf8(Entity& entity) {
   for (std::string& name : entity.names) name = as_utf8(name);
-}
-
-/// What formats rename that have labels by these rules.
-template <const UniqueLabels::Rules& rules>
-std::vector<std::string> renamed_by(const Mesh& mesh) {
-  return renamed_groups(mesh_groups(mesh, rules));
-}
-
-/// Of formats whose files do not tell what became of names, by extension.
-const std::map<std::string, std::vector<std::string> (*)(const Mesh&)> kRenamed = {
-    {".msh", renamed_in_msh},
-    {".vtk", renamed_in_vtk},
-    {".e", renamed_by<kExodusLabels>},
-    {".cgns", renamed_by<kCgnsLabels>},
-    {".med", renamed_by<kMedLabels>}};
-
-constexpr const char* kMsh = ".msh";
-/// Formats with quads of 8 nodes; of order 2 the last ones have no others.
-constexpr std::array kWithEight = {kMsh, ".vtu", ".inp", ".bdf"};
-constexpr std::array kAlwaysEight = {".inp", ".bdf"};
-
-bool is_among(const MeshFormat& format, std::span<const char* const> extensions) {
-  return std::ranges::find(extensions, format.extensions[0]) != extensions.end();
 }
 
 /// kind_of_file() looks behind .gz, but nothing is written packed.
@@ -110,60 +54,38 @@ std::string extensions_of(const Can& can) {
                    "': expected " + known);
 }
 
-#ifdef DELQUAD_HAS_EXODUS
-constexpr const char* kExodusPackage = "";
-#else
-constexpr const char* kExodusPackage = "libexodusii-dev";
-#endif
-#ifdef DELQUAD_HAS_CGNS
-constexpr const char* kCgnsPackage = "";
-#else
-constexpr const char* kCgnsPackage = "libcgns-dev";
-#endif
-#ifdef DELQUAD_HAS_MED
-constexpr const char* kMedPackage = "";
-#else
-constexpr const char* kMedPackage = "libmedc-dev";
-#endif
-#ifdef DELQUAD_HAS_HDF5
-constexpr const char* kHdf5Package = "";
-#else
-constexpr const char* kHdf5Package = "libhdf5-dev";
-#endif
-
 }  // namespace
 
-bool can_write(const MeshFormat& format) { return format.write != nullptr || format.extensions[0] == kMsh; }
+bool can_write(const MeshFormat& format) { return format.write != nullptr || !format.package.empty(); }
+
+MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(), vtk_format(),
+    exodus_format(), cgns_format(), med_format(), xdmf_format(), ucd_format(), mfem_format(), su2_format(),
+    nastran_format(), ls_dyna_format(), off_format(), stl_format(), ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
-  static const std::vector<MeshFormat> all = {
-      {{kMsh}, "Gmsh 2.2 and 4.1, text or bytes", read_msh_alone, nullptr, kMostOrder, "", write_hex_msh},
-      {{".vtu"},
-       "VTK XML, ParaView",
-       read_plainly<read_vtu>,
-       write_vtu_plainly,
-       kMostOrder,
-       "",
-       write_plainly<write_hex_vtu>},
-      {{".obj"}, "Wavefront", read_obj, write_obj, 1},
-      {{".inp"}, "Abaqus, CalculiX", read_plainly<read_inp>, write_inp, 2, "", write_plainly<write_hex_inp>},
-      {{".mesh"}, "Medit", read_plainly<read_medit>, write_medit, 1},
-      {{".vtk"}, "VTK legacy, text", nullptr, write_vtk, kMostOrder},
-      {{".e", ".exo", ".ex2"}, "Exodus II: MOOSE, Cubit", nullptr, write_exodus, 2, kExodusPackage},
-      {{".cgns"}, "CGNS", nullptr, write_cgns, 2, kCgnsPackage},
-      {{".med"}, "MED: Code_Aster, Salome", nullptr, write_med, 2, kMedPackage},
-      {{".xdmf"}, "XDMF with numbers in HDF5: dolfinx, ParaView", nullptr, write_xdmf, 2, kHdf5Package},
-      {{".ucd", ".avs"}, "AVS unstructured cell data: deal.II", read_plainly<read_ucd>, write_ucd, 1},
-      {{".mfem"}, "MFEM 1.0", read_plainly<read_mfem>, write_mfem, kMostOrder},
-      {{".su2"}, "SU2", nullptr, write_su2, 1},
-      {{".bdf", ".nas"}, "Nastran bulk data", read_plainly<read_nastran>, write_nastran, 2},
-      {{".k", ".key"}, "LS-DYNA keywords", nullptr, write_ls_dyna, 1},
-      {{".off"}, "Object File Format", read_off, nullptr, 1},
-      {{".stl"}, "stereolithography", read_stl, nullptr, 1},
-      {{".ply"}, "Polygon File Format", read_ply, nullptr, 1},
-      {{".3mf"}, "3D Manufacturing Format", read_3mf, nullptr, 1},
-      {{".svg"}, "a picture", nullptr, write_picture, kMostOrder},
-  };
+  static const std::vector<MeshFormat> all = {msh_format(),
+                                              vtu_format(),
+                                              obj_format(),
+                                              inp_format(),
+                                              medit_format(),
+                                              vtk_format(),
+                                              exodus_format(),
+                                              cgns_format(),
+                                              med_format(),
+                                              xdmf_format(),
+                                              ucd_format(),
+                                              mfem_format(),
+                                              su2_format(),
+                                              nastran_format(),
+                                              ls_dyna_format(),
+                                              off_format(),
+                                              stl_format(),
+                                              ply_format(),
+                                              three_mf_format(),
+                                              {.extensions = {".svg"},
+                                               .description = "a picture",
+                                               .write = write_by<write_picture>,
+                                               .most_order = kMostOrder}};
   return all;
 }
 
@@ -195,7 +117,7 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
     throw InputError(fmt::format(
         "{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
         extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; })));
-  if (kind != kMsh && options.binary)
+  if (options.binary && !format->has_binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
 
@@ -217,9 +139,7 @@ void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, boo
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   check_mesh_format(path, options, mesh.order);
-  const std::string kind = kind_to_write(path);
-  if (kind == kMsh) return write_msh(path, mesh, options);
-  find_format(kind)->write(path, mesh);
+  find_format(kind_to_write(path))->write(path, mesh, options, QuadNodes::kAll);
 }
 
 void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {
@@ -230,7 +150,7 @@ void check_serendipity(const std::filesystem::path& path, const MshOptions& opti
                     "--serendipity",
                     path.string(), order));
   const std::string kind = kind_to_write(path);
-  const auto can = [](const MeshFormat& f) { return is_among(f, kWithEight); };
+  const auto can = [](const MeshFormat& f) { return f.eight_nodes != EightNodes::kNever; };
   if (!can(*find_format(kind)))
     throw InputError(fmt::format("{}: '{}' has no quads of 8 nodes here: expected {}", path.string(), kind,
                                  extensions_of(can)));
@@ -238,19 +158,17 @@ void check_serendipity(const std::filesystem::path& path, const MshOptions& opti
 
 void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   check_serendipity(path, options, mesh.order);
-  const std::string kind = kind_to_write(path);
-  if (is_among(*find_format(kind), kAlwaysEight)) return write_mesh(path, mesh, options);
+  const MeshFormat& format = *find_format(kind_to_write(path));
+  if (format.eight_nodes == EightNodes::kAlways) return write_mesh(path, mesh, options);
   Mesh eight = mesh;  // a corner stands for each middle node, which so is no node any more
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) eight.quad_nodes[5 * q + 4] = mesh.quads[q][0];
   drop_unused_points(eight);
-  if (kind == kMsh) return write_msh(path, eight, options, QuadNodes::kNoMiddle);
-  write_vtu_with_eta(path, eight, QuadNodes::kNoMiddle);
+  format.write(path, eight, options, QuadNodes::kNoMiddle);
 }
 
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {
   const MeshFormat* format = find_format(kind_to_write(path));
-  const auto found = format == nullptr ? kRenamed.end() : kRenamed.find(format->extensions[0]);
-  return found == kRenamed.end() ? std::vector<std::string>() : found->second(mesh);
+  return format == nullptr || format->renamed == nullptr ? std::vector<std::string>() : format->renamed(mesh);
 }
 
 }  // namespace delquad

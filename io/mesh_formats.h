@@ -9,19 +9,38 @@
 
 namespace delquad {
 
-/// A kind of mesh file.
+/// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
+enum class EightNodes { kNever, kWhenAsked, kAlways };
+
+/// A kind of mesh file. What is written of it stands in its files in io/formats/ and in a line of
+/// mesh_formats.cpp.
 struct MeshFormat {
   std::vector<std::string> extensions;  ///< in small letters, with the dot; the usual one first
   std::string description;
-  Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays);  ///< null: it is not read
-  void (*write)(const std::filesystem::path&,
-                const Mesh&);  ///< null: it is not written, but for MSH, which has options
-  int most_order;              ///< of elements that are written
+  Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
+  void (*write)(const std::filesystem::path&, const Mesh&, const MshOptions&, QuadNodes) = nullptr;
+  int most_order = 1;  ///< of elements that are written
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
   void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, bool binary) = nullptr;
+  EightNodes eight_nodes = EightNodes::kNever;
+  bool has_binary = false;
+  /// As renamed_in_file(); null: the file itself tells.
+  std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
 };
 
+/// Readers that note nothing.
+template <Mesh (*read)(const std::filesystem::path&)>
+Mesh read_by(const std::filesystem::path& path, ReadNotes*, Strays) {
+  return read(path);
+}
+/// Writers without options.
+template <void (*write)(const std::filesystem::path&, const Mesh&)>
+void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&, QuadNodes) {
+  write(path, mesh);
+}
+
+/// By this program, or by one with its library.
 bool can_write(const MeshFormat& format);
 
 /// In the order of the documentation.

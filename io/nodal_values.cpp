@@ -11,7 +11,7 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
-#include "io/msh_raw.h"
+#include "io/formats/msh_raw.h"
 
 namespace delquad {
 

@@ -13,7 +13,6 @@
 #include "cases/case.h"
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"
-#include "io/hex_writers.h"
 #include "io/mesh_io.h"
 #include "io/polyline_file.h"
 #include "program/check_files.h"

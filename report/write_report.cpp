@@ -237,7 +237,7 @@ class Page {
         reason = "no room left in this file; see " + (cell.folder / "picture.svg").string();
       else if (cell.reason.empty())
         try {
-          mesh = read_msh(cell.folder / "mesh.msh");
+          mesh = read_mesh(cell.folder / "mesh.msh");
         } catch (const InputError& error) {
           problems_.push_back(reason = error.what());
         }

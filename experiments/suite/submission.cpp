@@ -110,7 +110,7 @@ class Adding {
     const RunResult result = measure(prepared, file);
     const Word& word = experiment_.words[0];
     write_cell(cell_folder(folder_, c, word), [&](const fs::path& at) {
-      write_msh(at / "mesh.msh", result.mesh);
+      write_mesh(at / "mesh.msh", result.mesh);
       identity.files = marks_of(at);
       write_file_atomically(at / "record.json", [&](std::ostream& out) {
         out << run_record(c, prepared, word, result, &identity);

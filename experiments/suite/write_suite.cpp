@@ -73,7 +73,7 @@ void write_suite(const fs::path& folder) {
   const Experiment experiment = write_suite_experiment(folder);
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
-    if (c.model) write_msh(folder / (c.name + ".msh"), prepare_case(c).boundary);
+    if (c.model) write_mesh(folder / (c.name + ".msh"), prepare_case(c).boundary);
   }
   write_text(folder / "cases.json", cases_text());
 }

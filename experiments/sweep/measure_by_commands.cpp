@@ -17,7 +17,7 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
   const Stopwatch watch;
   std::vector<std::string> failures;
   std::filesystem::create_directories(scratch);
-  write_msh(scratch / "mesh.msh", result.mesh);
+  write_mesh(scratch / "mesh.msh", result.mesh);
   for (const auto& [metric, files] : cell.metrics) {
     MetricOutcome outcome = run_metric(*metric, c, pipeline, scratch);
     result.metrics.values.merge(outcome.values);

@@ -112,7 +112,7 @@ fs::path read_by_gmsh(const fs::path& file, const fs::path& folder) {
       mesh.triangles.push_back(half);
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
   mesh.regions = {{1, {}}};
-  write_msh(folder / "model.msh", mesh);
+  write_mesh(folder / "model.msh", mesh);
   return folder / "model.msh";
 }
 

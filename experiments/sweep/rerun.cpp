@@ -127,7 +127,7 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   measure_by_solvers(cell, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
-  write_msh(mesh, result.mesh);
+  write_mesh(mesh, result.mesh);
   const Json now = Json::parse(run_record(c, prepared, word, result, &cell));
   return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
           compare_values(record, now)};

@@ -18,6 +18,7 @@
 #include "experiments/sweep/cell_folder.h"
 #include "experiments/sweep/measure_by_commands.h"
 #include "io/digest.h"
+#include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
 #include "mesher/refine_unsound.h"
@@ -96,7 +97,7 @@ void VariantWork::finish(const Cell& cell) {
   write_cell(cell.folder, [&](const fs::path& at) {
     move_files(scratch, at);
     const Stopwatch writing;
-    write_msh(at / "mesh.msh", result.mesh);
+    write_mesh(at / "mesh.msh", result.mesh);
     write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
     if (pictures) draw(at, label, result);
     result.log.add_time("write", writing.time());

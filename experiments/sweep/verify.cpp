@@ -84,7 +84,7 @@ bool is_close(double a, double b) {
 
 /// Measures of the mesh that are not those of the record.
 Lines check_measures(const VerifiedCell& cell, const PreparedProblem* prepared) {
-  const Mesh mesh = read_msh(cell.file.parent_path() / "mesh.msh");
+  const Mesh mesh = read_mesh(cell.file.parent_path() / "mesh.msh");
   const MeshMetrics now = prepared != nullptr
                               ? evaluate_metrics(mesh, prepared->size.field.get(), prepared->size.asked.get(),
                                                  prepared->settings.options, sorted_half_edges(mesh),

@@ -1,10 +1,14 @@
 #include <zlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 
 #include "geometry/mesh/check_mesh.h"
-#include "io/mesh_io.h"
+#include "io/formats/msh.h"
+#include "io/formats/readers.h"
+#include "io/formats/vtu.h"
+#include "io/mesh_formats.h"
 #include "metrics/metrics.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/reader_seeds.h"
@@ -38,6 +42,12 @@ Mesh msh(const std::filesystem::path& path) {
   return read_msh(path, &surfaces);
 }
 
+/// By the reader of files of this kind, whatever the file is called.
+Mesh read_as(const char* kind, const std::filesystem::path& path, ReadNotes* notes = nullptr) {
+  const auto is_it = [&](const MeshFormat& format) { return format.extensions[0] == kind; };
+  return std::ranges::find_if(mesh_formats(), is_it)->read(path, notes, Strays::kRefused);
+}
+
 /// Mostly bytes of the model alone: no mutation finds the checksums of an archive.
 bool try_3mf(std::string_view bytes) {
   static InputFile file("input");
@@ -45,14 +55,14 @@ bool try_3mf(std::string_view bytes) {
   const std::filesystem::path& path = file.hold(archive);
   return result_or_input_error(path.string(), [&] {
     ReadNotes notes;
-    check_mesh(read_3mf(path, &notes));
+    check_mesh(read_as(".3mf", path, &notes));
   });
 }
 
-Mesh obj(const std::filesystem::path& path) { return read_obj(path); }
-Mesh off(const std::filesystem::path& path) { return read_off(path); }
-Mesh ply(const std::filesystem::path& path) { return read_ply(path); }
-Mesh stl(const std::filesystem::path& path) { return read_stl(path); }
+Mesh obj(const std::filesystem::path& path) { return read_as(".obj", path); }
+Mesh off(const std::filesystem::path& path) { return read_as(".off", path); }
+Mesh ply(const std::filesystem::path& path) { return read_as(".ply", path); }
+Mesh stl(const std::filesystem::path& path) { return read_as(".stl", path); }
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/check_mesh.h"
+#include "io/formats/vtu.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "tests/support/curved_grid.h"
@@ -46,11 +47,11 @@ TEST(CurvedFiles, ComeBackAsTheyWere) {
       const Mesh mesh = curved_grid(4, 3, order, in_space);
       ASSERT_TRUE(check_invariants(mesh).empty());
       for (const bool binary : {false, true}) {
-        write_msh(folder / "a.msh", mesh, {binary, MshCurves::kAll});
-        expect_same_curved(mesh, read_msh(folder / "a.msh"));
+        write_mesh(folder / "a.msh", mesh, {binary, MshCurves::kAll});
+        expect_same_curved(mesh, read_mesh(folder / "a.msh"));
       }
       write_vtu(folder / "a.vtu", mesh);
-      expect_same_curved(mesh, read_vtu(folder / "a.vtu"));
+      expect_same_curved(mesh, read_mesh(folder / "a.vtu"));
     }
 }
 
@@ -100,8 +101,8 @@ const std::string kEightVtu =
 
 TEST(CurvedFiles, QuadsOfEightNodesGetTheirMiddle) {
   const TemporaryFolder folder;
-  for (const Mesh& mesh : {read_msh(write_text(folder / "a.msh", kEightMsh)),
-                           read_vtu(write_text(folder / "a.vtu", kEightVtu))}) {
+  for (const Mesh& mesh : {read_mesh(write_text(folder / "a.msh", kEightMsh)),
+                           read_mesh(write_text(folder / "a.vtu", kEightVtu))}) {
     EXPECT_EQ(mesh.order, 2);
     ASSERT_EQ(mesh.points.size(), 9u);
     EXPECT_EQ(mesh.quad_nodes, (std::vector<int>{4, 5, 6, 7, 8}));
@@ -115,13 +116,13 @@ TEST(CurvedFiles, ElementsOfSeveralOrdersAreRefused) {
   const TemporaryFolder folder;
   std::string text = kEightMsh;
   text.replace(text.find("\n1\n1 16"), 3, "\n2\n2 1 2 0 1 1 2\n");
-  expect_input_error([&] { read_msh(write_text(folder / "a.msh", text)); },
+  expect_input_error([&] { read_mesh(write_text(folder / "a.msh", text)); },
                      {"a.msh:18: ", "order 2 beside elements of order 1"});
   text = kEightVtu;
   text.replace(text.find("6 7<"), 3, "6 7 0 1");
   text.replace(text.find(">8<"), 2, ">8 10");
   text.replace(text.find(">23<"), 3, ">23 3");
-  expect_input_error([&] { read_vtu(write_text(folder / "a.vtu", text)); },
+  expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", text)); },
                      {"a.vtu: ", "order 1 beside elements of order 2"});
 }
 
@@ -133,7 +134,7 @@ TEST(CurvedFiles, CellsHaveAsManyPointsAsTheirTypeSays) {
                                        {"68", "expected 2 to 5"}}) {
     std::string text = kEightVtu;
     text.replace(text.find(">23<") + 1, 2, type);
-    expect_input_error([&] { read_vtu(write_text(folder / "a.vtu", text)); },
+    expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", text)); },
                        {"a.vtu: ", "has 8 points", expected});
   }
 }

@@ -7,6 +7,7 @@
 
 #include "delquad/error.h"
 #include "geometry/mesh/split_polygon.h"
+#include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "tests/io/msh_files.h"
 #include "tests/support/expect_input_error.h"
@@ -49,7 +50,7 @@ std::string binary_22() {
 
 TEST(BinaryMsh, ReadsLegacyFiles) {
   const TemporaryFolder folder;
-  const Mesh mesh = read_msh(write_text(folder / "a.msh", binary_22()));
+  const Mesh mesh = read_mesh(write_text(folder / "a.msh", binary_22()));
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0.5}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}}));
   EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
   EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}}));
@@ -60,11 +61,11 @@ TEST(PeriodicMsh, SaysThatPairsAreNotRead) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(2, 2);
   ReadNotes notes;
-  write_msh(folder / "a.msh", mesh);
+  write_mesh(folder / "a.msh", mesh);
   read_mesh(folder / "a.msh", &notes);
   EXPECT_TRUE(notes.empty());
   mesh.periodic = {{0, 1, {}, {{0, 1}}}};
-  write_msh(folder / "a.msh", mesh);
+  write_mesh(folder / "a.msh", mesh);
   read_mesh(folder / "a.msh", &notes);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("$Periodic"), std::string::npos);
@@ -73,27 +74,27 @@ TEST(PeriodicMsh, SaysThatPairsAreNotRead) {
 TEST(BinaryMsh, DamagedFilesGiveOneMessage) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(3, 2);
-  write_msh(folder / "a.msh", mesh, {true, MshCurves::kAll});
+  write_mesh(folder / "a.msh", mesh, {true, MshCurves::kAll});
   for (const std::string& whole : {read_text(folder / "a.msh"), binary_22()}) {
     const size_t needed = whole.find("$EndElements");
     for (size_t n = 0; n < needed; ++n)
-      EXPECT_THROW(read_msh(write_text(folder / "cut.msh", whole.substr(0, n))), InputError) << n;
+      EXPECT_THROW(read_mesh(write_text(folder / "cut.msh", whole.substr(0, n))), InputError) << n;
     for (size_t n = 0; n < whole.size(); ++n) {
       std::string damaged = whole;
       damaged[n] = static_cast<char>(damaged[n] ^ 0x81);
       try {
-        read_msh(write_text(folder / "damaged.msh", damaged));
+        read_mesh(write_text(folder / "damaged.msh", damaged));
       } catch (const InputError&) {
       }
     }
   }
-  expect_input_error([&] { read_msh(write_text(folder / "cut.msh", binary_22().substr(0, 150))); },
+  expect_input_error([&] { read_mesh(write_text(folder / "cut.msh", binary_22().substr(0, 150))); },
                      {"cut.msh: byte ", "the file ends where"});
 }
 
 TEST(Gzip, IsUnpacked) {
   const TemporaryFolder folder;
-  write_msh(folder / "a.msh", quad_grid(5, 4), {true, MshCurves::kAll});
+  write_mesh(folder / "a.msh", quad_grid(5, 4), {true, MshCurves::kAll});
   const std::string text = read_text(folder / "a.msh");
   EXPECT_EQ(read_mesh(write_gzip(folder / "B.MSH.GZ", text)).quads, quad_grid(5, 4).quads);
   const std::string packed = read_text(folder / "B.MSH.GZ");
@@ -176,7 +177,7 @@ TEST(Polygons, AreSaidWithTheirNumber) {
   EXPECT_EQ(notes.size(), 2u);
   expect_input_error(
       [&] {
-        read_obj(write_text(folder / "b.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nf 1 2 3 4 5\n"));
+        read_mesh(write_text(folder / "b.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nf 1 2 3 4 5\n"));
       },
       {"b.obj:6: ", "face of 5 vertices", "does not cross itself"});
 }
@@ -186,9 +187,9 @@ TEST(ObjNames, StayDifferent) {
   Mesh mesh = quad_grid(1, 2);
   mesh.regions = {{1, {"a b"}}, {2, {"a_b"}}};
   mesh.quad_region = {0, 1};
-  write_obj(folder / "a.obj", mesh);
+  write_mesh(folder / "a.obj", mesh);
   EXPECT_NE(read_text(folder / "a.obj").find("# group a_b_2 is \"a b\"\n"), std::string::npos);
-  const Mesh back = read_obj(folder / "a.obj");
+  const Mesh back = read_mesh(folder / "a.obj");
   ASSERT_EQ(back.regions.size(), 2u);
   EXPECT_EQ(back.regions[0].names, (std::vector<std::string>{"a_b_2"}));
   EXPECT_EQ(back.regions[1].names, (std::vector<std::string>{"a_b"}));
@@ -238,7 +239,7 @@ TEST(OwnFiles, InpKeepsElementsSetsAndSurfaces) {
 
 TEST(Inp, ReadsWhatProgramsWrite) {
   const TemporaryFolder folder;
-  const Mesh mesh = read_inp(write_text(folder / "a.inp", R"(** a comment
+  const Mesh mesh = read_mesh(write_text(folder / "a.inp", R"(** a comment
 *Node, nset=all
  7, 0., 0.
  8, 1., 0., 0.
@@ -268,7 +269,7 @@ TEST(Inp, ReadsWhatProgramsWrite) {
   EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{4, 2}}));
   EXPECT_EQ(mesh.curves[0].names, (std::vector<std::string>{"side"}));
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read_inp(write_text(folder / "b.inp", text)); }, parts);
+    expect_input_error([&] { read_mesh(write_text(folder / "b.inp", text)); }, parts);
   };
   refuses("*NODE\n1, 0, x\n", {"b.inp:2: ", "'x'"});
   refuses("*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", {"b.inp:3: ", "C3D8", "S4"});
@@ -282,7 +283,7 @@ TEST(Inp, ReadsWhatProgramsWrite) {
 TEST(Medit, NamesTheLineOfWhatIsWrong) {
   const TemporaryFolder folder;
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read_medit(write_text(folder / "b.mesh", text)); }, parts);
+    expect_input_error([&] { read_mesh(write_text(folder / "b.mesh", text)); }, parts);
   };
   const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\n";
   refuses(head + "Triangles\n1\n1 1 2 0\n", {"b.mesh:8: ", "from 1 to 1"});
@@ -296,12 +297,12 @@ TEST(Vtu, RefusesWhatIsDamaged) {
   write_vtu(folder / "a.vtu", quad_grid(2, 2));
   const std::string whole = read_text(folder / "a.vtu");
   for (size_t n = 0; n < whole.size() - 12; n += 7)
-    EXPECT_THROW(read_vtu(write_text(folder / "cut.vtu", whole.substr(0, n))), InputError) << n;
+    EXPECT_THROW(read_mesh(write_text(folder / "cut.vtu", whole.substr(0, n))), InputError) << n;
   for (size_t n = 0; n < whole.size(); n += 3) {
     std::string damaged = whole;
     damaged[n] = static_cast<char>(damaged[n] ^ 3);
     try {
-      read_vtu(write_text(folder / "damaged.vtu", damaged));
+      read_mesh(write_text(folder / "damaged.vtu", damaged));
     } catch (const InputError&) {
     }
   }

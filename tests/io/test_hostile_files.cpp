@@ -29,16 +29,16 @@ TEST(HostileVtu, ElementsInElementsAreNotFollowed) {
   const TemporaryFolder folder;
   std::string deep;
   for (int i = 0; i < 1'000'000; ++i) deep += "<a>";
-  expect_input_error([&] { read_vtu(write_text(folder / "a.vtu", deep)); }, {"a.vtu", "levels"});
+  expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", deep)); }, {"a.vtu", "levels"});
 }
 
 TEST(HostileVtu, NumbersThatAreNoIntAreNoTypesAndTags) {
   const TemporaryFolder folder;
-  EXPECT_EQ(read_vtu(write_text(folder / "a.vtu", vtu("5 1"))).triangles.size(), 1u);
+  EXPECT_EQ(read_mesh(write_text(folder / "a.vtu", vtu("5 1"))).triangles.size(), 1u);
   for (const char* type : {"nan", "1e300", "-1e300", "inf"})
-    expect_input_error([&] { read_vtu(write_text(folder / "a.vtu", vtu(std::string(type) + " 1"))); },
+    expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", vtu(std::string(type) + " 1"))); },
                        {"a.vtu", "cell"});
-  const Mesh mesh = read_vtu(
+  const Mesh mesh = read_mesh(
       write_text(folder / "a.vtu",
                  vtu("5 1", R"(<FieldData><DataArray Name="region n">1e300 nan 1</DataArray></FieldData>)")));
   EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"n"});
@@ -50,7 +50,7 @@ TEST(HostileInp, SetsThatHoldThemselvesDoNotGrow) {
   std::string text =
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3, ELSET=a\n1, 1, 2, 3\n*ELSET, ELSET=a\n";
   for (int i = 0; i < 50; ++i) text += "a, a\n";
-  const Mesh mesh = read_inp(write_text(folder / "a.inp", text));
+  const Mesh mesh = read_mesh(write_text(folder / "a.inp", text));
   EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"a"});
 }
 
@@ -59,7 +59,7 @@ TEST(HostileInp, StepsEndWithTheLastElement) {
   const std::string text =
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n*ELSET, ELSET=a, GENERATE\n";
   const auto read = [&](const std::string& range) {
-    return read_inp(write_text(folder / "a.inp", text + range + "\n"));
+    return read_mesh(write_text(folder / "a.inp", text + range + "\n"));
   };
   EXPECT_EQ(read("7, 9223372036854775807, 9223372036854775807").regions[0].names,
             std::vector<std::string>{"a"});
@@ -82,13 +82,13 @@ TEST(HostilePly, ColoursThatAreNoNumbersAreNone) {
   for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) put(x);
   text += std::string("\3\0\1\2", 4);
   for (const float part : {NAN, 1.f, 1.f}) put(part);
-  EXPECT_TRUE(read_ply(write_text(folder / "a.ply", text)).regions[0].names.empty());
+  EXPECT_TRUE(read_mesh(write_text(folder / "a.ply", text)).regions[0].names.empty());
 }
 
 TEST(HostilePly, NamesAreShownInPrint) {
   const TemporaryFolder folder;
   try {
-    read_ply(write_text(
+    read_mesh(write_text(
         folder / "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
         "property float \x01\x02\nelement face 0\nend_header\n0 0 0"));
@@ -110,8 +110,8 @@ TEST(HostileThreeMf, PlacesAreFinite) {
       R"(<object id="1"><mesh><vertices><vertex x="1e300" y="0" z="0"/><vertex x="1" y="0" z="0"/>)"
       R"(<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
   const auto read = [&](const std::string& transform) {
-    return read_3mf(write_text(folder / "a.3mf",
-                               three_mf(object, "<item objectid=\"1\" transform=\"" + transform + "\"/>")));
+    return read_mesh(write_text(folder / "a.3mf",
+                                three_mf(object, "<item objectid=\"1\" transform=\"" + transform + "\"/>")));
   };
   EXPECT_EQ(read("1 0 0 0 1 0 0 0 1 0 0 0").triangles.size(), 1u);
   expect_input_error([&] { read("1e300 0 0 0 1 0 0 0 1 0 0 0"); }, {"a.3mf", "finite"});
@@ -129,7 +129,7 @@ TEST(HostileThreeMf, PointsThatMultiplyAreRefused) {
         "<object id=\"" + std::to_string(i) + "\"><components>" + part + part + "</components></object>";
   }
   expect_input_error(
-      [&] { read_3mf(write_text(folder / "a.3mf", three_mf(resources, "<item objectid=\"16\"/>"))); },
+      [&] { read_mesh(write_text(folder / "a.3mf", three_mf(resources, "<item objectid=\"16\"/>"))); },
       {"a.3mf", "more than"});
 }
 

@@ -68,7 +68,7 @@ TEST(VtkLegacy, CurvesOfOneNameAreOneArray) {
 TEST(Xdmf, IsWrittenWithItsNumbersOrNotAtAll) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a.xdmf");
-  expect_input_error([&] { write_xdmf(folder / "a.xdmf", quad_grid(1, 1)); }, {"a.xdmf"});
+  expect_input_error([&] { write_mesh(folder / "a.xdmf", quad_grid(1, 1)); }, {"a.xdmf"});
   EXPECT_EQ(folder.names(), Names{"a.xdmf"});
 }
 

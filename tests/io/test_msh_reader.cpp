@@ -140,8 +140,8 @@ TEST_F(MshReader, SaysWhichFilesItReads) {
   expect_error("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", {"without a $Nodes section"});
   expect_error("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n", {"case.msh:4: ", "$EndComments"});
   expect_error(with(kSquare41, "$Entities", "$PartitionedEntities"), {"case.msh:10: ", "partitioned"});
-  expect_input_error([&] { read_msh(folder_ / "missing.msh"); }, {"missing.msh: ", "No such file"});
-  expect_input_error([&] { read_msh(folder_.path()); }, {"folder"});
+  expect_input_error([&] { read_mesh(folder_ / "missing.msh"); }, {"missing.msh: ", "No such file"});
+  expect_input_error([&] { read_mesh(folder_.path()); }, {"folder"});
 }
 
 TEST_F(MshReader, NeedsElements) {

@@ -77,10 +77,10 @@ TEST(MshRoundTrip, KeepsEverything) {
   lines.regions.clear();
   for (const Mesh& mesh : {mixed(), quad_grid(5, 3), triangle_grid(3, 4), shaken(quad_grid(20, 20)), lines}) {
     for (const bool binary : {false, true}) {
-      write_msh(folder / "a.msh", mesh, {binary, MshCurves::kAll});
-      const Mesh back = read_msh(folder / "a.msh");
+      write_mesh(folder / "a.msh", mesh, {binary, MshCurves::kAll});
+      const Mesh back = read_mesh(folder / "a.msh");
       expect_same(named(mesh), back);
-      write_msh(folder / "b.msh", back, {binary, MshCurves::kAll});
+      write_mesh(folder / "b.msh", back, {binary, MshCurves::kAll});
       EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
     }
   }
@@ -88,7 +88,7 @@ TEST(MshRoundTrip, KeepsEverything) {
 
 TEST(MshRoundTrip, GroupsThatAreNumbersKeepThem) {
   const TemporaryFolder folder;
-  write_msh(folder / "a.msh", mixed());
+  write_mesh(folder / "a.msh", mixed());
   const std::string text = read_text(folder / "a.msh");
   EXPECT_NE(text.find("\n2 17 \"17\"\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\n1 1 \"bord côté sud\"\n"), std::string::npos) << text;
@@ -96,7 +96,7 @@ TEST(MshRoundTrip, GroupsThatAreNumbersKeepThem) {
 
 TEST(MshWriter, IsTheDocumentedFormat) {
   const TemporaryFolder folder;
-  write_msh(folder / "a.msh", quad_grid(1, 1, 0.5, 2));
+  write_mesh(folder / "a.msh", quad_grid(1, 1, 0.5, 2));
   EXPECT_EQ(read_text(folder / "a.msh"), R"($MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -163,7 +163,7 @@ TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
   mesh.curves[1].names = {"curve_3"};
   mesh.curves[2].names = {};
   mesh.curves[3].names = {"say \"x\"", "two\nlines\x01"};
-  write_msh(folder / "a.msh", mesh);
+  write_mesh(folder / "a.msh", mesh);
   const std::string text = read_text(folder / "a.msh");
   EXPECT_EQ(
       section(text, "PhysicalNames"),
@@ -177,25 +177,25 @@ TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
 TEST(MshWriter, LeavesOutLinesInside) {
   const TemporaryFolder folder;
   const auto curves = [&](MshCurves which) {
-    write_msh(folder / "a.msh", mixed(), {false, which});
+    write_mesh(folder / "a.msh", mixed(), {false, which});
     std::vector<int> tags;
-    for (const Entity& curve : read_msh(folder / "a.msh").curves) tags.push_back(curve.tag);
+    for (const Entity& curve : read_mesh(folder / "a.msh").curves) tags.push_back(curve.tag);
     return tags;
   };
   EXPECT_EQ(curves(MshCurves::kAll), (std::vector<int>{1, 2, 3, 4, 40}));
   EXPECT_EQ(curves(MshCurves::kNamed), (std::vector<int>{1, 2, 3, 4}));
   Mesh named_inside = mixed();
   named_inside.curves[4].names = {"interface"};
-  write_msh(folder / "a.msh", named_inside, {false, MshCurves::kNamed});
-  EXPECT_EQ(read_msh(folder / "a.msh").curves.size(), 5u);
-  write_msh(folder / "a.msh", named_inside, {false, MshCurves::kBoundary});
-  EXPECT_EQ(read_msh(folder / "a.msh").curves.size(), 4u);
+  write_mesh(folder / "a.msh", named_inside, {false, MshCurves::kNamed});
+  EXPECT_EQ(read_mesh(folder / "a.msh").curves.size(), 5u);
+  write_mesh(folder / "a.msh", named_inside, {false, MshCurves::kBoundary});
+  EXPECT_EQ(read_mesh(folder / "a.msh").curves.size(), 4u);
 }
 
 TEST(ObjRoundTrip, KeepsShapeAndNames) {
   const TemporaryFolder folder;
   const Mesh mesh = shaken(quad_grid(5, 3));
-  write_obj(folder / "a.obj", mesh);
+  write_mesh(folder / "a.obj", mesh);
   expect_same(mesh, read_mesh(folder / "a.obj", nullptr, Strays::kKept));
 }
 

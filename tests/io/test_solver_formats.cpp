@@ -97,13 +97,13 @@ _west_S4, S4
 
 TEST(AbaqusInp, IsTheDocumentedFormat) {
   const TemporaryFolder folder;
-  write_inp(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
+  write_mesh(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
   EXPECT_EQ(read_text(folder / "a.inp"), kGridInp);
 }
 
 TEST(AbaqusInp, NamesBecomeLabels) {
   const TemporaryFolder folder;
-  write_inp(folder / "a.inp", bent());
+  write_mesh(folder / "a.inp", bent());
   const std::string text = read_text(folder / "a.inp");
   for (const char* line :
        {"TYPE=S3\n1, ", "TYPE=S4\n3, ", "ELSET=Blech\n3, 4\n", "ELSET=all_parts\n1, 2, 3, 4\n",
@@ -117,7 +117,7 @@ TEST(AbaqusInp, AFaceThatLooksDownIsAShell) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(2, 2);
   for (auto& quad : mesh.quads) std::swap(quad[1], quad[3]);
-  write_inp(folder / "a.inp", mesh);
+  write_mesh(folder / "a.inp", mesh);
   EXPECT_NE(read_text(folder / "a.inp").find("TYPE=S4\n"), std::string::npos);
 }
 
@@ -127,12 +127,12 @@ TEST(AbaqusInp, NumbersFitCalculix) {
   mesh.points[1].z = 6.467675661368277e-05;
   mesh.points[2].z = -1.2345678901234567e-05;
   mesh.points[3].z = 1.7763568394002505e-15;
-  write_inp(folder / "a.inp", mesh);
+  write_mesh(folder / "a.inp", mesh);
   const std::string text = read_text(folder / "a.inp");
   for (const char* line :
        {"\n2, 100, 0, 6.46767566136828e-05\n", "\n3, 0, 100, -1.2345678901235e-05\n", "\n4, 100, 100, 0\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
-  EXPECT_EQ(read_inp(folder / "a.inp").points[1].z, 6.46767566136828e-05);
+  EXPECT_EQ(read_mesh(folder / "a.inp").points[1].z, 6.46767566136828e-05);
 }
 
 const std::string kPython = "/usr/bin/python3";
@@ -166,7 +166,7 @@ else:
     sizes = {k: len(v) for k, v in other.point_sets.items()}
     assert sizes['SET_3_c__t__s'] == 4 and sizes['curve_3'] == 4 and sizes['east'] == 2, sizes
 )");
-  write_msh(folder / "a.msh", bent());
+  write_mesh(folder / "a.msh", bent());
   for (const char* name : {"a.inp", "a.mesh"}) {
     write_mesh(folder / name, bent());
     const auto result = run_python({script, folder / "a.msh", folder / name});

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
@@ -81,7 +82,7 @@ TEST(Vtu, KeepsNamesOfPoints) {
   const std::string xml = testing_support::read_text(folder / "a.vtu");
   EXPECT_EQ(array<std::int32_t>(xml, "point sensor"), (std::vector<std::int32_t>{4, 0}));
   EXPECT_EQ(array<std::int32_t>(xml, "point tip &lt; 1"), (std::vector<std::int32_t>{4}));
-  const Mesh read = read_vtu(folder / "a.vtu");
+  const Mesh read = read_mesh(folder / "a.vtu");
   ASSERT_EQ(read.named_points.size(), 2u);
   EXPECT_EQ(read.named_points[0].point, 4);
   EXPECT_EQ(read.named_points[0].entity.names, (std::vector<std::string>{"sensor", "tip < 1"}));
@@ -94,7 +95,7 @@ TEST(Vtu, NamesOfPointsThatAreNotThereAreAnError) {
   Mesh mesh = quad_grid(2, 1);
   mesh.named_points = {{6, {1, {"far"}}}};
   write_vtu(folder / "a.vtu", mesh);
-  expect_input_error([&] { read_vtu(folder / "a.vtu"); }, {"a.vtu", "far", "point 6", "there are 6"});
+  expect_input_error([&] { read_mesh(folder / "a.vtu"); }, {"a.vtu", "far", "point 6", "there are 6"});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "features/given/named_domain.h"
+#include "io/formats/msh.h"
 #include "io/mesh_io.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/temporary_folder.h"

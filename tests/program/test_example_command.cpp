@@ -29,7 +29,7 @@ TEST_P(Examples, AreWrittenAndMeshedWithQuadsOnly) {
     EXPECT_EQ(written.out, file.string() + "\n");
     const auto meshed = delquad({"mesh", file, "-o", folder / "out.msh", "--size", example.size});
     ASSERT_EQ(meshed.exit_code, 0) << meshed.err;
-    const Mesh mesh = read_msh(folder / "out.msh");
+    const Mesh mesh = read_mesh(folder / "out.msh");
     EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
     EXPECT_TRUE(mesh.triangles.empty());
     std::set<std::pair<int, int>> edges;
@@ -56,7 +56,7 @@ TEST(ExampleCommand, KeepsTheNamesOfFacesInStep) {
   ASSERT_EQ(delquad({"example", "bracket", "-o", folder / "b.step"}).exit_code, 0);
   ASSERT_EQ(delquad({"mesh", folder / "b.step", "-o", folder / "b.msh", "--size", "4"}).exit_code, 0);
   std::set<std::string> names;
-  for (const Entity& region : read_msh(folder / "b.msh").regions)
+  for (const Entity& region : read_mesh(folder / "b.msh").regions)
     names.insert(region.names.begin(), region.names.end());
   EXPECT_EQ(names, (std::set<std::string>{"base", "body", "bore", "bracket", "holes"}));
 }
@@ -120,7 +120,7 @@ TEST(ExampleCommand, ExperimentsTakeExamples) {
          "size = 3\n";
   const auto run = delquad({"run", folder / "e.toml", "-o", folder / "out"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Mesh mesh = read_msh(folder / "out/ball/DB/mesh.msh");
+  const Mesh mesh = read_mesh(folder / "out/ball/DB/mesh.msh");
   EXPECT_EQ(mesh.points.size(), mesh.quads.size() + 2);
   EXPECT_TRUE(contains(read_text(folder / "out/ball/DB/record.json"), "\"model\": \"example sphere\""));
 

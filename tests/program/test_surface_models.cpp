@@ -26,7 +26,7 @@ TEST(SurfaceModels, ACubeBecomesItsGrid) {
   const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "cube.msh", "--size", "0.125",
                             "--json", folder / "cube.json", "--curves", "all"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Mesh mesh = read_msh(folder / "cube.msh");
+  const Mesh mesh = read_mesh(folder / "cube.msh");
   EXPECT_EQ(mesh.quads.size(), 6u * 64);
   EXPECT_TRUE(mesh.triangles.empty());
   EXPECT_EQ(mesh.points.size(), mesh.quads.size() + 2);  // Euler: a closed surface of genus 0
@@ -36,7 +36,7 @@ TEST(SurfaceModels, ACubeBecomesItsGrid) {
   const auto again = delquad({"mesh", folder / "cube.msh", "-o", folder / "again.msh", "--size", "0.25"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("384 quads"), std::string::npos) << again.err;
-  EXPECT_EQ(read_msh(folder / "again.msh").quads.size(), 6u * 16);
+  EXPECT_EQ(read_mesh(folder / "again.msh").quads.size(), 6u * 16);
 }
 
 TEST(SurfaceModels, EveryNumberOfThreadsGivesTheSameBytes) {
@@ -112,7 +112,7 @@ TEST(SurfaceModels, ASizeLargerThanTheModelGivesOneQuadAFace) {
   const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh", "--size", "1e6"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(contains(run.err, "curve 1 is 1e-06 times the size long")) << run.err;
-  EXPECT_EQ(read_msh(folder / "out.msh").quads.size(), 6u);
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 6u);
 }
 
 TEST(SurfaceModels, TheReportIsPrintedAndRecorded) {
@@ -167,7 +167,7 @@ TEST(SurfaceModels, SizesFollowCurvature) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto run = delquad(arguments);
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return static_cast<double>(read_msh(folder / "ball.msh").quads.size());
+    return static_cast<double>(read_mesh(folder / "ball.msh").quads.size());
   };
   // Area 4 pi over the square of a turn's part.
   const double exact = 4 * 3.14159 / std::pow(2 * 3.14159 / 24, 2);
@@ -188,7 +188,7 @@ TEST(SurfaceModels, SourcesHaveThreeCoordinates) {
             << at << ", near = 0.05, far = 0.3, radius_near = 0.2, radius_far = 0.6 }], gradation = 0.5 }\n";
         const auto run = delquad({"run", folder / "e.toml", "-o", folder / "out"});
         EXPECT_EQ(run.exit_code, 0) << run.err;
-        const Mesh mesh = read_msh(folder / "out/ball/DB/mesh.msh");
+        const Mesh mesh = read_mesh(folder / "out/ball/DB/mesh.msh");
         return std::ranges::count_if(mesh.points, [&](const Vec3& p) { return std::abs(p.z - z) < 0.1; });
       };
   EXPECT_GT(quads_near("[0, 0, 1]", 1), 5 * quads_near("[0, 0, -1]", 1));

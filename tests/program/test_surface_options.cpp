@@ -26,7 +26,7 @@ std::pair<int, int> faces_and_curves(const std::vector<std::string>& options, bo
   const auto run = delquad(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   if (run.exit_code != 0) return {-1, -1};
-  const Mesh mesh = read_msh(folder / "roof.msh");
+  const Mesh mesh = read_mesh(folder / "roof.msh");
   EXPECT_TRUE(mesh.triangles.empty());
   return {static_cast<int>(mesh.regions.size()), static_cast<int>(mesh.curves.size())};
 }
@@ -83,12 +83,12 @@ TEST(SurfaceOptions, ModelFilesNameASurface) {
   write_text(folder / "roof.toml", model + "compound = \"all\"\n");
   const auto run = delquad({"mesh", folder / "roof.toml", "-o", folder / "roof.msh", "--json", folder / "r"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(read_msh(folder / "roof.msh").regions.size(), 1u);
+  EXPECT_EQ(read_mesh(folder / "roof.msh").regions.size(), 1u);
   EXPECT_TRUE(contains(read_text(folder / "r"), "\"compound\": \"all\""));
 
   write_text(folder / "roof.toml", model + "mirror = { point = [0, 0, 0], normal = [1, 0, 0] }\n");
   ASSERT_EQ(delquad({"mesh", folder / "roof.toml", "-o", folder / "roof.msh"}).exit_code, 0);
-  const Mesh mesh = read_msh(folder / "roof.msh");
+  const Mesh mesh = read_mesh(folder / "roof.msh");
   EXPECT_EQ(mesh.regions.size(), 3u);
   EXPECT_EQ(mesh.quads.size(), 4u * 16);
 

@@ -67,7 +67,7 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
   for (const Json& c : cases.at("cases")) {
     EXPECT_TRUE(fs::exists(models / c.at("model").get<std::string>())) << c;
     if (c.at("family") != "planar") continue;
-    const Mesh lines = read_msh(models / c.at("boundary").get<std::string>());
+    const Mesh lines = read_mesh(models / c.at("boundary").get<std::string>());
     EXPECT_FALSE(lines.lines.empty()) << c;
     EXPECT_TRUE(lines.quads.empty()) << c;
   }

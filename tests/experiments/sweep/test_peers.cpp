@@ -70,7 +70,7 @@ TEST_F(Peers, AreMeasuredAsOurs) {
   EXPECT_GT(cells.at("copy").values.at("seconds_total"), 0);
   const fs::path cell = fs::path(out()) / "square" / "copy";
   EXPECT_EQ(read_text(cell / "peer.log"), "hello\n");
-  EXPECT_EQ(read_msh(cell / "input.msh").lines.size(), 16u);
+  EXPECT_EQ(read_mesh(cell / "input.msh").lines.size(), 16u);
   const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
   EXPECT_EQ(record.at("peer").at("version"), "1.0");
   EXPECT_EQ(record.at("peer").at("command").size(), 3u);
@@ -157,7 +157,7 @@ TEST_F(Peers, ThatFailLeaveWhatTheyReadAndPrinted) {
   for (const auto& [name, printed] : {std::pair("fails", "no luck\n"), std::pair("hangs", "wait\n")}) {
     const fs::path cell = fs::path(out()) / "square" / name;
     EXPECT_EQ(read_text(cell / "peer.log"), printed);
-    EXPECT_EQ(read_msh(cell / "input.msh").lines.size(), 16u);
+    EXPECT_EQ(read_mesh(cell / "input.msh").lines.size(), 16u);
     const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
     EXPECT_EQ(record.at("status"), "failed");
     EXPECT_TRUE(record.at("files").contains("peer.log"));
@@ -167,18 +167,18 @@ TEST_F(Peers, ThatFailLeaveWhatTheyReadAndPrinted) {
 /// Whatever a peer does, it costs its own cell and no other.
 TEST_F(Peers, FailAlone) {
   const std::string good = good_mesh();
-  Mesh broken = read_msh(good);
+  Mesh broken = read_mesh(good);
   broken.quads.pop_back();
   broken.quad_region.pop_back();
   broken.lines.clear();
   broken.line_curve.clear();
-  write_msh(folder_ / "hole.msh", broken);
-  Mesh moved = read_msh(good);
+  write_mesh(folder_ / "hole.msh", broken);
+  Mesh moved = read_mesh(good);
   for (Vec3& p : moved.points) p.x += p.y * (1 - p.y) * 1e-3;  // as much area, another boundary
-  write_msh(folder_ / "moved.msh", moved);
-  Mesh folded = read_msh(good);
+  write_mesh(folder_ / "moved.msh", moved);
+  Mesh folded = read_mesh(good);
   std::swap(folded.quads[0][1], folded.quads[0][2]);
-  write_msh(folder_ / "folded.msh", folded);
+  write_mesh(folder_ / "folded.msh", folded);
   const auto copy = [&](const char* name) { return "cp '" + (folder_ / name).string() + "' $2"; };
   const std::string text = peer("crash", "kill -SEGV $$") + peer("code", "echo 'Error: no luck'; exit 3") +
                            peer("garbage", "head -c 3000 /dev/urandom > $2") + peer("mute", "true") +
@@ -214,13 +214,13 @@ TEST_F(Peers, FailAlone) {
 /// What others make is shown as it is, and said to be what it is.
 TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
   const std::string good = good_mesh();
-  Mesh inverted = read_msh(good);
+  Mesh inverted = read_mesh(good);
   const auto middle = std::ranges::find_if(inverted.points, [](const Vec3& p) {
     return norm(p - Vec3{0.5, 0.5, 0}) < 1e-9;
   });
   ASSERT_NE(middle, inverted.points.end());
   *middle = {0.9, 0.9, 0};
-  write_msh(folder_ / "inverted.msh", inverted);
+  write_mesh(folder_ / "inverted.msh", inverted);
   const std::string text = peer("bad", "cp '" + (folder_ / "inverted.msh").string() + "' $2") +
                            peer("good", "cp '" + good + "' $2") + kPeerSquare;
   const Outcome outcome = run_experiment(experiment("[\"DB\", \"bad\", \"good\"]", text), out());
@@ -242,7 +242,7 @@ TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
 /// Two tables of the size: the one that was given, and what became of it.
 TEST(Sizes, TablesSayAgainstWhichTauIs) {
   const testing_support::TemporaryFolder folder;
-  write_msh(folder / "lens.msh", testing_support::lens(64, 12, 0.45));
+  write_mesh(folder / "lens.msh", testing_support::lens(64, 12, 0.45));
   const auto file = write_text(folder / "e.toml",
                                "pipelines = [\"DB\"]\n"
                                "[[case]]\nname = \"plain\"\nmodel = \"lens.msh\"\nsize = 0.3\n"
@@ -264,9 +264,9 @@ TEST(Sizes, TablesSayAgainstWhichTauIs) {
 
 /// A mesh whose elements run the other way round is a good mesh.
 TEST_F(Peers, MayRunClockwise) {
-  Mesh turned = read_msh(good_mesh());
+  Mesh turned = read_mesh(good_mesh());
   for (auto& v : turned.quads) std::ranges::reverse(v);
-  write_msh(folder_ / "turned.msh", turned);
+  write_mesh(folder_ / "turned.msh", turned);
   const std::string text = peer("turned", "cp '" + (folder_ / "turned.msh").string() + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"turned\"]", text), out());
   EXPECT_NEAR(records().at("turned").values.at("eta_worst"), 1, 1e-9);
@@ -340,7 +340,7 @@ TEST_F(Peers, GmshMeshesWhatWeMesh) {
       "region = \"disc\"\n"
       "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
       "[[case]]\nname = \"lens\"\nsize = 0.1\nmodel = \"lens.obj\"\n";
-  write_obj(folder_ / "lens.obj", testing_support::lens(64, 12, 0.45));
+  write_mesh(folder_ / "lens.obj", testing_support::lens(64, 12, 0.45));
   run_experiment(experiment("[\"DB\", \"gmsh\"]", text), out());
   std::map<std::string, double> quads;
   for (const CellRecord& record : read_records(out())) {

@@ -151,7 +151,7 @@ TEST_F(CalibratedPeers, GetTheBoundaryOfTheScaledSize) {
   const auto cells = records();
   EXPECT_EQ(cells.at("halves").values.at("n_quads"), 100);
   EXPECT_NEAR(cells.at("halves").calibration->size_factor, 2, 0.05);
-  EXPECT_EQ(read_obj(out() / "square" / "halves" / "input.obj").lines.size(), 20u)
+  EXPECT_EQ(read_mesh(out() / "square" / "halves" / "input.obj").lines.size(), 20u)
       << "of the run that was kept";
   EXPECT_FALSE(fs::exists(out() / "square" / "halves" / "kept"));
 }
@@ -263,7 +263,7 @@ TEST_F(CalibratedPeers, MayBeNotApplicable) {
 
 /// Of a surface whose faces the case changes, the file would not do.
 TEST_F(CalibratedPeers, AreNotGivenFilesOfChangedSurfaces) {
-  write_msh(folder_ / "lens.msh", testing_support::lens(24, 6, 0.45));
+  write_mesh(folder_ / "lens.msh", testing_support::lens(24, 6, 0.45));
   const std::string text = "pipelines = [\"file\", \"mesh\"]\n" + peer("file", "exit 1", "") +
                            peer("mesh", "cp $1 $2", "", "surfaces = \"triangles\"\n") +
                            "[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = 0.3\n"
@@ -309,7 +309,7 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
   EXPECT_EQ(added.add_peer_file(folder_ / "meshers" / "grid.toml"), std::vector<std::string>{"grid"});
   added.words = added.find_pipelines({"DB", "grid"});
   run_experiment(added, folder_ / "added");
-  EXPECT_EQ(read_msh(folder_ / "added" / "square" / "grid" / "mesh.msh").quads.size(), 100u);
+  EXPECT_EQ(read_mesh(folder_ / "added" / "square" / "grid" / "mesh.msh").quads.size(), 100u);
   EXPECT_TRUE(rerun_record(folder_ / "added" / "square" / "grid" / "record.json").same_mesh);
 
   write_text(folder_ / "none.toml", "title = \"x\"\n");

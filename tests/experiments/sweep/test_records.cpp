@@ -99,7 +99,7 @@ TEST_F(Records, ACopyThatWasChangedIsRefused) {
 /// Models that are no part of the copy are found by name and digest, wherever they lie.
 TEST_F(Records, DataIsFoundByNameAndDigest) {
   fs::create_directories(folder_ / "data/parts");
-  write_msh(folder_ / "data/parts/lens.msh", testing_support::lens(64, 12, 0.45));
+  write_mesh(folder_ / "data/parts/lens.msh", testing_support::lens(64, 12, 0.45));
   run("pipelines = [\"DB\"]\n[[case]]\nname = \"lens\"\ndata = \"parts/lens.msh\"\nsize = 0.3\n");
   const fs::path record = out() / "lens/DB/record.json";
   fs::create_directories(folder_ / "other/deep/down");
@@ -108,7 +108,7 @@ TEST_F(Records, DataIsFoundByNameAndDigest) {
   EXPECT_TRUE(again.same_mesh && again.differences.empty() && again.values.empty());
   const std::string digest = nlohmann::ordered_json::parse(read_text(record)).at("digests").at("model");
   expect_input_error([&] { rerun_record(record, folder_ / "data"); }, {"lens.msh", digest.c_str(), "--data"});
-  write_msh(folder_ / "data/parts/lens.msh", testing_support::lens(64, 12, 0.4));
+  write_mesh(folder_ / "data/parts/lens.msh", testing_support::lens(64, 12, 0.4));
   expect_input_error([&] { rerun_record(record, folder_ / "data"); },
                      {"parts/lens.msh has the digest", digest.c_str()});
 }
@@ -175,7 +175,7 @@ TEST_F(Records, SayWhatTheyWereMadeOn) {
 }
 
 TEST_F(Records, WhatIsWellIsSaidToBe) {
-  write_msh(folder_ / "lens.msh", testing_support::lens(64, 12, 0.45));
+  write_mesh(folder_ / "lens.msh", testing_support::lens(64, 12, 0.45));
   run("pipelines = [\"D\", \"DBCO\"]\n[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = { base = 0.5, "
       "curvature "
       "= 24 }\n" +
@@ -448,7 +448,7 @@ TEST_F(Records, MergingTakesWhatWasDone) {
   run(text);
   ASSERT_TRUE(read_records(out())[0].skipped);
   fs::create_directories(folder_ / "data");
-  write_msh(folder_ / "data/lens.msh", testing_support::lens(64, 12, 0.45));
+  write_mesh(folder_ / "data/lens.msh", testing_support::lens(64, 12, 0.45));
   run_experiment(Experiment::read(folder_ / "e.toml", folder_ / "data"), out("done"));
   merge_results({out(), out("done")}, out("all"));
   EXPECT_EQ(read_records(out("all"))[0].reason, "");

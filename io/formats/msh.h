@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+
+#include "delquad/hexahedra.h"
+#include "delquad/model.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+
+/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
+/// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
+/// by its number), and so are the further names that write_msh() leaves; points are ignored, and so are nodes
+/// that no other element uses. `notes` tells of periodic pairs, which are not read. Throws InputError with
+/// file and line, or byte.
+Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
+              ReadNotes* notes = nullptr);
+/// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
+/// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
+/// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
+/// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
+               QuadNodes nodes = QuadNodes::kAll);
+/// As write_msh() does: volumes, faces and curves are entities of dimension 3, 2 and 1, each in one physical
+/// group.
+void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary);
+
+}  // namespace delquad

@@ -1,0 +1,402 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <set>
+
+#include "base/utf8.h"
+#include "io/formats/msh_numbers.h"
+#include "io/formats/msh_raw.h"
+#include "io/mesh_io.h"
+
+namespace delquad::msh {
+
+namespace {
+
+constexpr long long kLargestTag = LLONG_MAX;      // of nodes and elements
+constexpr int kLargestEntityTag = 2'000'000'000;  // leaves room for new ones
+
+enum class Version { kUnknown, k22, k41 };
+
+/// Room for as many as the file says, unless it cannot hold them.
+template <class T>
+void reserve(std::vector<T>& items, long long count, const TextScanner& scanner) {
+  constexpr size_t kLeastBytes = 6;  // of a node or an element in the file
+  items.reserve(items.size() + std::min(static_cast<size_t>(count), scanner.bytes_left() / kLeastBytes));
+}
+
+/// Nodes of an element.
+struct NodeCount {
+  int corners, all;
+};
+
+/// Only points, lines, triangles and quads are known, straight ones and curved lines and quads.
+NodeCount nodes_of_type(int type, const TextScanner& scanner) {
+  static const std::map<int, NodeCount> counts = {{15, {1, 1}}, {1, {2, 2}},   {8, {2, 3}},  {26, {2, 4}},
+                                                  {27, {2, 5}}, {2, {3, 3}},   {3, {4, 4}},  {16, {4, 8}},
+                                                  {10, {4, 9}}, {36, {4, 16}}, {37, {4, 25}}};
+  if (const auto known = counts.find(type); known != counts.end()) return known->second;
+  static const std::map<int, const char*> names = {{4, "tetrahedron"},
+                                                   {5, "hexahedron"},
+                                                   {6, "prism"},
+                                                   {7, "pyramid"},
+                                                   {9, "second-order triangle"},
+                                                   {20, "third-order triangle"},
+                                                   {21, "third-order triangle"},
+                                                   {39, "third-order quad without inner nodes"}};
+  const auto name = names.find(type);
+  scanner.fail(
+      fmt::format("element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2) or quads (3, "
+                  "10, 16, 36, 37)",
+                  type, name == names.end() ? "" : fmt::format(" ({})", name->second)));
+}
+
+class SectionReader {
+ public:
+  SectionReader(TextScanner& scanner, bool with_views)
+      : in_(scanner), numbers_(scanner), with_views_(with_views) {}
+
+  Contents read() {
+    if (in_.at_end()) in_.fail("the file is empty; expected an MSH file, which starts with $MeshFormat");
+    while (!in_.at_end()) {
+      const std::string_view token = in_.token("a section");
+      if (token.size() < 2 || token[0] != '$') {
+        in_.fail(version_ == Version::kUnknown ? "not an MSH file: expected $MeshFormat"
+                                               : "expected a section, which starts with $");
+      }
+      section(std::string(token.substr(1)));
+    }
+    if (version_ == Version::kUnknown) in_.fail("not an MSH file: expected $MeshFormat");
+    for (const char* needed : {"Nodes", "Elements"}) {
+      if (!seen_.contains(needed)) in_.fail(fmt::format("the file ends without a ${} section", needed));
+    }
+    if (version_ == Version::k22) settle_physicals(contents_);
+    return std::move(contents_);
+  }
+
+ private:
+  void section(const std::string& name) {
+    static const std::map<std::string, void (SectionReader::*)()> readers = {
+        {"MeshFormat", &SectionReader::mesh_format},
+        {"PhysicalNames", &SectionReader::physical_names},
+        {"Entities", &SectionReader::entities},
+        {"Nodes", &SectionReader::nodes},
+        {"Elements", &SectionReader::elements},
+        {"MoreNames", &SectionReader::more_names},
+        {"Unit", &SectionReader::unit},
+        {"PartitionedEntities", &SectionReader::partitioned}};
+    const bool is_view = name == "NodeData" || name == "ElementData";
+    if (is_view && with_views_) return view(name);
+    const auto reader = readers.find(name);
+    contents_.has_periodic |= name == "Periodic";
+    if (reader == readers.end()) return skip(name);
+    if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
+    if (version_ == Version::kUnknown && name != "MeshFormat") {
+      in_.fail(fmt::format("expected $MeshFormat before ${}", name));
+    }
+    (this->*reader->second)();
+    expect_end(name);
+  }
+
+  void expect_end(const std::string& name) {
+    const std::string end = "$End" + name;
+    if (const std::string_view found = in_.token(end); found != end)
+      in_.fail(
+          fmt::format("expected {} after as many as are announced, found {}", end, in_.printable(found)));
+  }
+
+  /// Titles, times and counts are text in binary files, too.
+  void view(const std::string& section) {
+    View view{"", section == "NodeData", 1, {}};
+    const long long n_texts = in_.integer("the number of a view's texts", 0, INT_MAX);
+    for (long long k = 0; k < n_texts; ++k) {
+      std::string line(in_.token("a view's text"));
+      line += in_.rest_of_line();
+      const size_t open = line.find('"'), close = line.rfind('"');
+      if (open == close) in_.fail("expected a view's text in double quotes");
+      if (k == 0) view.name = line.substr(open + 1, close - open - 1);
+    }
+    const long long n_reals = in_.integer("the number of a view's real numbers", 0, INT_MAX);
+    for (long long k = 0; k < n_reals; ++k) in_.real("a view's real number");
+    const long long n_integers = in_.integer("the number of a view's integers, at least 3", 3, INT_MAX);
+    long long count = 0;
+    for (long long k = 0; k < n_integers; ++k) {
+      const long long number = in_.integer("a view's integer", 0, INT_MAX);
+      if (k == 1) view.n_components = static_cast<int>(number);
+      if (k == 2) count = number;
+    }
+    if (view.n_components < 1) in_.fail("a view without components");
+    if (numbers_.are_bytes()) next_line();
+    reserve(view.values, count, in_);
+    for (long long i = 0; i < count; ++i) {
+      const long long tag = numbers_.integer("the tag of a value", 1, kLargestTag);
+      view.values.emplace_back(tag, numbers_.real("a value"));
+      for (int k = 1; k < view.n_components; ++k) numbers_.real("a value");
+    }
+    contents_.views.push_back(std::move(view));
+    expect_end(section);
+  }
+
+  void skip(const std::string& name) {
+    const int first = in_.line();
+    const std::string end = "$End" + name;
+    if (numbers_.are_bytes() && in_.skip_behind("\n" + end)) return;
+    while (!numbers_.are_bytes() && !in_.at_end()) {
+      if (in_.token(end) == end) return;
+      in_.rest_of_line();
+    }
+    in_.fail(fmt::format("section {} is not closed by {}", in_.printable("$" + name), in_.printable(end)),
+             first);
+  }
+
+  void mesh_format() {
+    const std::string_view version = in_.token("the version");
+    if (version == "2.2") {
+      version_ = Version::k22;
+    } else if (version == "4.1") {
+      version_ = Version::k41;
+    } else {
+      in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
+                           in_.printable(version)));
+    }
+    const bool binary = in_.integer("the file type", 0, 1) == 1;
+    const long long bytes = in_.integer("the data size", 1, 64);
+    if (!binary) return;
+    if (bytes != 8) in_.fail(fmt::format("binary MSH file with numbers of {} bytes: expected 8", bytes));
+    numbers_.expect_bytes();
+  }
+
+  void physical_names() {
+    const long long count = in_.integer("the number of physical names", 0, INT_MAX);
+    for (long long i = 0; i < count; ++i) {
+      const auto [key, name] = named();
+      contents_.physical_names[key] = as_utf8(name);
+    }
+  }
+
+  void more_names() {
+    const long long count = in_.integer("the number of names", 0, INT_MAX);
+    for (long long i = 0; i < count; ++i) {
+      const auto [key, name] = named();
+      contents_.more_names[key].push_back(name);
+    }
+  }
+
+  void unit() { contents_.unit = in_.token("a unit of lengths"); }
+
+  /// Dimension, tag and name in quotes.
+  std::pair<DimTag, std::string> named() {
+    const int dim = static_cast<int>(in_.integer("the dimension of a physical name", 0, 3));
+    const int tag =
+        static_cast<int>(in_.integer("the tag of a physical name", -kLargestEntityTag, kLargestEntityTag));
+    const std::string_view rest = in_.rest_of_line();
+    const size_t open = rest.find('"'), close = rest.rfind('"');
+    if (open == close) in_.fail("expected a physical name in double quotes");
+    const std::string_view name = rest.substr(open + 1, close - open - 1);
+    if (!fits_msh(name))
+      in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
+                           in_.printable(name)));
+    return {{dim, std::abs(tag)}, as_utf8(name)};
+  }
+
+  /// Bytes begin on the line after the section's title; in 2.2 after that of their number, which is text.
+  void begin_numbers() {
+    if (!numbers_.are_bytes() || version_ == Version::k22) return;
+    next_line();
+  }
+
+  void next_line() {
+    in_.rest_of_line();
+    in_.bytes(1, "the end of the line");
+  }
+
+  /// How many there are of what.
+  long long count_of(const char* what) {
+    const std::string title = fmt::format("the number of {}", what);
+    if (version_ == Version::k41) return numbers_.size(title, 0, INT_MAX);
+    const long long count = in_.integer(title, 0, INT_MAX);
+    if (numbers_.are_bytes()) next_line();
+    return count;
+  }
+
+  long long node_tag() {
+    constexpr const char* kWhat = "a node's tag";
+    return version_ == Version::k22 ? numbers_.integer(kWhat, 1, kLargestTag)
+                                    : numbers_.size(kWhat, 1, kLargestTag);
+  }
+
+  void entities() {
+    if (version_ == Version::k22) in_.fail("$Entities does not belong to MSH 2.2");
+    begin_numbers();
+    long long counts[4];
+    for (int dim = 0; dim < 4; ++dim) counts[dim] = numbers_.size("the number of entities", 0, INT_MAX);
+    for (int dim = 0; dim < 4; ++dim) {
+      for (long long i = 0; i < counts[dim]; ++i) entity(dim);
+    }
+  }
+
+  void entity(int dim) {
+    const int tag =
+        static_cast<int>(numbers_.integer("an entity's tag", -kLargestEntityTag, kLargestEntityTag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) numbers_.real("a bound of the entity");
+    std::vector<int> physicals;
+    const long long n_physicals = numbers_.size("the number of the entity's physical tags", 0, INT_MAX);
+    for (long long k = 0; k < n_physicals; ++k) {
+      physicals.push_back(std::abs(
+          static_cast<int>(numbers_.integer("a physical tag", -kLargestEntityTag, kLargestEntityTag))));
+    }
+    if (dim > 0) {
+      const long long n_bounding = numbers_.size("the number of bounding entities", 0, INT_MAX);
+      std::vector<int> bounding;
+      for (long long k = 0; k < n_bounding; ++k)
+        bounding.push_back(std::abs(static_cast<int>(
+            numbers_.integer("a bounding entity's tag", -kLargestEntityTag, kLargestEntityTag))));
+      std::sort(bounding.begin(), bounding.end());
+      if (dim == 2) contents_.surface_curves[tag] = std::move(bounding);
+    }
+    if (!contents_.entity_physicals.emplace(DimTag{dim, tag}, std::move(physicals)).second) {
+      in_.fail(fmt::format("a second entity of dimension {} with tag {}", dim, tag));
+    }
+  }
+
+  Vec3 position() {
+    const double x = numbers_.real("coordinate x"), y = numbers_.real("coordinate y"),
+                 z = numbers_.real("coordinate z");
+    return {x, y, z};
+  }
+
+  void nodes() {
+    begin_numbers();
+    const bool blocks = version_ == Version::k41;
+    const long long n_blocks = blocks ? numbers_.size("the number of node blocks", 0, INT_MAX) : 1;
+    const long long count = count_of("nodes");
+    reserve(contents_.nodes, count, in_);
+    if (!blocks) {
+      for (long long i = 0; i < count; ++i) {
+        const long long tag = node_tag();
+        const int line = in_.line();
+        contents_.nodes.push_back({tag, position(), line});
+      }
+      return;
+    }
+    numbers_.size("the least node tag", 0, kLargestTag);
+    numbers_.size("the greatest node tag", 0, kLargestTag);
+    for (long long b = 0; b < n_blocks; ++b) node_block(count);
+    if (static_cast<long long>(contents_.nodes.size()) != count) {
+      in_.fail(fmt::format("the blocks hold {} nodes, but {} were announced", contents_.nodes.size(), count));
+    }
+  }
+
+  void node_block(long long announced) {
+    const int dim = static_cast<int>(numbers_.integer("the dimension of a node block", 0, 3));
+    numbers_.integer("the entity of a node block", -kLargestEntityTag, kLargestEntityTag);
+    const bool parametric = numbers_.integer("0 or 1 (parametric)", 0, 1) == 1;
+    const size_t first = contents_.nodes.size();
+    const long long count = numbers_.size("the number of nodes in the block", 0, INT_MAX);
+    if (static_cast<long long>(first) + count > announced) {
+      in_.fail(fmt::format("more nodes than the {} announced", announced));
+    }
+    for (long long i = 0; i < count; ++i) {
+      const long long tag = node_tag();
+      contents_.nodes.push_back({tag, {}, in_.line()});
+    }
+    for (size_t i = first; i < contents_.nodes.size(); ++i) {
+      contents_.nodes[i].at = position();
+      for (int k = 0; parametric && k < dim; ++k) numbers_.real("a node's parameter");
+    }
+  }
+
+  void elements() {
+    begin_numbers();
+    if (version_ == Version::k22) return elements_22();
+    const long long n_blocks = numbers_.size("the number of element blocks", 0, INT_MAX);
+    const long long announced = count_of("elements");
+    numbers_.size("the least element tag", 0, kLargestTag);
+    numbers_.size("the greatest element tag", 0, kLargestTag);
+    reserve(contents_.elements, announced, in_);
+    long long total = 0;
+    for (long long b = 0; b < n_blocks; ++b) total += element_block(announced - total);
+    if (total != announced) {
+      in_.fail(fmt::format("the blocks hold {} elements, but {} were announced", total, announced));
+    }
+  }
+
+  long long element_block(long long most) {
+    const int dim = static_cast<int>(numbers_.integer("the dimension of an element block", 0, 3));
+    const int entity = static_cast<int>(
+        numbers_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
+    const NodeCount nodes =
+        nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
+    if (dim != std::min(nodes.corners - 1, 2)) {
+      in_.fail(fmt::format("elements of {} corners in a block of dimension {}", nodes.corners, dim));
+    }
+    const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
+    if (count > most) in_.fail("more elements than announced");
+    for (long long i = 0; i < count; ++i) {
+      const long long tag = numbers_.size("an element's tag", 1, kLargestTag);
+      element(tag, nodes, entity, 0);
+    }
+    return count;
+  }
+
+  void elements_22() {
+    const long long count = count_of("elements");
+    reserve(contents_.elements, count, in_);
+    const auto type = [&] { return static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)); };
+    const auto n_tags = [&] { return numbers_.integer("the number of an element's tags", 0, INT_MAX); };
+    if (!numbers_.are_bytes()) {
+      for (long long i = 0; i < count; ++i) {
+        const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
+        const NodeCount nodes = nodes_of_type(type(), in_);
+        tagged_element(tag, nodes, n_tags());
+      }
+      return;
+    }
+    for (long long i = 0; i < count;) {
+      const NodeCount nodes = nodes_of_type(type(), in_);
+      const long long n = numbers_.integer("the number of elements that follow", 1, count - i);
+      const long long tags = n_tags();
+      for (const long long last = i + n; i < last; ++i) {
+        const long long tag = numbers_.integer("an element's tag", 1, kLargestTag);
+        tagged_element(tag, nodes, tags);
+      }
+    }
+  }
+
+  void tagged_element(long long own_tag, const NodeCount& nodes, long long n_tags) {
+    int tags[2] = {0, 0};  // physical, elementary
+    for (long long k = 0; k < n_tags; ++k) {
+      const int tag = static_cast<int>(numbers_.integer("a tag", -kLargestEntityTag, kLargestEntityTag));
+      if (k < 2) tags[k] = std::abs(tag);
+    }
+    element(own_tag, nodes, tags[1], tags[0]);
+  }
+
+  void element(long long tag, const NodeCount& nodes, int entity, int physical) {
+    Element e{tag, nodes.corners, entity, physical, {}, in_.line(), nodes.all - nodes.corners};
+    e.first_further = contents_.further_nodes.size();
+    for (int k = 0; k < nodes.corners; ++k) e.nodes[k] = node_tag();
+    for (int k = 0; k < e.n_further; ++k) contents_.further_nodes.push_back(node_tag());
+    if (nodes.corners > 1)
+      contents_.elements.push_back(e);
+    else
+      contents_.points.push_back({entity, physical, e.nodes[0], e.line});
+  }
+
+  [[noreturn]] void partitioned() { in_.fail("partitioned mesh: expected one that is saved whole"); }
+
+  TextScanner& in_;
+  NumberReader numbers_;
+  bool with_views_;
+  Version version_ = Version::kUnknown;
+  std::set<std::string> seen_;
+  Contents contents_;
+};
+
+}  // namespace
+
+Contents read_contents(TextScanner& scanner, bool with_views) {
+  return SectionReader(scanner, with_views).read();
+}
+
+}  // namespace delquad::msh

@@ -1,0 +1,462 @@
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <charconv>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/element_nodes.h"
+#include "io/formats/vtu.h"
+#include "io/mesh_io.h"
+#include "io/nodal_values.h"
+#include "io/text_scanner.h"
+
+namespace delquad {
+
+namespace {
+
+using Tree = boost::property_tree::ptree;
+
+/// Boost's parser calls itself for each element in another.
+constexpr int kDeepest = 100;
+
+/// Levels of elements in elements, or more: comments and texts are taken for elements, too.
+int depth_of(std::string_view xml) {
+  int depth = 0, deepest = 0;
+  for (size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
+    const std::string_view rest = xml.substr(at + 1, 1);
+    if (rest == "?" || rest == "!") continue;
+    depth += rest == "/" ? -1 : 1;
+    deepest = std::max(deepest, depth);
+    const size_t end = xml.find('>', at);
+    if (end != std::string_view::npos && xml[end - 1] == '/') --depth;
+  }
+  return deepest;
+}
+
+/// 0, which is no type of cell and no tag, for numbers that are no int.
+int as_int(double value) { return value > INT_MIN && value < INT_MAX ? static_cast<int>(value) : 0; }
+
+/// Bytes of base64 digits up to the first character that is none; blanks between them are skipped.
+std::string from_base64(std::string_view text, size_t* used = nullptr) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t held = 0;
+  int bits = 0;
+  size_t at = 0;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+    const size_t value = digits.find(c);
+    if (value == std::string::npos) break;
+    held = held << 6 | static_cast<std::uint32_t>(value);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(held >> bits & 255);
+  }
+  while (at < text.size() && text[at] == '=') ++at;
+  if (used) *used = at;
+  return bytes;
+}
+
+class VtuReader {
+ public:
+  explicit VtuReader(const std::filesystem::path& path) : path_(path.string()), in_(path) {
+    refuse_other_kinds(in_, "VTU");
+  }
+
+  Mesh read() {
+    parse();
+    const Tree& file = child(tree_, "VTKFile");
+    if (attribute(file, "type") != "UnstructuredGrid")
+      fail("a VTK file of type " + shown(attribute(file, "type")) + ": expected an UnstructuredGrid");
+    swapped_ = attribute(file, "byte_order", "LittleEndian") !=
+               (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+    wide_header_ = attribute(file, "header_type", "UInt32") == "UInt64";
+    const std::string compressor = attribute(file, "compressor", "");
+    packed_ = compressor == "vtkZLibDataCompressor";
+    if (!compressor.empty() && !packed_)
+      fail("compressed by " + shown(compressor) + ": expected vtkZLibDataCompressor or none");
+    const Tree& grid = child(file, "UnstructuredGrid");
+    for (const auto& [name, piece] : grid)
+      if (name == "Piece") read_piece(piece);
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
+      fail("the file holds no lines, triangles or quads");
+    if (field_ && mesh_.order > 1)
+      fail(fmt::format("a field on elements of order {}: expected order 1", mesh_.order));
+    for (const auto& [name, data] : grid)
+      if (name == "FieldData") read_names(data);
+    if (!field_) drop_unused_points(mesh_);
+    return std::move(mesh_);
+  }
+
+  /// Points that no element uses stay.
+  NodalValues read_field(const std::string& name) {
+    field_ = name;
+    NodalValues result{read(), {}};
+    result.values =
+        is_of_points_ ? std::move(values_) : means_at_points(result.mesh, triangle_values_, quad_values_);
+    return result;
+  }
+
+ private:
+  static std::string shown(const std::string& text) { return TextScanner::printable(text); }
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(path_ + ": " + message); }
+
+  /// Raw appended data is no XML and is cut out before.
+  void parse() {
+    std::string text(in_.text());
+    const size_t open = text.find("<AppendedData"), first = text.find('_', std::min(open, text.size()));
+    const size_t close = text.rfind("</AppendedData>");
+    if (open != std::string::npos && first != std::string::npos && close != std::string::npos &&
+        first < close) {
+      appended_ = text.substr(first + 1, close - first - 1);
+      text.erase(first, close - first);
+      has_appended_ = true;
+    }
+    if (depth_of(text) > kDeepest)
+      fail(fmt::format("elements within elements to more than {} levels: expected a VTU file", kDeepest));
+    std::istringstream stream(std::move(text));
+    try {
+      read_xml(stream, tree_);
+    } catch (const boost::property_tree::xml_parser_error& error) {
+      throw InputError(
+          fmt::format("{}:{}: {}: expected a VTU file, which is XML", path_, error.line(), error.message()));
+    }
+    if (!has_appended_) return;
+    const std::string encoding = attribute(child(child(tree_, "VTKFile"), "AppendedData"), "encoding", "raw");
+    raw_ = encoding == "raw";
+  }
+
+  const Tree& child(const Tree& tree, const std::string& name) const {
+    const auto found = tree.find(name);
+    if (found == tree.not_found()) fail("expected an element <" + name + ">");
+    return found->second;
+  }
+
+  static std::string attribute(const Tree& tree, const std::string& name, const std::string& otherwise = "") {
+    return tree.get("<xmlattr>." + name, otherwise);
+  }
+
+  const Tree* array_named(const Tree& parent, const std::string& name) const {
+    for (const auto& [tag, data] : parent)
+      if (tag == "DataArray" && (name.empty() || attribute(data, "Name") == name)) return &data;
+    return nullptr;
+  }
+
+  const Tree& needed_array(const Tree& parent, const std::string& name) const {
+    const Tree* array = array_named(parent, name);
+    if (!array) fail("expected a data array '" + name + "'");
+    return *array;
+  }
+
+  template <class T>
+  T from_bytes(const char* data) const {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, data, sizeof bytes);
+    if (swapped_) std::reverse(bytes, bytes + sizeof bytes);
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+
+  std::uint64_t header_number(std::string_view bytes, size_t k) const {
+    const size_t width = wide_header_ ? 8 : 4;
+    if (bytes.size() < (k + 1) * width) fail("a data array ends within its header");
+    return wide_header_ ? from_bytes<std::uint64_t>(bytes.data() + k * width)
+                        : from_bytes<std::uint32_t>(bytes.data() + k * width);
+  }
+
+  /// The bytes of an array: after their number as they are, or after a table of blocks, packed.
+  std::string payload(std::string_view text, bool is_raw) const {
+    const size_t width = wide_header_ ? 8 : 4;
+    if (!packed_) {
+      size_t used = 0;
+      std::string bytes = is_raw ? std::string(text) : from_base64(text, &used);
+      const std::uint64_t n = header_number(bytes, 0);
+      // Some programs encode the number apart from the data.
+      if (!is_raw && bytes.size() == width) bytes += from_base64(text.substr(used));
+      if (bytes.size() - width < n)
+        fail(fmt::format("a data array of {} bytes has only {}", n, bytes.size() - width));
+      return bytes.substr(width, n);
+    }
+    size_t used = 0;
+    std::string head = is_raw ? std::string(text) : from_base64(text, &used);
+    const std::uint64_t n_blocks = header_number(head, 0);
+    if (n_blocks > head.size()) fail("a compressed data array has a damaged header");
+    const size_t header = (3 + n_blocks) * width;
+    std::string data = head.substr(std::min(header, head.size()));
+    if (!is_raw && data.empty()) data = from_base64(text.substr(used));
+    std::string result;
+    size_t at = 0;
+    for (std::uint64_t b = 0; b < n_blocks; ++b) {
+      const std::uint64_t n = header_number(head, 3 + b), whole = header_number(head, 1),
+                          last = header_number(head, 2);
+      const std::uint64_t size = b + 1 == n_blocks && last > 0 ? last : whole;
+      result += unpacked(data, at, n, size);
+      at += n;
+    }
+    return result;
+  }
+
+  std::string unpacked(const std::string& data, size_t at, std::uint64_t n, std::uint64_t size) const {
+    constexpr std::uint64_t kMostRatio = 2000;  // zlib packs no more than 1032 times
+    if (at > data.size() || n > data.size() - at || size > kMostRatio * (n + 1))
+      fail("a compressed data array is damaged");
+    std::string bytes(size, '\0');
+    uLongf length = size;
+    const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                                  reinterpret_cast<const Bytef*>(data.data() + at), n);
+    if (status != Z_OK || length != size) fail("a compressed data array is damaged");
+    return bytes;
+  }
+
+  template <class T>
+  std::vector<double> values(const std::string& bytes) const {
+    std::vector<double> result;
+    for (size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T))
+      result.push_back(static_cast<double>(from_bytes<T>(bytes.data() + at)));
+    return result;
+  }
+
+  /// Whole numbers stay exact up to 2^53.
+  std::vector<double> read_array(const Tree& array) const {
+    const std::string format = attribute(array, "format", "ascii"), name = attribute(array, "Name"),
+                      type = attribute(array, "type");
+    if (format == "ascii") return read_text(array.data(), name);
+    std::string bytes;
+    if (format == "appended") {
+      const auto offset = array.get<std::uint64_t>("<xmlattr>.offset", appended_.size() + 1);
+      if (offset > appended_.size()) fail("data array " + shown(name) + " lies behind the appended data");
+      bytes = payload(std::string_view(appended_).substr(offset), raw_);
+    } else {
+      bytes = payload(array.data(), false);
+    }
+    if (type == "Float64") return values<double>(bytes);
+    if (type == "Float32") return values<float>(bytes);
+    if (type == "Int64") return values<std::int64_t>(bytes);
+    if (type == "UInt64") return values<std::uint64_t>(bytes);
+    if (type == "Int32") return values<std::int32_t>(bytes);
+    if (type == "UInt32") return values<std::uint32_t>(bytes);
+    if (type == "Int16") return values<std::int16_t>(bytes);
+    if (type == "UInt16") return values<std::uint16_t>(bytes);
+    if (type == "Int8") return values<std::int8_t>(bytes);
+    if (type == "UInt8") return values<std::uint8_t>(bytes);
+    fail("data array " + shown(name) + " of type " + shown(type) + ": expected numbers");
+  }
+
+  std::vector<double> read_text(const std::string& text, const std::string& name) const {
+    std::vector<double> result;
+    const char *at = text.data(), *end = text.data() + text.size();
+    while (true) {
+      while (at < end && (*at == ' ' || (*at >= '\t' && *at <= '\r'))) ++at;
+      if (at == end) return result;
+      double value = 0;
+      const auto [stop, error] = std::from_chars(at, end, value);
+      if (error != std::errc()) fail("data array " + shown(name) + ": expected numbers");
+      result.push_back(value);
+      at = stop;
+    }
+  }
+
+  void check_number(const Tree& piece, const std::string& name, size_t n) const {
+    const auto announced = piece.get_optional<size_t>("<xmlattr>." + name);
+    if (announced && *announced != n) fail(fmt::format("{} is {}, but there are {}", name, *announced, n));
+  }
+
+  void read_piece(const Tree& piece) {
+    const Tree* coordinates = array_named(child(piece, "Points"), "");
+    if (!coordinates) fail("expected an array of points");
+    const std::vector<double> xyz = read_array(*coordinates);
+    const size_t first = mesh_.points.size();
+    for (size_t i = 0; i + 2 < xyz.size(); i += 3) {
+      for (size_t k = 0; k < 3; ++k)
+        if (!std::isfinite(xyz[i + k])) fail(fmt::format("point {}: expected finite coordinates", i / 3));
+      mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    }
+    const size_t n_points = mesh_.points.size() - first;
+    check_number(piece, "NumberOfPoints", n_points);
+    const Tree& cells = child(piece, "Cells");
+    const std::vector<double> corners = read_array(needed_array(cells, "connectivity")),
+                              offsets = read_array(needed_array(cells, "offsets")),
+                              types = read_array(needed_array(cells, "types"));
+    if (types.size() != offsets.size())
+      fail(fmt::format("{} types of cells and {} offsets", types.size(), offsets.size()));
+    check_number(piece, "NumberOfCells", types.size());
+    const std::vector<double> curve = tags(piece, "curve", types.size()),
+                              region = tags(piece, "region", types.size());
+    std::vector<double> field;
+    if (field_) field = read_field_of(piece, n_points, types.size());
+    double begin = 0;
+    for (size_t c = 0; c < types.size(); ++c) {
+      if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
+        fail(fmt::format("cell {} lies outside of the connectivity", c));
+      std::vector<int> v;
+      for (auto k = static_cast<size_t>(begin); k < static_cast<size_t>(offsets[c]); ++k) {
+        if (!(corners[k] >= 0 && corners[k] < static_cast<double>(n_points)))
+          fail(fmt::format("cell {}: there is no point {}", c, corners[k]));
+        v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
+      }
+      add_cell(as_int(types[c]), v, curve[c], region[c]);
+      if (field_ && !is_of_points_) {
+        if (v.size() == 3) triangle_values_.push_back(field[c]);
+        if (v.size() == 4) quad_values_.push_back(field[c]);
+      }
+      begin = offsets[c];
+    }
+    if (field_ && is_of_points_) values_.insert(values_.end(), field.begin(), field.end());
+  }
+
+  std::vector<double> read_field_of(const Tree& piece, size_t n_points, size_t n_cells) {
+    std::vector<FieldInFile> fields;
+    std::vector<const Tree*> arrays;
+    for (const char* kind : {"PointData", "CellData"}) {
+      const auto data = piece.find(kind);
+      if (data == piece.not_found()) continue;
+      for (const auto& [tag, array] : data->second) {
+        const std::string name = attribute(array, "Name");
+        if (tag != "DataArray" || name == "curve" || name == "region") continue;
+        fields.push_back(
+            {name, std::string_view(kind) == "PointData", array.get<int>("<xmlattr>.NumberOfComponents", 1)});
+        arrays.push_back(&array);
+      }
+    }
+    const size_t chosen = choose_field(fields, *field_, path_);
+    is_of_points_ = fields[chosen].is_of_points;
+    std::vector<double> all = read_array(*arrays[chosen]);
+    const size_t n = is_of_points_ ? n_points : n_cells;
+    if (all.size() != n)
+      fail(fmt::format("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
+                       is_of_points_ ? "points" : "cells"));
+    return all;
+  }
+
+  std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
+    const auto data = piece.find("CellData");
+    const Tree* array = data == piece.not_found() ? nullptr : array_named(data->second, name);
+    if (!array) return std::vector<double>(n, 0);
+    std::vector<double> all = read_array(*array);
+    if (all.size() != n) fail(fmt::format("data array '{}': {} values for {} cells", name, all.size(), n));
+    for (const double tag : all)
+      if (!(tag >= 0 && tag < INT_MAX && tag == std::floor(tag)))
+        fail(fmt::format("data array '{}': {}: expected whole numbers", name, tag));
+    return all;
+  }
+
+  /// Corners of the cells of VTK that are read; 0: of others.
+  static int corners_of_type(int type) {
+    constexpr std::array kLines = {3, 21, 68};
+    constexpr std::array kQuads = {9, 23, 28, 70};
+    constexpr int kTriangle = 5;
+    if (std::ranges::find(kLines, type) != kLines.end()) return 2;
+    if (std::ranges::find(kQuads, type) != kQuads.end()) return 4;
+    return type == kTriangle ? 3 : 0;
+  }
+
+  /// The order of a cell.
+  int order_of_cell(int type, int corners, size_t n_points) const {
+    constexpr int kLagrangeLine = 68;
+    static const std::map<int, size_t> points = {{3, 2}, {5, 3}, {9, 4}, {21, 3}, {23, 8}, {28, 9}};
+    const int order = corners == 3 ? 1 : corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
+    const auto given = points.find(type);
+    if (given != points.end() && n_points != given->second)
+      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points, given->second));
+    constexpr size_t kEight = 8;
+    if (given == points.end() && (order == 0 || n_points == kEight))
+      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points,
+                       type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25"));
+    return order;
+  }
+
+  void add_cell(int type, const std::vector<int>& v, double curve, double region) {
+    constexpr int kVertex = 1, kPolyVertex = 2;
+    if (type == kVertex || type == kPolyVertex) return;
+    const int corners = corners_of_type(type);
+    if (corners == 0)
+      fail(fmt::format(
+          "a cell of type {}: expected lines (3, 21, 68), triangles (5) and quads (9, 23, 28, 70)", type));
+    const int order = order_of_cell(type, corners, v.size());
+    if (!takes_order(mesh_, order)) fail(other_order(order, mesh_.order));
+    if (corners == 2) {
+      add_line(mesh_, v, entity(mesh_.curves, 1, curve));
+    } else if (corners == 3) {
+      mesh_.triangles.push_back({v[0], v[1], v[2]});
+      mesh_.triangle_region.push_back(entity(mesh_.regions, 2, region));
+    } else {
+      if (places_.empty()) places_ = vtk_places(order);
+      add_quad(mesh_, v, places_, entity(mesh_.regions, 2, region));
+    }
+  }
+
+  /// 0, where a file has no tags, is entity 1.
+  int entity(std::vector<Entity>& entities, int dim, double tag) {
+    const int number = std::max(1, static_cast<int>(tag));
+    const auto [it, is_new] = index_.emplace(std::pair{dim, number}, static_cast<int>(entities.size()));
+    if (is_new) entities.push_back({number, {}});
+    return it->second;
+  }
+
+  /// "curve NAME" or "region NAME": the tags of those that have it. "point NAME": their numbers, from 0.
+  void read_names(const Tree& data) {
+    for (const auto& [tag, array] : data) {
+      if (tag != "DataArray") continue;
+      const std::string title = attribute(array, "Name");
+      if (const std::string kind = "point "; title.starts_with(kind))
+        for (const double number : read_array(array)) name_point(number, title.substr(kind.size()));
+      for (const auto& [kind, dim] : {std::pair{"curve ", 1}, std::pair{"region ", 2}}) {
+        if (!title.starts_with(kind)) continue;
+        const std::string name = title.substr(std::string_view(kind).size());
+        for (const double number : read_array(array)) {
+          const auto found = index_.find({dim, as_int(number)});
+          if (found == index_.end()) continue;
+          (dim == 1 ? mesh_.curves : mesh_.regions)[found->second].names.push_back(name);
+        }
+      }
+    }
+  }
+
+  void name_point(double number, const std::string& name) {
+    if (!(number >= 0 && number < static_cast<double>(mesh_.points.size()) && number == std::floor(number)))
+      fail(fmt::format("the name {} is that of point {}: there are {}, counted from 0", shown(name), number,
+                       mesh_.points.size()));
+    const int point = static_cast<int>(number), next = static_cast<int>(mesh_.named_points.size());
+    const auto [it, is_new] = index_.emplace(std::pair{0, point}, next);
+    if (is_new) mesh_.named_points.push_back({point, {next + 1, {}}});
+    mesh_.named_points[it->second].entity.names.push_back(name);
+  }
+
+  std::string path_;
+  TextScanner in_;
+  Tree tree_;
+  std::string appended_;
+  bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
+  Mesh mesh_;
+  std::vector<int> places_;                   // of nodes of quads
+  std::map<std::pair<int, int>, int> index_;  // by dimension and tag; of points: number
+  std::optional<std::string> field_;          // the name of the field that is asked for
+  bool is_of_points_ = false;
+  std::vector<double> values_, triangle_values_, quad_values_;
+};
+
+}  // namespace
+
+Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
+
+NodalValues read_vtu_field(const std::filesystem::path& path, const std::string& name) {
+  return VtuReader(path).read_field(name);
+}
+
+}  // namespace delquad
