@@ -195,7 +195,7 @@ class FrontalMesher {
       if (placement_.length(p[e.a] - x, frame) < options_.rejection * delta) return false;
       if (e.outer >= 0) continue;
       const Vec2 ab = p[e.b] - p[e.a];
-      if (cross(ab, x - p[e.a]) < options_.boundary_height * delta * norm(ab)) return false;
+      if (cross(ab, x - p[e.a]) < kBoundaryHeight * delta * norm(ab)) return false;
     }
     return true;
   }

@@ -7,14 +7,15 @@
 
 namespace delquad {
 
+/// Points whose height above a boundary edge is below this times delta' are refused.
+inline constexpr double kBoundaryHeight = 0.5;
+
 struct FrontalOptions {
   /// A triangle is resolved when its dimensionless size is at most h_max (1: ideal). 0: the strategy's own
   /// default.
   double h_max = 0;
   /// A point nearer than rejection * delta' to a vertex (in the strategy's norm) is refused.
   double rejection = 0.7;
-  /// Refuse points whose height above a boundary edge is below this times delta'.
-  double boundary_height = 0.5;
   /// The most points to insert; the summary says when it stopped the mesher.
   long long max_points = 200'000'000;
 };

@@ -22,12 +22,6 @@ const OptionTable<InsertionOptions>& table() {
                                    .most = 0.95},
                                   [](auto& o) -> auto& { return o.frontal.rejection; })
                               .add(
-                                  {.name = "boundary_height",
-                                   .help = "least height over the boundary, in sizes",
-                                   .above = 0,
-                                   .most = 0.95},
-                                  [](auto& o) -> auto& { return o.frontal.boundary_height; })
-                              .add(
                                   {.name = "lower_clamp",
                                    .help = "whether D keeps points out of the circumsquare behind the edge"},
                                   [](auto& o) -> auto& { return o.linf.lower_clamp; });

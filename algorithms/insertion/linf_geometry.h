@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "delquad/extend.h"
@@ -54,15 +53,5 @@ double circumradius_on_branch(const CanonicalEdge& edge, Vec2 apex);
 /// rho at which the upper branch leaves the circumsquare of the triangle on the other side of PQ; 0: it never
 /// bounds.
 double branch_exit(const CanonicalEdge& edge, Vec2 opposite_apex);
-
-/// A circumsquare: |x - centre| = radius in the norm for all three vertices.
-struct Circumsquare {
-  Vec2 centre;
-  double radius = std::numeric_limits<double>::infinity();
-};
-
-/// The smallest square through the three vertices with sides along the frame [section 4.4]; where several
-/// centres serve (Figure 11), the one in the middle. An infinite radius when there is no such square.
-Circumsquare circumsquare(const std::array<Vec2, 3>& triangle, const Frame& frame);
 
 }  // namespace delquad

@@ -86,7 +86,7 @@ class Packer {
       if (linf_norm(frame.to_local(p[e.a] - x)) < options_.rejection * delta) return false;
       if (e.outer >= 0) continue;
       const Vec2 ab = p[e.b] - p[e.a];
-      if (::delquad::cross(ab, x - p[e.a]) < options_.boundary_height * delta * norm(ab)) return false;
+      if (::delquad::cross(ab, x - p[e.a]) < kBoundaryHeight * delta * norm(ab)) return false;
     }
     return true;
   }

@@ -15,10 +15,7 @@ const OptionTable<RecombinationOptions>& recombination_table() {
                &RecombinationOptions::solver)
           .choice({.name = "treatment", .help = "after the matching"}, &RecombinationOptions::treatment,
                   std::vector<std::pair<std::string, Treatment>>{{"none", Treatment::kNone},
-                                                                 {"paper", Treatment::kPaper}})
-          .add(
-              {.name = "max_rounds", .help = "of the treatment", .least = 0, .most = 1e6},
-              [](auto& o) -> auto& { return o.treatment_options.max_rounds; });
+                                                                 {"paper", Treatment::kPaper}});
   return all;
 }
 

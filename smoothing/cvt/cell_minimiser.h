@@ -17,7 +17,6 @@ struct MinimiserOptions {
   int iterations = 60;               ///< at most
   double function_tolerance = 1e-5;  ///< converged when a step lowers F by less than this times F
   double gradient_tolerance = 0;     ///< converged when no seed's derivative, in newton_scale(), is larger
-  int rank = 10;                     ///< L-BFGS: how many steps its approximate Hessian remembers
 };
 
 /// One evaluation of the energy.

@@ -26,14 +26,8 @@ const OptionTable<CvtOptions>& table() {
               {.name = "inner_iterations", .help = "steps for each", .least = 0, .most = kMostRounds},
               [](auto& o) -> auto& { return o.smoothing.inner.iterations; })
           .add(
-              {.name = "rank", .help = "of L-BFGS", .least = 1, .most = 1000},
-              [](auto& o) -> auto& { return o.smoothing.inner.rank; })
-          .add(
               {.name = "function_tolerance", .help = "relative", .least = 0},
-              [](auto& o) -> auto& { return o.smoothing.inner.function_tolerance; })
-          .add(
-              {.name = "gradient_tolerance", .help = "absolute", .least = 0},
-              [](auto& o) -> auto& { return o.smoothing.inner.gradient_tolerance; });
+              [](auto& o) -> auto& { return o.smoothing.inner.function_tolerance; });
   return all;
 }
 

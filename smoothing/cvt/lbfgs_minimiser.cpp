@@ -98,7 +98,7 @@ class LbfgsMinimiser final : public CellMinimiser {
     ceres::GradientProblemSolver::Options solver;
     solver.line_search_direction_type = ceres::LBFGS;
     solver.line_search_type = ceres::WOLFE;
-    solver.max_lbfgs_rank = options.rank;
+    solver.max_lbfgs_rank = 10;  // steps that the approximate Hessian remembers
     solver.use_approximate_eigenvalue_bfgs_scaling = true;
     solver.max_num_iterations = options.iterations;
     solver.function_tolerance = options.function_tolerance;

@@ -106,7 +106,6 @@ void check_options(const SmoothingOptions& options) {
   check_at_least("inner_iterations", options.inner.iterations, 0);
   check_at_least("function_tolerance", options.inner.function_tolerance, 0);
   check_at_least("gradient_tolerance", options.inner.gradient_tolerance, 0);
-  check_at_least("rank", options.inner.rank, 1);
 }
 
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,

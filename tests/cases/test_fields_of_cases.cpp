@@ -311,15 +311,13 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
 TEST_F(Cases, OptionsReachTheStages) {
   const Case c = read(
       square_ +
-      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, boundary_height = 0.4, lower_clamp = true "
-      "}\nrecombination = { treatment = \"none\", max_rounds = 3 }\n");
+      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, lower_clamp = true "
+      "}\nrecombination = { treatment = \"none\" }\n");
   const InsertionOptions insertion = insertion_options(c.options);
   EXPECT_EQ(insertion.frontal.h_max, 1.2);
   EXPECT_EQ(insertion.frontal.rejection, 0.6);
-  EXPECT_EQ(insertion.frontal.boundary_height, 0.4);
   EXPECT_TRUE(insertion.linf.lower_clamp);
   EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
-  EXPECT_EQ(recombination_options(c.options).treatment_options.max_rounds, 3);
   const RunResult result = run_word(prepare_case(c), parse_word("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));
   EXPECT_FALSE(result.log.summaries.has("treatment"));

@@ -340,7 +340,6 @@ TEST(BadSmoothing, OptionsOutOfRange) {
   };
   expect_input_error([&] { with([](SmoothingOptions& o) { o.p = 5; }); }, {"p is 5", "even", "2 to 16"});
   expect_input_error([&] { with([](SmoothingOptions& o) { o.p = 18; }); }, {"p is 18"});
-  expect_input_error([&] { with([](SmoothingOptions& o) { o.inner.rank = 0; }); }, {"rank is 0"});
   expect_input_error([&] { with([](SmoothingOptions& o) { o.inner.iterations = -1; }); },
                      {"inner_iterations is -1"});
   expect_input_error([&] { with([](SmoothingOptions& o) { o.inner.function_tolerance = NAN; }); },

@@ -40,16 +40,14 @@ TEST_F(SmoothingStage, OptionsAreRead) {
   EXPECT_EQ(cvt_options(read("{}").options).smoothing.p, 6);
   EXPECT_EQ(cvt_options(read("{}").options).method, SmoothingMethod::kLpCvt);
   const CvtOptions o =
-      cvt_options(read("{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, rank = 5, "
-                       "function_tolerance = 1e-3, gradient_tolerance = 0.5 }")
+      cvt_options(read("{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, "
+                       "function_tolerance = 1e-3 }")
                       .options);
   EXPECT_EQ(o.method, SmoothingMethod::kLloyd);
   EXPECT_EQ(o.smoothing.p, 8);
   EXPECT_EQ(o.smoothing.outer_iterations, 2);
   EXPECT_EQ(o.smoothing.inner.iterations, 7);
-  EXPECT_EQ(o.smoothing.inner.rank, 5);
   EXPECT_EQ(o.smoothing.inner.function_tolerance, 1e-3);
-  EXPECT_EQ(o.smoothing.inner.gradient_tolerance, 0.5);
 }
 
 TEST_F(SmoothingStage, MistakesAreNamed) {
@@ -59,7 +57,6 @@ TEST_F(SmoothingStage, MistakesAreNamed) {
                      {"c.toml:3", "\"newton\"", "\"lpcvt\" or \"lloyd\""});
   expect_input_error([&] { read("{ inner_iterations = -1 }"); },
                      {"c.toml:3", "'smoothing.inner_iterations' is -1"});
-  expect_input_error([&] { read("{ rank = 0 }"); }, {"'smoothing.rank' is 0", "from 1 to"});
   expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'smoothing.function_tolerance' is -1"});
   expect_input_error([&] { read("{ q = 4 }"); }, {"'smoothing.q'"});
 }
