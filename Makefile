@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages build test python data paper peers suite bench fuzz
+.PHONY: packages build dev lint test python data paper peers suite bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -18,8 +18,18 @@ build: packages
 	cmake --preset $(PRESET) $(CMAKE_FLAGS)
 	cmake --build --preset $(PRESET)
 
+# For daily work: file by file, with warnings as errors; only what was touched is compiled again. TARGETS: some of them by name.
+dev: packages
+	@[ -d build/dev ] || cmake --preset dev $(CMAKE_FLAGS)
+	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
+
+# Without a build: the format of the sources, and the rooms of the house.
+lint:
+	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+	python3 tests/house/check_house.py .
+
 test: build
-	ctest --preset $(PRESET) -j 2; status=$$?; \
+	ctest --preset $(PRESET) -j $$(nproc); status=$$?; \
 	  grep -h -A1 ': Skipped$$' build/$(PRESET)/Testing/Temporary/LastTest.log | grep -v -e '^--$$' -e ': Skipped$$' | sort | uniq -c; \
 	  exit $$status
 
