@@ -9,6 +9,7 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "delquad/error.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "mesher/better_mesh.h"
 #include "mesher/prepare_surface.h"
@@ -102,18 +103,11 @@ struct UncutMesh {
 /// `is_cut`: by curve.
 UncutMesh without_cuts(Mesh mesh, const std::vector<char>& is_cut) {
   NodePlaces on_cuts;
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    if (is_cut[mesh.line_curve[l]]) {
-      for (const int v : mesh.lines[l])
-        on_cuts.insert({mesh.points[v].x, mesh.points[v].y, mesh.points[v].z});
-      continue;
-    }
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+  keep_lines(mesh, [&](std::size_t l) {
+    if (!is_cut[mesh.line_curve[l]]) return true;
+    for (const int v : mesh.lines[l]) on_cuts.insert({mesh.points[v].x, mesh.points[v].y, mesh.points[v].z});
+    return false;
+  });
   return {std::move(mesh), std::move(on_cuts)};
 }
 

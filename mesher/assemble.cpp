@@ -9,7 +9,9 @@
 #include "features/layers/planar_layers.h"
 #include "features/periodic/face_images.h"
 #include "features/symmetry/mirror_mesh.h"
+#include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/half_edges.h"
 #include "mesher/runner.h"
 
@@ -55,20 +57,6 @@ void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches
   }
 }
 
-/// Takes out lines that are on no element, and points that nothing uses then.
-void drop_stray_lines(Mesh& mesh) {
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty()) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = mesh.line_curve[l];
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
-  drop_unused_points(mesh);
-}
-
 }  // namespace
 
 Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
@@ -106,7 +94,10 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
     if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
     if (!domain.caps.empty()) drop_unused_points(mesh);
   }
-  if (std::ranges::find(left_out, 1) != left_out.end()) drop_stray_lines(mesh);
+  if (std::ranges::find(left_out, 1) != left_out.end()) {
+    drop_stray_lines(mesh, sorted_half_edges(mesh));
+    drop_unused_points(mesh);
+  }
   if (log != nullptr) log->add_time("projection", projection.time());
   return mesh;
 }
@@ -164,15 +155,8 @@ void measure_straight_form(const PreparedProblem& prepared, const std::vector<ch
 }
 
 void put_back_entities(const GivenEntities& given, Mesh& mesh) {
-  std::size_t kept = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const int curve = given.curve_of[mesh.line_curve[l]];
-    if (curve < 0) continue;
-    mesh.lines[kept] = mesh.lines[l];
-    mesh.line_curve[kept++] = curve;
-  }
-  mesh.lines.resize(kept);
-  mesh.line_curve.resize(kept);
+  for (int& curve : mesh.line_curve) curve = given.curve_of[curve];
+  keep_lines(mesh, [&](std::size_t l) { return mesh.line_curve[l] >= 0; });
   for (auto* regions : {&mesh.triangle_region, &mesh.quad_region})
     for (int& region : *regions) region = given.region_of[region];
   mesh.curves = given.curves;

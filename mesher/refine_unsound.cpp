@@ -8,6 +8,7 @@
 
 #include "base/box.h"
 #include "base/budget.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "mesher/finish_steps.h"
 
@@ -77,9 +78,8 @@ void add_times(const StepTimes& times, StageLog& log) {
 Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
   const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
   return fmt::format(
-      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at "
-      "({:.6g}, {:.6g}, {:.6g})",
-      prepared.settings.name, spots.size(), least.size, least.at.x, least.at.y, least.at.z);
+      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {}",
+      prepared.settings.name, spots.size(), least.size, show_point(least.at));
 }
 
 long long quads_of(const PreparedProblem& prepared, const RunResult& result) {

@@ -11,6 +11,7 @@
 #include "delquad/error.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/split_polygon.h"
 #include "geometry/mesh/stray_points.h"
 #include "geometry/surface/compound.h"
@@ -100,16 +101,9 @@ std::string leave_out_strays(Mesh& mesh) {
   std::vector<char> is_stray(mesh.points.size(), 0);
   for (const StrayPoint& stray : strays) is_stray[stray.point] = 1;
   const auto keep = [&](auto& elements, std::vector<int>& entity_of) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (std::ranges::any_of(elements[i], [&](int v) { return is_stray[v] != 0; })) continue;
-      elements[kept] = elements[i];
-      entity_of[kept++] = entity_of[i];
-    }
-    const std::size_t gone = elements.size() - kept;
-    elements.resize(kept);
-    entity_of.resize(kept);
-    return gone;
+    return keep_elements(elements, entity_of, [&](std::size_t i) {
+      return std::ranges::none_of(elements[i], [&](int v) { return is_stray[v] != 0; });
+    });
   };
   const std::string why = describe(strays[0], mesh);
   keep(mesh.lines, mesh.line_curve);

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/segment.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/curve_search.h"
 #include "patches/divided_chains.h"
@@ -141,8 +142,7 @@ class SurfaceGeometry final : public ModelGeometry {
     for (const int c : found->second) {
       const std::vector<int>& chain = surface_.domain.chains[c].points;
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const Vec3 &a = p[chain[i]], d = p[chain[i + 1]] - a;
-        const Vec3 at = a + std::clamp(dot(x - a, d) / dot(d, d), 0.0, 1.0) * d;
+        const Vec3 at = nearest_on_segment(x, p[chain[i]], p[chain[i + 1]]);
         if (norm(at - x) < norm(best - x)) best = at;
       }
     }

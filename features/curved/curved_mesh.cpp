@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "features/curved/bernstein.h"
 #include "features/curved/curve_corners.h"
 #include "features/curved/curved_geometry.h"
@@ -113,8 +114,7 @@ bool is_in_corner(double proven, double allowed) {
 std::string show_element(const Mesh& mesh, std::size_t q) {
   Vec3 centre;
   for (const int v : mesh.quads[q]) centre = centre + 0.25 * mesh.points[v];
-  return fmt::format("({:.6g}, {:.6g}, {:.6g}) in region {}", centre.x, centre.y, centre.z,
-                     mesh.regions[mesh.quad_region[q]].tag);
+  return fmt::format("{} in region {}", show_point(centre), mesh.regions[mesh.quad_region[q]].tag);
 }
 
 /// Counts elements with little, and tells of those that are positive.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/grids/mapped_grid.h"
 #include "geometry/mesh/entity_names.h"
@@ -122,9 +123,9 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
         grids[i] = maker.make(fold);
         if (grids[i] || !mapped[i].is_asked) return;
         const Vec3 at = maker.place(fold);
-        throw InputError(fmt::format(
-            "{}: '{}' cannot be a grid: it would fold at ({:.6g}, {:.6g}, {:.6g})", spec.where,
-            region_label(p.boundary.regions[p.patches[mapped[i].patch].region]), at.x, at.y, at.z));
+        throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {}", spec.where,
+                                     region_label(p.boundary.regions[p.patches[mapped[i].patch].region]),
+                                     show_point(at)));
       },
       [&](std::size_t i) { return static_cast<double>(p.patches[mapped[i].patch].boundary.points.size()); });
   for (std::size_t i = 0; i < mapped.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/predicates.h"
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -217,9 +218,8 @@ class LayerFitter {
         chains, [&](const LayerChain& c) { return std::ranges::find(c.points, p) != c.points.end(); });
     const auto k = static_cast<std::size_t>(std::ranges::find(chain->points, p) - chain->points.begin());
     const LayerSpec& spec = specs_[chain->spec[std::min(k, chain->spec.size() - 1)]];
-    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at ({:.6g}, {:.6g})",
-                                 spec.where, fmt::join(spec.on, "', '"), patch_.points[p].x,
-                                 patch_.points[p].y));
+    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {}", spec.where,
+                                 fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
   }
 
   const PatchBoundary& patch_;

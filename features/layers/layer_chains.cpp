@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
 
@@ -109,9 +110,9 @@ class ChainFinder {
     const int node = patch_.point_node[p];
     if (!repeated_.contains(node) && !graph_.is_on_crack(node)) return;
     throw InputError(
-        fmt::format("{}: another curve meets the layer inside of its region at ({:.6g}, {:.6g}): expected "
+        fmt::format("{}: another curve meets the layer inside of its region at {}: expected "
                     "layers beside which only boundaries of regions go on",
-                    where(chain), patch_.points[p].x, patch_.points[p].y));
+                    where(chain), show_point(patch_.points[p])));
   }
 
   /// Whether a wall ends at a point inside of it.
@@ -179,10 +180,10 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
     return {std::move(points), curve, WallTrack(std::move(places), nullptr, {}), {-1, -1}, is_axis};
   auto [piece, params] = piece_with(domain, nodes);
   if (piece->is_divided)
-    throw InputError(fmt::format(
-        "{}: the layer ends on {} at ({:.6g}, {:.6g}), of which 'divide' gives the number of edges: expected "
-        "one of the two",
-        where, curve_title(domain.boundary.curves[curve]), places[0].x, places[0].y));
+    throw InputError(
+        fmt::format("{}: the layer ends on {} at {}, of which 'divide' gives the number of edges: expected "
+                    "one of the two",
+                    where, curve_title(domain.boundary.curves[curve]), show_point(places[0])));
   return {std::move(points),
           curve,
           WallTrack(std::move(places), piece->shape, std::move(params)),

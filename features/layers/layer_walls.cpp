@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
 
@@ -110,11 +111,11 @@ void LayerWalls::group_ends() {
           return curve_title(domain_.boundary.curves[shape_of(w).curve]);
         };
         throw InputError(
-            fmt::format("{}: layers end on {} at ({:.6g}, {:.6g}), and none at its periodic image on {}: "
+            fmt::format("{}: layers end on {} at {}, and none at its periodic image on {}: "
                         "expected layers at "
                         "both, or at none",
-                        specs_[spec_of(one)].where, title(wall.ends[end].empty() ? master : wall), at.x, at.y,
-                        title(wall.ends[end].empty() ? wall : master)));
+                        specs_[spec_of(one)].where, title(wall.ends[end].empty() ? master : wall),
+                        show_point(at), title(wall.ends[end].empty() ? wall : master)));
       }
       std::vector<ChainEnd>& group = groups_[master.group[there]];
       group.insert(group.end(), wall.ends[end].begin(), wall.ends[end].end());
@@ -130,10 +131,10 @@ void LayerWalls::join(const std::vector<ChainEnd>& group) {
     if (number(e) != number(group[0])) {
       const Vec2 at = columns(e).foot(e.chain, point_of(e));
       throw InputError(
-          fmt::format("{}: {} layers meet {} of {} on one curve, or on periodic ones, at ({:.6g}, {:.6g}): "
+          fmt::format("{}: {} layers meet {} of {} on one curve, or on periodic ones, at {}: "
                       "expected the same number",
                       specs_[spec_of(group[0])].where, number(group[0]), number(e), specs_[spec_of(e)].where,
-                      at.x, at.y));
+                      show_point(at)));
     }
     slant = std::max(slant, columns(e).slant(e.chain, e.end));
   }
@@ -203,10 +204,10 @@ void LayerWalls::count_edges() {
   if (make_even() || domain_.places.empty()) return;
   const PatchLayers& patch = patches_[odd_patches()[0]];
   const Vec2 at = domain_.patches[patch.patch].points[0];
-  throw InputError(fmt::format(
-      "{}: layers leave an odd number of edges around the region at ({:.6g}, {:.6g}): expected an "
-      "even number of layers, or ends of them on the boundary of the domain",
-      specs_[0].where, at.x, at.y));
+  throw InputError(
+      fmt::format("{}: layers leave an odd number of edges around the region at {}: expected an "
+                  "even number of layers, or ends of them on the boundary of the domain",
+                  specs_[0].where, show_point(at)));
 }
 
 /// Patches whose number of edges around what is left is odd.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
 
@@ -142,11 +143,10 @@ void check_layers_symmetric(const PlanarDomain& domain, std::span<const LayerSpe
       const int two = layers.at(other, domain.patch_region[image.patch]);
       if (one == two) continue;
       const auto title = [&](int c) { return curve_title(domain.boundary.curves[c]); };
-      throw InputError(
-          fmt::format("{}: {} and {} are mirror images at ({:.6g}, {:.6g}) and have not the same layer: "
-                      "expected it on both",
-                      specs[std::max(one, two)].where, title(curve), title(other), master.points[a].x,
-                      master.points[a].y));
+      throw InputError(fmt::format(
+          "{}: {} and {} are mirror images at {} and have not the same layer: "
+          "expected it on both",
+          specs[std::max(one, two)].where, title(curve), title(other), show_point(master.points[a])));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/layers/layer_walls.h"
 #include "geometry/mesh/entity_names.h"
@@ -84,10 +85,10 @@ class WallSharing {
     const int spec = layers_.at(curve, domain_.patch_region[patch]);
     if (spec < 0) return;
     const Vec2 at = domain_.patches[patch].points[domain_.patches[patch].edges[edge][0]];
-    throw InputError(fmt::format(
-        "{}: other layers end on {} at ({:.6g}, {:.6g}), where it has layers on its other side, or "
-        "at its periodic image: expected layers on both sides",
-        specs_[spec].where, curve_title(domain_.boundary.curves[curve]), at.x, at.y));
+    throw InputError(
+        fmt::format("{}: other layers end on {} at {}, where it has layers on its other side, or "
+                    "at its periodic image: expected layers on both sides",
+                    specs_[spec].where, curve_title(domain_.boundary.curves[curve]), show_point(at)));
   }
 
   const PlanarDomain& domain_;

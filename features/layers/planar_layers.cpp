@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/layers/add_layers.h"
 #include "features/sizes/fine_spots.h"
@@ -37,8 +38,8 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
   if (layers.count.least_scale < 1)
     warnings.emplace_back(
         fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
-                    "({:.6g}, {:.6g}) on {}",
-                    where, layers.count.least_scale, layers.least_at.x, layers.least_at.y, layers.least_on));
+                    "{} on {}",
+                    where, layers.count.least_scale, show_point(layers.least_at), layers.least_on));
   if (layers.largest_jump > kLargeJump)
     warnings.emplace_back(fmt::format(
         "{}: edges on the last layer are up to {:.3g} times as long as it is high, on {}: more layers, or "

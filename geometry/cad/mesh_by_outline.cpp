@@ -21,6 +21,7 @@
 #include <map>
 #include <optional>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/edge_chords.h"
 #include "geometry/cad/face_outline.h"
@@ -143,7 +144,7 @@ class OutlineMesher {
     if (crossing == crossing_at_.end()) return at->second;
     const Vec3& x = crossing->second;
     const gp_Pnt p = gp_Pnt(x.x, x.y, x.z).Transformed(face.Location().Transformation());
-    return fmt::format("{} near ({:.6g}, {:.6g}, {:.6g})", at->second, p.X(), p.Y(), p.Z());
+    return fmt::format("{} near {}", at->second, show_point(Vec3{p.X(), p.Y(), p.Z()}));
   }
 
  private:

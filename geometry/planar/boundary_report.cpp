@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -41,8 +42,8 @@ std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, 
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   const Vec2 at = patch.points[patch.edges[loop.front()][0]];
-  return fmt::format("the loop of {} through ({:.6g}, {:.6g}) has {} edges", fmt::join(names, ", "), at.x,
-                     at.y, loop.size());
+  return fmt::format("the loop of {} through {} has {} edges", fmt::join(names, ", "), show_point(at),
+                     loop.size());
 }
 
 }  // namespace

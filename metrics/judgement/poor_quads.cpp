@@ -13,6 +13,8 @@
 
 #include "base/box.h"
 #include "base/option_table.h"
+#include "base/segment.h"
+#include "base/text.h"
 #include "features/layers/planar_layers.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
@@ -171,9 +173,8 @@ class PoorQuads {
     return width;
   }
   double distance_to_side(const Vec3& x, int a, int b) const {
-    const Vec3 from = mesh_.points[a], along = mesh_.points[b] - from;
-    const double t = std::clamp(dot(x - from, along) / dot(along, along), 0.0, 1.0);
-    return norm(x - from - t * along);
+    const Vec3 &from = mesh_.points[a], &to = mesh_.points[b];
+    return norm(x - from - nearest_part(x, from, to) * (to - from));
   }
 
   const PreparedProblem& prepared_;
@@ -273,8 +274,7 @@ void warn_of_single_precision(const std::string& label, const Mesh& mesh, const 
   const auto box = Box<Vec3>::around(mesh.points);
   const Vec3 centre = 0.5 * (box.low + box.high);
   const bool is_far = norm(centre) > norm(box.size());
-  const std::string help = is_far ? fmt::format("move the model's origin near to ({:.6g}, {:.6g}, {:.6g})",
-                                                centre.x, centre.y, centre.z)
+  const std::string help = is_far ? fmt::format("move the model's origin near to {}", show_point(centre))
                                   : "read the mesh in double precision";
   warnings.emplace_back(
       fmt::format("{}: rounded to single precision, as many programs read coordinates, {}; {}", label,

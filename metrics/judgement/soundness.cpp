@@ -9,6 +9,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/half_edges.h"
@@ -205,7 +206,7 @@ Place middle_of_quad(const Mesh& mesh, int quad) {
 }
 
 std::string show_place(const Mesh& mesh, const Place& place) {
-  const std::string at = fmt::format("({:.6g}, {:.6g}, {:.6g})", place.at.x, place.at.y, place.at.z);
+  const std::string at = show_point(place.at);
   const bool known = place.face >= 0 && static_cast<std::size_t>(place.face) < mesh.regions.size();
   return known ? fmt::format("face {} at {}", mesh.regions[place.face].tag, at) : "at " + at;
 }

@@ -19,6 +19,16 @@ NOT_IN_LIBRARY = [
 ]
 # But for this: HDF5 crashes at the end of a process in which it could not write, so its writers get one of their own.
 FORKS = "io/library_file.cpp"
+# What is written once: its shape, the function to use, and the header of that.
+PRIMITIVES = [
+    (r"std::clamp\(-?dot\(", "nearest_part()", "base/segment.h"),
+    (r"turn <= 0\) turn \+= 2 \*", "into_corner()", "base/segment.h"),
+    (r"\(\{:\.6g\}, \{:\.6g\}", "show_point()", "base/text.h"),
+    (r"istreambuf_iterator<char>\(in\), \{\}|<< in\.rdbuf\(\)", "file_bytes()", "base/text.h"),
+    (r"find_last_not_of\(\"?[ k]", "trimmed()", "base/text.h"),
+    (r"(line_curve|triangle_region)\[kept\+\+\]", "keep_lines(), keep_triangles()", "geometry/mesh/keep_elements.h"),
+    (r"while \((parent|root|leader)_?\[\w+\] != ", "DisjointSets", "base/disjoint_sets.h"),
+]
 
 
 def rooms(root):
@@ -82,6 +92,15 @@ def check_library(root, links):
                     yield f"{path.relative_to(root)}:{number}: not in a library: {code.strip()}"
 
 
+def check_primitives(root, links):
+    for room in links:
+        for path in sources(root, room, links):
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                for shape, name, header in PRIMITIVES:
+                    if re.search(shape, line) and path.with_suffix(".h") != root / header:
+                        yield f"{path.relative_to(root)}:{number}: expected {name} of {header}"
+
+
 def check_public(root):
     headers = sorted((root / "include/delquad").glob("*.h"))
     if not 0 < len(headers) <= MOST_PUBLIC_HEADERS:
@@ -113,7 +132,8 @@ def check_lengths(root, links):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     links = rooms(root)
-    wrong = [*check_links(root, links), *check_library(root, links), *check_public(root), *check_lengths(root, links)]
+    checks = (check_links, check_library, check_primitives, check_lengths)
+    wrong = [*check_public(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)
     return 1 if wrong else 0
