@@ -305,7 +305,9 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
 }
 
 StudyFile describe(const Experiment& experiment) {
-  StudyFile study{experiment, experiment.file.stem().string()};
+  StudyFile study;
+  static_cast<TablePlan&>(study) = experiment;
+  study.experiment = experiment.file.stem().string();
   for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
   for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
   study.cells = experiment.n_cells();
