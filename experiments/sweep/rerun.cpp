@@ -14,6 +14,7 @@
 #include "experiments/sweep/recorded_case.h"
 #include "experiments/sweep/scratch_folder.h"
 #include "io/digest.h"
+#include "io/formats/msh.h"
 #include "io/mesh_io.h"
 #include "mesher/runner.h"
 #include "metrics/tables/json_problem.h"
@@ -127,7 +128,7 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   measure_by_solvers(cell, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
-  write_mesh(mesh, result.mesh);
+  write_msh(mesh, result.mesh);
   const Json now = Json::parse(run_record(c, prepared, word, result, &cell));
   return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
           compare_values(record, now)};
