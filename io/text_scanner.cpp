@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <climits>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -106,6 +107,13 @@ long long TextScanner::integer(std::string_view what, long long low, long long h
     fail(fmt::format("expected {} from {} to {}, found {}", what, low, high, printable(text)));
   }
   return value;
+}
+
+long long TextScanner::count(std::string_view what) {
+  const long long n = integer(what, 0, INT_MAX);
+  if (n > static_cast<long long>(bytes_left()))
+    fail(fmt::format("{} do not fit in the {} bytes that follow: expected {}", n, bytes_left(), what));
+  return n;
 }
 
 double TextScanner::real(std::string_view what, Strays strays) {

@@ -31,6 +31,8 @@ class TextScanner {
   /// The next token; `what` names it in errors.
   std::string_view token(std::string_view what);
   long long integer(std::string_view what, long long low, long long high);
+  /// A number of things that follow, each of a byte at least.
+  long long count(std::string_view what);
   /// A finite number.
   double real(std::string_view what, Strays strays = Strays::kRefused);
   /// The same of a number that was read as bytes.

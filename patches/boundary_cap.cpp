@@ -33,4 +33,16 @@ PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops) {
   return boundary;
 }
 
+void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<const LoopPoint> fresh) {
+  BoundaryLoop rest;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::size_t from_tip = (i + loop.size() - tip) % loop.size();
+    if (from_tip == 0)
+      rest.insert(rest.end(), fresh.begin(), fresh.end());
+    else if (from_tip >= k && loop.size() - from_tip >= k)
+      rest.push_back(loop[i]);
+  }
+  loop = std::move(rest);
+}
+
 }  // namespace delquad

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -24,5 +28,21 @@ struct LoopPoint {
 using BoundaryLoop = std::vector<LoopPoint>;
 std::vector<BoundaryLoop> take_loops(const PatchBoundary& boundary);
 PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops);
+/// Puts other points in the place of the tip and of those fewer than k beside it.
+void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<const LoopPoint> fresh);
+/// Caps what make(loops, loop, point) caps, which changes the loop.
+template <class Make>
+std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
+  std::vector<BoundaryCap> caps;
+  std::vector<BoundaryLoop> loops = take_loops(boundary);
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    for (std::size_t i = 0; i < loops[l].size(); ++i)
+      if (std::optional<BoundaryCap> cap = make(loops, l, i)) {
+        caps.push_back(std::move(*cap));
+        i = static_cast<std::size_t>(-1);  // the loop has changed
+      }
+  if (!caps.empty()) boundary = make_boundary(loops);
+  return caps;
+}
 
 }  // namespace delquad

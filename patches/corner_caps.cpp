@@ -116,16 +116,8 @@ class CornerCap {
   }
 
   void replace(size_t k, int node) {
-    const Vec2 x = 0.5 * (after(k).point + before(k).point);
-    BoundaryLoop rest;
-    for (size_t i = 0; i < loop_.size(); ++i) {
-      const size_t from_tip = (i + loop_.size() - tip_) % loop_.size();
-      if (from_tip == 0)
-        rest.push_back({x, node, loop_[tip_].curve});
-      else if (from_tip >= k && loop_.size() - from_tip >= k)
-        rest.push_back(loop_[i]);
-    }
-    loop_ = std::move(rest);
+    const LoopPoint fresh{0.5 * (after(k).point + before(k).point), node, loop_[tip_].curve};
+    cut_off_tip(loop_, tip_, k, std::span(&fresh, 1));
   }
 
   const std::vector<BoundaryLoop>& loops_;
@@ -138,16 +130,9 @@ class CornerCap {
 }  // namespace
 
 std::vector<BoundaryCap> cap_corners(PatchBoundary& boundary, const CapNodes& nodes) {
-  std::vector<BoundaryCap> caps;
-  std::vector<BoundaryLoop> loops = take_loops(boundary);
-  for (size_t l = 0; l < loops.size(); ++l)
-    for (size_t i = 0; i < loops[l].size(); ++i)
-      if (auto cap = CornerCap(loops, l, i, nodes).make()) {
-        caps.push_back(std::move(*cap));
-        i = static_cast<size_t>(-1);  // the loop has changed
-      }
-  if (!caps.empty()) boundary = make_boundary(loops);
-  return caps;
+  return cap_loops(boundary, [&](std::vector<BoundaryLoop>& loops, size_t l, size_t i) {
+    return CornerCap(loops, l, i, nodes).make();
+  });
 }
 
 }  // namespace delquad

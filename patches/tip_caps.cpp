@@ -63,15 +63,7 @@ class Cap {
     }
     const int tip = loop_[tip_].node, foot = after(k).node;
     cap.quads = {{tip, foot, fresh[2].node, fresh[1].node}, {tip, fresh[1].node, fresh[0].node, foot}};
-    BoundaryLoop rest;
-    for (size_t i = 0; i < loop_.size(); ++i) {
-      const size_t from_tip = (i + loop_.size() - tip_) % loop_.size();
-      if (from_tip == 0)
-        rest.insert(rest.end(), fresh, fresh + 3);
-      else if (from_tip >= k && loop_.size() - from_tip >= k)
-        rest.push_back(loop_[i]);
-    }
-    loop_ = std::move(rest);
+    cut_off_tip(loop_, tip_, k, fresh);
   }
 
   BoundaryLoop& loop_;
@@ -82,16 +74,9 @@ class Cap {
 }  // namespace
 
 std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node) {
-  std::vector<BoundaryCap> caps;
-  std::vector<BoundaryLoop> loops = take_loops(boundary);
-  for (BoundaryLoop& loop : loops)
-    for (size_t i = 0; i < loop.size(); ++i)
-      if (auto cap = Cap(loop, i, add_node).make()) {
-        caps.push_back(std::move(*cap));
-        i = static_cast<size_t>(-1);  // the loop has changed
-      }
-  if (!caps.empty()) boundary = make_boundary(loops);
-  return caps;
+  return cap_loops(boundary, [&](std::vector<BoundaryLoop>& loops, size_t l, size_t i) {
+    return Cap(loops[l], i, add_node).make();
+  });
 }
 
 }  // namespace delquad

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/hilbert_place.h"
 #include "base/parallel.h"
 
 namespace delquad {
@@ -12,21 +13,6 @@ namespace delquad {
 namespace {
 
 constexpr int kBits = 16;  // of each coordinate
-
-/// Position along the curve of cell (x, y). No branches: they would be guessed wrongly half of the time.
-std::uint32_t curve_position(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t position = 0;
-  for (int bit = kBits - 1; bit >= 0; --bit) {
-    const std::uint32_t right = x >> bit & 1, upper = y >> bit & 1;
-    position = 4 * position + ((3 * right) ^ upper);
-    // The curve enters the two lower quarters turned: bring them to the standard attitude.
-    const std::uint32_t lower = upper - 1, turn = lower & (0 - right);
-    const std::uint32_t swap = ((x ^ y) & lower);
-    x ^= swap ^ turn;
-    y ^= swap ^ turn;
-  }
-  return position;
-}
 
 /// Sorts by the upper 32 bits; numbers that agree in them stay in their order. Parts of a fixed length are
 /// counted and moved at once.
@@ -73,7 +59,7 @@ std::vector<int> hilbert_order(std::span<const Vec2> points) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec2 p = scale * (points[i] - low);
       const std::uint32_t at =
-          curve_position(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
+          hilbert_place(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
       keys[i] = std::uint64_t{at} << 32 | i;
     }
   });

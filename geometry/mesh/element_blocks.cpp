@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/disjoint_sets.h"
+#include "base/hilbert_place.h"
 #include "base/parallel.h"
 
 namespace delquad {
@@ -14,20 +15,6 @@ namespace {
 
 /// Rings of elements around cuts that a later pass takes up, and how far in there is work to do.
 constexpr int kBandRings = 7, kNearRings = 3;
-
-/// Place along a Hilbert curve through 2^16 times 2^16 cells.
-std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t place = 0;
-  for (std::uint32_t side = 1U << 15; side > 0; side /= 2) {
-    const std::uint32_t right = (x & side) != 0 ? 1 : 0, up = (y & side) != 0 ? 1 : 0;
-    place = 4 * place + ((3 * right) ^ up);
-    if (up == 0) {
-      if (right != 0) x = ~x, y = ~y;
-      std::swap(x, y);
-    }
-  }
-  return place;
-}
 
 /// Maps the plane to the curve's cells; `turned`: so that cuts cross those of the other one.
 class CurveFrame {

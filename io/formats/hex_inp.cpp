@@ -69,21 +69,14 @@ class HexInpWriter {
       out_ << "** " << hex_key_text(key) << " is " << label << '\n';
     const double negligible = kInpNegligible * diagonal(mesh_.points);
     out_ << "*NODE\n";
-    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-      const Vec3& p = mesh_.points[i];
-      out_ << i + 1;
-      for (const double x : {p.x, p.y, p.z}) out_ << ", " << inp_number(x, negligible);
-      out_ << '\n';
-    }
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i)
+      write_inp_node(out_, i + 1, mesh_.points[i], negligible);
     out_ << "*ELEMENT, TYPE=C3D8\n";
-    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i) {
-      out_ << i + 1;
-      for (const int v : mesh_.hexahedra[i]) out_ << ", " << v + 1;
-      out_ << '\n';
-    }
+    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
+      write_inp_element(out_, i + 1, mesh_.hexahedra[i]);
     collect();
-    write_sets("ELSET", element_sets_);
-    write_sets("NSET", node_sets_);
+    write_inp_sets(out_, "ELSET", element_sets_);
+    write_inp_sets(out_, "NSET", node_sets_);
     for (const auto& [label, sides] : sides_of_) {
       out_ << "*SURFACE, NAME=" << label << ", TYPE=ELEMENT\n";
       for (const int side : sides) out_ << side_set(label, side) << ", S" << side << '\n';
@@ -91,8 +84,6 @@ class HexInpWriter {
   }
 
  private:
-  using Sets = std::map<std::string, std::vector<int>>;
-
   static std::string side_set(const std::string& label, int side) {
     return "_" + label + "_S" + std::to_string(side);
   }
@@ -128,17 +119,10 @@ class HexInpWriter {
     }
   }
 
-  void write_sets(const char* keyword, Sets& sets) {
-    for (auto& [label, numbers] : sets) {
-      out_ << '*' << keyword << ", " << keyword << '=' << label << '\n';
-      write_inp_numbers(out_, numbers, kInpNumbersPerLine);
-    }
-  }
-
   TextWriter& out_;
   const HexMesh& mesh_;
   const UniqueLabels labels_;
-  Sets element_sets_, node_sets_;
+  InpSets element_sets_, node_sets_;
   std::map<std::string, std::set<int>> sides_of_;
 };
 

@@ -81,10 +81,10 @@ class InpWriter {
     collect_curves();
     for (const NamedPoint& named : mesh_.named_points)
       for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
-    for (auto* sets : {&element_sets_, &sides_}) write_sets("ELSET", *sets);
+    for (auto* sets : {&element_sets_, &sides_}) write_inp_sets(out_, "ELSET", *sets);
     collect_pairs(kCurvePair, mesh_.periodic);
     collect_pairs(kFacePair, mesh_.periodic_faces);
-    write_sets("NSET", node_sets_);
+    write_inp_sets(out_, "NSET", node_sets_);
     write_pairs(kCurvePair, mesh_.periodic);
     write_pairs(kFacePair, mesh_.periodic_faces);
     write_surfaces();
@@ -108,11 +108,7 @@ class InpWriter {
       inside[nodes_of_quad(mesh_, q)[4]] = 1;
     out_ << "*NODE\n";
     for (size_t i = 0; i < mesh_.points.size(); ++i) {
-      if (inside[i]) continue;
-      const Vec3& p = mesh_.points[i];
-      out_ << i + 1;
-      for (const double x : {p.x, p.y, p.z}) out_ << ", " << inp_number(x, negligible);
-      out_ << '\n';
+      if (!inside[i]) write_inp_node(out_, i + 1, mesh_.points[i], negligible);
     }
   }
 
@@ -121,9 +117,7 @@ class InpWriter {
     if (count == 0) return;
     out_ << "*ELEMENT, TYPE=" << type << '\n';
     for (size_t i = 0; i < count; ++i) {
-      out_ << ++n;
-      for (const int v : nodes_of(i)) out_ << ", " << v + 1;
-      out_ << '\n';
+      write_inp_element(out_, static_cast<size_t>(++n), nodes_of(i));
     }
   }
 
@@ -195,13 +189,6 @@ class InpWriter {
     return (planar_ ? "S" : "E") + std::to_string(side.element < n
                                                       ? number_in(mesh_.triangles[side.element])
                                                       : number_in(mesh_.quads[side.element - n]));
-  }
-
-  void write_sets(const char* keyword, Sets& sets) {
-    for (auto& [label, numbers] : sets) {
-      out_ << '*' << keyword << ", " << keyword << '=' << label << '\n';
-      write_inp_numbers(out_, numbers, kInpNumbersPerLine);
-    }
   }
 
   template <class Pair>

@@ -9,9 +9,11 @@ namespace delquad {
 namespace {
 
 constexpr std::ptrdiff_t kLongestInpNumber = 20;
+/// On one line of a set, which may have no more.
+constexpr std::size_t kInpNumbersPerLine = 16;
 
-}  // namespace
-
+/// In at most 20 characters: CalculiX cuts off what follows, perhaps within the exponent. "0" below
+/// `negligible`.
 std::string inp_number(double x, double negligible) {
   if (std::abs(x) < negligible) return "0";
   char digits[32];
@@ -19,6 +21,21 @@ std::string inp_number(double x, double negligible) {
   for (int n = 17; end - digits > kLongestInpNumber; --n)
     end = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr;
   return {digits, end};
+}
+
+}  // namespace
+
+void write_inp_node(TextWriter& out, std::size_t number, const Vec3& p, double negligible) {
+  out << number;
+  for (const double x : {p.x, p.y, p.z}) out << ", " << inp_number(x, negligible);
+  out << '\n';
+}
+
+void write_inp_sets(TextWriter& out, const char* keyword, InpSets& sets) {
+  for (auto& [label, numbers] : sets) {
+    out << '*' << keyword << ", " << keyword << '=' << label << '\n';
+    write_inp_numbers(out, numbers, kInpNumbersPerLine);
+  }
 }
 
 void write_inp_numbers(TextWriter& out, std::vector<int>& numbers, std::size_t per_line) {

@@ -116,11 +116,8 @@ class MfemReader {
   }
 
   long long count(const char* what) {
-    const long long n = integer(what, 0, INT_MAX);
-    if (n > static_cast<long long>(in_.bytes_left()))
-      in_.fail(
-          fmt::format("{} do not fit in the {} bytes that follow: expected {}", n, in_.bytes_left(), what));
-    return n;
+    skip_comments();
+    return in_.count(what);
   }
 
   void section(const std::string& keyword) {

@@ -19,7 +19,7 @@ class UcdReader {
 
   Mesh read() {
     skip_comments();
-    const long long n_points = count("the number of nodes"), n_cells = count("the number of cells");
+    const long long n_points = in_.count("the number of nodes"), n_cells = in_.count("the number of cells");
     long long n_values = 0;
     for (const char* what : {"nodes", "cells", "the model"})
       n_values += in_.integer(fmt::format("the number of values of {}", what), 0, INT_MAX);
@@ -45,14 +45,6 @@ class UcdReader {
         entities_.take_name(line, "# material ", " of lines: ", 1);
       if (const std::string unit = unit_in_comment(line, "#"); !unit.empty()) mesh_.unit = unit;
     }
-  }
-
-  long long count(const char* what) {
-    const long long n = in_.integer(what, 0, INT_MAX);
-    if (n > static_cast<long long>(in_.bytes_left()))
-      in_.fail(
-          fmt::format("{} do not fit in the {} bytes that follow: expected {}", n, in_.bytes_left(), what));
-    return n;
   }
 
   void node() {
