@@ -22,6 +22,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -70,7 +71,7 @@ class LossFinder {
         process_(reader.WS()->TransferReader()->TransientProcess()) {}
 
   LostShapes find() {
-    find_unreadable();
+    for (const auto& [i, why] : find_unreadable()) add(lost_.damaged, model_->Value(i), why);
     for (int i = 1; i <= model_->NbEntities(); ++i) {
       const Entity entity = model_->Value(i);
       if (!is_face(entity) || has_face(entity)) continue;
@@ -91,9 +92,8 @@ class LossFinder {
     return std::move(lost_);
   }
 
- private:
-  /// Entities with errors of which faces are made.
-  void find_unreadable() {
+  /// Entities with errors of which faces are made, by their index in the model.
+  std::map<int, std::string> find_unreadable() {
     const Interface_Graph graph(model_);
     std::vector<char> met(model_->NbEntities() + 1, 0);
     std::vector<Entity> open;
@@ -111,14 +111,17 @@ class LossFinder {
       for (Interface_EntityIterator used = graph.Shareds(entity); used.More(); used.Next())
         meet(used.Value());
     }
+    std::map<int, std::string> found;
     for (int i = 1; i <= model_->NbEntities(); ++i) {
       const Handle(Interface_Check) check = model_->Check(i, /*syntactic=*/true);
       if (!check->HasFailed() || is_harmless(check->CFail(1))) continue;
       is_damaged_ = true;
-      if (met[i]) add(lost_.damaged, model_->Value(i), complaint(*check));
+      if (met[i]) found.emplace(i, complaint(*check));
     }
+    return found;
   }
 
+ private:
   bool has_face(const Entity& entity) const {
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, entity);
     return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More();
@@ -146,6 +149,16 @@ class LossFinder {
 }  // namespace
 
 LostShapes lost_shapes(XSControl_Reader& reader) { return LossFinder(reader).find(); }
+
+std::map<int, std::string> unreadable_entities(XSControl_Reader& reader) {
+  std::map<int, std::string> by_number;
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  for (const auto& [i, why] : LossFinder(reader).find_unreadable())
+    // Else it is what it refers to that cannot be read.
+    if (why.find("Entity") == std::string::npos)
+      by_number.emplace(std::atoi(model->StringLabel(model->Value(i))->ToCString() + 1), why);
+  return by_number;
+}
 
 std::vector<std::string> lost_in_brep(const std::string& text, int n_faces) {
   std::vector<std::string> lost;

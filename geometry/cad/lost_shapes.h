@@ -1,6 +1,7 @@
 #pragma once
 
 #include <XSControl_Reader.hxx>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct LostShapes {
 /// Of a STEP or IGES reader whose roots are transferred: what faces are made of and cannot be read ("#17
 /// (Direction): ..."; in IGES numbers of the directory, "D23"), and faces that became none.
 LostShapes lost_shapes(XSControl_Reader& reader);
+
+/// Of a reader that has loaded a STEP file: entities of which faces are made and whose numbers or texts
+/// cannot be read, with the reason.
+std::map<int, std::string> unreadable_entities(XSControl_Reader& reader);
 
 /// Of a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were read.
 std::vector<std::string> lost_in_brep(const std::string& text, int n_faces);

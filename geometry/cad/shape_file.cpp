@@ -20,8 +20,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <iterator>
+#include <map>
 #include <sstream>
+#include <utility>
 
 #include "base/length_unit.h"
 #include "base/text.h"
@@ -30,6 +31,8 @@
 #include "geometry/cad/iges_names.h"
 #include "geometry/cad/lost_shapes.h"
 #include "geometry/cad/step_names.h"
+#include "geometry/cad/step_text.h"
+#include "geometry/surface/surface_messages.h"
 
 namespace delquad::cad {
 
@@ -84,29 +87,34 @@ std::string first_of(const std::vector<std::string>& list) {
                      list.size() > kMostNamed ? ", ..." : "");
 }
 
-/// Throws InputError unless the rest is wanted; then the shape's list has what is missing.
-void lose(const std::string& kind, const std::vector<std::string>& lost, bool keep_going, CadShape& cad) {
-  if (lost.empty()) return;
-  const std::string text = fmt::format("{} of the {} file cannot be read: {}",
-                                       counted(std::ssize(lost), "part"), kind, first_of(lost));
+/// Throws InputError unless the rest is wanted, and there is one; then the shape's list has what is missing.
+void lose(const std::string& text, bool keep_going, bool is_rest, CadShape& cad) {
+  if (!is_rest) throw InputError(text + ": no face is left");
   if (!keep_going) throw InputError(text + ": expected a whole model (--keep-going meshes the rest)");
   cad.missing.push_back(text);
 }
 
-/// What STEP and IGES have in common.
+void lose(const std::string& kind, const std::vector<std::string>& lost, bool keep_going, bool is_rest,
+          CadShape& cad) {
+  if (lost.empty()) return;
+  lose(fmt::format("{} of the {} file cannot be read: {}", counted(std::ssize(lost), "part"), kind,
+                   first_of(lost)),
+       keep_going, is_rest, cad);
+}
+
+/// What STEP and IGES have in common. `cad`: what is known already.
 template <class Reader>
-CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
+CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options, CadShape cad,
                   const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
   const Handle(FirstComplaint) complaint = listen();
   const LengthUnit& wanted = length_unit(options.unit.empty() ? "mm" : options.unit);
   Interface_Static::SetCVal("xstep.cascade.unit", wanted.kernel);
   if (load(reader) != IFSelect_RetDone)
     throw InputError("not a readable " + kind + " file" + complaint->why());
-  CadShape cad;
   const int roots = reader.NbRootsForTransfer();
   const int transferred = reader.TransferRoots();
   const LostShapes lost = lost_shapes(reader);
-  lose(kind, lost.damaged, options.keep_going && reader.NbShapes() > 0, cad);
+  lose(kind, lost.damaged, options.keep_going, reader.NbShapes() > 0, cad);
   if (reader.NbShapes() == 0) throw InputError("the " + kind + " file holds no shape" + complaint->why());
   if (lost.damaged.empty() && transferred < roots)
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
@@ -122,14 +130,48 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
   return cad;
 }
 
-CadShape read_step(const CadOptions& options, std::istream& text,
-                   const std::function<IFSelect_ReturnStatus(STEPControl_Reader&)>& load) {
-  STEPControl_Reader reader;
+/// Without parts that are missing, or refused with them: the kernel loses all of a solid with an edge, or
+/// crashes.
+std::string rest_to_read(const std::string& bytes, const std::map<int, std::string>& unreadable,
+                         bool keep_going, CadShape& cad) {
+  const StepRest rest = rest_of_step(bytes, unreadable);
+  if (rest.lost.empty()) return bytes;
+  std::string text = rest.ends_early
+                         ? "the STEP file is damaged: " + rest.lost[0]
+                         : fmt::format("{} of the STEP file cannot be read: {}",
+                                       counted(std::ssize(rest.lost), "part"), first_of(rest.lost));
+  if (!rest.faces.empty()) {
+    std::vector<std::string> faces;
+    for (const int f : rest.faces) faces.push_back(fmt::format("#{}", f));
+    text += fmt::format("; without it {} cannot be made: {}", counted(std::ssize(faces), "face"),
+                        first_of(faces));
+  }
+  cad.missing.clear();
+  lose(text, keep_going, !rest.text.empty(), cad);
+  return rest.text;
+}
+
+CadShape read_step(const CadOptions& options, const std::string& bytes) {
   // Each byte a character: what they mean is found out from all names.
-  Interface_Static::SetIVal("read.step.codepage", Resource_FormatType_iso8859_1);
-  CadShape cad = transfer(reader, "STEP", options, load);
-  const bool is_ascii = std::all_of(std::istreambuf_iterator<char>(text), {},
-                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  const auto load = [](STEPControl_Reader& reader, const std::string& text) {
+    Interface_Static::SetIVal("read.step.codepage", Resource_FormatType_iso8859_1);
+    std::istringstream in(text);
+    return reader.ReadStream("bytes", in);
+  };
+  CadShape known;
+  std::string text = rest_to_read(bytes, {}, options.keep_going, known);
+  if (options.keep_going) {
+    const Handle(FirstComplaint) complaint = listen();
+    STEPControl_Reader trial;
+    if (load(trial, text) == IFSelect_RetDone)
+      if (const auto unreadable = unreadable_entities(trial); !unreadable.empty())
+        text = rest_to_read(bytes, unreadable, true, known);
+  }
+  STEPControl_Reader reader;
+  CadShape cad = transfer<STEPControl_Reader>(reader, "STEP", options, std::move(known),
+                                              [&](STEPControl_Reader& r) { return load(r, text); });
+  const bool is_ascii =
+      std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   cad.names = step_names(reader, is_ascii);
   return cad;
 }
@@ -137,7 +179,7 @@ CadShape read_step(const CadOptions& options, std::istream& text,
 CadShape read_iges(const std::string& path, const CadOptions& options) {
   IGESControl_Reader reader;
   CadShape cad = transfer<IGESControl_Reader>(
-      reader, "IGES", options, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
+      reader, "IGES", options, {}, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
   cad.names = iges_names(reader);
   return cad;
 }
@@ -184,7 +226,7 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
   TopTools_MapOfShape faces;
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
     faces.Add(face.Current().Located(TopLoc_Location()));
-  lose("BREP", lost_in_brep(bytes, faces.Extent()), options.keep_going, cad);
+  lose("BREP", lost_in_brep(bytes, faces.Extent()), options.keep_going, !faces.IsEmpty(), cad);
   return cad;
 }
 
@@ -209,22 +251,15 @@ Kind kind_of(const std::string& beginning) {
 
 CadShape read_shape(const std::filesystem::path& path, const CadOptions& options) {
   const Kind kind = kind_of(beginning(path));
-  std::ifstream in(path, std::ios::binary);
-  if (kind == Kind::kStep)
-    return read_step(options, in, [&](STEPControl_Reader& reader) { return reader.ReadFile(path.c_str()); });
   if (kind == Kind::kIges) return read_iges(path.string(), options);
-  return read_brep(file_bytes(path), options);
+  const std::string bytes = file_bytes(path);
+  return kind == Kind::kStep ? read_step(options, bytes) : read_brep(bytes, options);
 }
 
 CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options) {
   const Kind kind = kind_of(bytes.substr(0, kBeginning));
   if (kind == Kind::kIges) return read_iges_bytes(bytes, options);
-  if (kind == Kind::kStep) {
-    std::istringstream in(bytes), text(bytes);
-    return read_step(options, text,
-                     [&](STEPControl_Reader& reader) { return reader.ReadStream("bytes", in); });
-  }
-  return read_brep(bytes, options);
+  return kind == Kind::kStep ? read_step(options, bytes) : read_brep(bytes, options);
 }
 
 }  // namespace delquad::cad
