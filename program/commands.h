@@ -65,17 +65,24 @@ struct MergeArguments {
 };
 int merge_command(const MergeArguments& arguments);
 
-struct MeshArguments {
+/// How the faces of surfaces are made.
+struct SurfaceArguments {
+  std::string compound, unit;  ///< empty: as the model says
+  std::optional<double> feature_angle, weld_tolerance;
+  std::optional<double> ignore_below;  ///< a length
+  bool glue = false;                   ///< else as the model says
+  bool keep_going = false;             ///< leave out what cannot be read or meshed
+};
+void set_surface(const SurfaceArguments& arguments, Case& c);
+
+struct MeshArguments : SurfaceArguments {
   bool improve = false;  ///< the model is a mesh that words begin from
   std::filesystem::path model, output, json;
-  std::optional<std::string> size;    ///< else as the model says
-  std::string cross, compound, unit;  ///< empty: as the model says
-  std::optional<double> feature_angle, weld_tolerance;
-  std::optional<double> ignore_below;                     ///< a length
+  std::optional<std::string> size;                        ///< else as the model says
+  std::string cross;                                      ///< empty: as the model says
   std::optional<int> order;                               ///< of the elements; else as the model says
   bool serendipity = false;                               ///< quads of order 2 have 8 nodes
   bool keep_numbers = false;                              ///< of nodes, as stages made them
-  bool glue = false;                                      ///< else as the model says
   std::vector<std::string> mapped;                        ///< names of regions, or "auto"
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"
   std::vector<std::string> set;                           ///< "OPTION=VALUE", see Options
@@ -87,7 +94,6 @@ struct MeshArguments {
   bool allow_triangles = false;
   bool allow_unsound = false;
   std::optional<double> min_angle, max_aspect;  ///< options limits.min_angle, limits.max_aspect
-  bool keep_going = false;                      ///< leave faces out that cannot be meshed
   MshOptions msh{false, MshCurves::kNamed};
 };
 int mesh_command(const MeshArguments& arguments);
@@ -119,7 +125,7 @@ struct CompareArguments {
 };
 int compare_command(const CompareArguments& arguments);
 
-struct InfoArguments {
+struct InfoArguments : SurfaceArguments {
   std::filesystem::path model, json, output;
   std::optional<std::string> size;
 };

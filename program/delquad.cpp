@@ -208,13 +208,13 @@ void add_schema(CLI::App& app, bool& options) {
 }
 
 /// How the faces of surfaces are made.
-void add_feature_angle(CLI::App& command, MeshArguments& arguments) {
+void add_feature_angle(CLI::App& command, SurfaceArguments& arguments) {
   command.add_option(
       "--feature-angle", arguments.feature_angle,
       "degrees by which triangles must turn for a curve between them, and curves for a corner");
 }
 
-void add_surface(CLI::App& mesh, MeshArguments& arguments) {
+void add_surface(CLI::App& mesh, SurfaceArguments& arguments) {
   mesh.add_option("--compound", arguments.compound,
                   "faces of a surface to mesh as one: 'all' that hang together, or 'tangent' ones");
   add_feature_angle(mesh, arguments);
@@ -226,6 +226,8 @@ void add_surface(CLI::App& mesh, MeshArguments& arguments) {
                 "bodies of a CAD model that touch share faces, curves and nodes there");
   mesh.add_option("--unit", arguments.unit,
                   "of the lengths, of CAD (else mm) and 3MF: um, mm, cm, m, km, in or ft");
+  mesh.add_flag("--keep-going", arguments.keep_going,
+                "leave out what cannot be read or meshed, name it, do the rest and exit with 4");
 }
 
 void add_set(CLI::App& mesh, MeshArguments& arguments) {
@@ -313,8 +315,6 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
                    "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C, Q and O")
       ->excludes(quality);
   add_set(*mesh, arguments);
-  mesh->add_flag("--keep-going", arguments.keep_going,
-                 "leave out faces that cannot be meshed, name them, write the rest and exit with 4");
   add_mesh_output(*mesh, arguments, common);
 }
 
@@ -391,6 +391,7 @@ void add_info(CLI::App& app, InfoArguments& arguments, CommonArguments& common) 
                    "a planar model (.toml, .msh)")
       ->required();
   add_size(*info, arguments.size, "wanted edge length, a number: name what is smaller");
+  add_surface(*info, arguments);
   info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
   info->add_option(
       "-o,--output", arguments.output,

@@ -128,7 +128,8 @@ void print_difficulties(const ModelInfo& info, double size) {
 
 int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
-  const Case c = read_model_case(arguments.model);
+  Case c = read_model_case(arguments.model);
+  set_surface(arguments, c);
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}, {"-o", arguments.output}});
   if (!arguments.json.empty()) check_output(arguments.json);
   if (!arguments.output.empty()) {
@@ -143,7 +144,9 @@ int info_command(const InfoArguments& arguments) {
   print_overview(info);
   print_parts(info);
   print_difficulties(info, size);
-  return kDone;
+  for (const LeftOutFace& part : info.model.left_out)
+    fmt::print(stderr, "error: left out: {}\n", part.reason);
+  return info.model.left_out.empty() ? kDone : kFacesLeftOut;
 }
 
 }  // namespace delquad

@@ -30,9 +30,10 @@
 #include "program/print_surface_report.h"
 
 namespace delquad {
-namespace {
 
-void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
+void set_surface(const SurfaceArguments& arguments, Case& c) {
+  SurfaceSpec& surface = c.surface;
+  c.keep_going = arguments.keep_going;
   const auto given = [&](const char* option) { return surface.where = option; };
   if (!arguments.compound.empty()) {
     surface.compounds = parse_compounds(arguments.compound, given("--compound"));
@@ -55,6 +56,8 @@ void set_surface(const MeshArguments& arguments, SurfaceSpec& surface) {
   if (arguments.weld_tolerance)
     surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
 }
+
+namespace {
 
 /// What "NAME=SIZE" says.
 NamedSize named_size(const std::string& text) {
@@ -97,10 +100,32 @@ SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
   return size;
 }
 
+void tell_left_out(const std::vector<FaceFailure>& failures) {
+  for (const FaceFailure& failure : failures) fmt::print(stderr, "error: left out: {}\n", failure.reason);
+}
+
+/// Meshes; of what is left out is told, too, when that fails.
+RunResult run_or_tell(const MeshArguments& arguments, const Case& c, const Word& word,
+                      PreparedProblem& prepared, Progress& progress) {
+  std::vector<FaceFailure> left_out = prepared.failures;
+  try {
+    RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
+      progress.step(c.name + " " + word.text + ": " + stage);
+    });
+    left_out = result.failures;
+    progress.warn(result.warnings);
+    if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
+    return result;
+  } catch (...) {
+    progress.finish();
+    tell_left_out(left_out);
+    throw;
+  }
+}
+
 /// Returns the exit code.
 int tell_what_is_missing(const RunResult& result, const Word& word, bool quads_wanted) {
-  for (const FaceFailure& failure : result.failures)
-    fmt::print(stderr, "error: left out: {}\n", failure.reason);
+  tell_left_out(result.failures);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
   const std::size_t n = result.mesh.triangles.size();
@@ -209,7 +234,6 @@ int mesh_command(const MeshArguments& arguments) {
   Case c = read_case(arguments);
   const Word word = parse_word(text, word_start(c));
   c.max_elements = arguments.max_elements;
-  c.keep_going = arguments.keep_going;
   c.size = with_arguments(std::move(c.size), arguments);
   if (arguments.order) c.order = *arguments.order;
   check_mesh_format(arguments.output, arguments.msh, c.order);
@@ -217,7 +241,7 @@ int mesh_command(const MeshArguments& arguments) {
   set_mapped(arguments, c.mapped);
   set_options(arguments, c.options);
   const auto size_file = size_file_of(c.size.base, c.size.folder);
-  set_surface(arguments, c.surface);
+  set_surface(arguments, c);
   if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
   check_distinct(
       {{"the model", arguments.model},
@@ -232,11 +256,7 @@ int mesh_command(const MeshArguments& arguments) {
   progress.step(c.name + ": boundary and fields");
   PreparedProblem prepared = prepare_case(c);
   progress.warn(prepared.warnings);
-  RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
-    progress.step(c.name + " " + word.text + ": " + stage);
-  });
-  progress.warn(result.warnings);
-  if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
+  RunResult result = run_or_tell(arguments, c, word, prepared, progress);
   std::vector<Warning> warnings;
   for (const std::string& reason : result.soundness.reasons)
     warnings.push_back("the mesh is not sound: " + reason);

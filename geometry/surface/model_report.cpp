@@ -60,6 +60,7 @@ double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::
     const Vec3 x = 0.5 * (side.from + side.to);
     tree.nearest(x, least2, [&](int j) {
       const BoundarySide& other = sides[j];
+      if (other.from == side.to && other.to == side.from) return;  // of a curve that stands in the face
       if (dot(side.inwards, other.inwards) > kOpposite) return;
       const Vec3 way = nearest_on_segment(x, other.from, other.to) - x;
       const double gap2 = dot(way, way), gap = std::sqrt(gap2);

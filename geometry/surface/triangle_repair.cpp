@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/box.h"
 #include "base/disjoint_sets.h"
@@ -169,25 +171,6 @@ void close_gaps(Mesh& mesh, double tolerance, std::vector<Warning>& warnings) {
                                  counted(welded, "point"), show_point(first)));
 }
 
-/// Tells of open edges that nearly meet others.
-void report_gaps(const Mesh& mesh, std::vector<Warning>& warnings) {
-  constexpr double kGap = 1e-5;  // of the diagonal: closer than any element will be small
-  const double width = kGap * diagonal(mesh.points);
-  const PointNames names = names_at_open_edges(mesh, width);
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  int gaps = 0;
-  Vec3 first;
-  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-    if (names[i] == i || !sides_of_edge(sides, i, names[i]).empty()) continue;
-    if (gaps++ == 0) first = mesh.points[i];
-  }
-  if (gaps == 0) return;
-  warnings.push_back(
-      fmt::format("{} at open edges within {:.3g} of others: gaps that a larger weld tolerance would "
-                  "close (the first at {})",
-                  counted(gaps, "point"), width, show_point(first)));
-}
-
 void check_contents(const Mesh& mesh, const std::string& source) {
   if (!mesh.quads.empty()) {
     throw InputError(fmt::format("{}: {}: expected a surface made of triangles", source,
@@ -217,8 +200,9 @@ void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning
   }
 }
 
-Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
-                      std::vector<Warning>& warnings) {
+namespace {
+
+Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::vector<Warning>& warnings) {
   check_contents(mesh, source);
   close_gaps(mesh, weld_tolerance, warnings);
   take_out_twins(mesh, warnings);
@@ -227,7 +211,54 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
   settle_triangles(mesh, source, warnings);
   const int unused = drop_unused_points(mesh);
   if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");
-  report_gaps(mesh, warnings);
+  return mesh;
+}
+
+int count_open_edges(const Mesh& mesh) {
+  int n = 0;
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) { n += edge.size() == 1; });
+  return n;
+}
+
+/// Tells of open edges that nearly meet others, where welding them has been tried and closes some.
+void report_gaps(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
+  constexpr double kGap = 1e-5;  // of the diagonal: closer than any element will be small
+  const double whole = diagonal(mesh.points);
+  const PointNames names = names_at_open_edges(mesh, kGap * whole);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  double widest = 0;
+  int gaps = 0;
+  Vec3 first;
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    const double width = norm(mesh.points[i] - mesh.points[names[i]]);
+    // Where the surface was parted both are at the same place.
+    if (width == 0 || !sides_of_edge(sides, i, names[i]).empty()) continue;
+    if (gaps++ == 0) first = mesh.points[i];
+    widest = std::max(widest, width);
+  }
+  if (gaps == 0) return;
+  const double digit = std::pow(10, std::floor(std::log10(widest / whole)));
+  const double part = std::ceil(widest / whole / digit + 0.1) * digit;
+  try {
+    std::vector<Warning> unheard;
+    const int open = count_open_edges(mesh),
+              left = count_open_edges(repaired(mesh, part * whole, source, unheard));
+    if (left < open)
+      warnings.push_back(fmt::format(
+          "{} at open edges no more than {:.2g} from others, the first at {}: --weld {:.0e} (weld_tolerance, "
+          "a part of the diagonal) closes {} of {}",
+          counted(gaps, "point"), widest, show_point(first), part, open - left, counted(open, "open edge")));
+  } catch (const InputError&) {
+    // Welded it would be no surface.
+  }
+}
+
+}  // namespace
+
+Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
+                      std::vector<Warning>& warnings) {
+  mesh = repaired(std::move(mesh), weld_tolerance, source, warnings);
+  report_gaps(mesh, source, warnings);
   return mesh;
 }
 

@@ -12,9 +12,8 @@ namespace delquad {
 /// orientation, or in more, where the surface branches, each vertex in one fan, each line on an edge, no
 /// quads, no triangle without area, none twice, no unused point. Each kind of repair adds a line to
 /// `warnings`:
-/// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, only
-/// a
-///   warning tells of the gaps;
+/// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, a
+///   warning tells what tolerance closes the gaps, if it does;
 /// - of triangles on the same vertices the first stays;
 /// - triangles without area go, and no gap opens (take_out_flat_triangles);
 /// - triangles that run against their neighbours are turned, the fewer in each component; a closed component

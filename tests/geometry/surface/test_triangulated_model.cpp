@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "delquad/error.h"
 #include "geometry/surface/triangulated_model.h"
@@ -227,10 +228,36 @@ TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
   for (size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i].x += 1e-7 * double(i % 3);
   const SurfaceModel open = triangulated(mesh);
   EXPECT_GT(open.fine.regions.size(), 6u);
-  EXPECT_TRUE(has_warning(open, "gaps that a larger weld tolerance would close"));
-  const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 1e-6});
+  // Two ten-millionths, of a diagonal of the root of three, rounded up.
+  EXPECT_TRUE(has_warning(open, "no more than 2e-07 from others"));
+  EXPECT_TRUE(has_warning(open, "--weld 2e-07 (weld_tolerance, a part of the diagonal) closes"));
+  const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 2e-7});
   expect_counts(closed, 6, 12, 8);
-  EXPECT_FALSE(has_warning(closed, "gaps"));
+  EXPECT_FALSE(has_warning(closed, "--weld"));
+}
+
+TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
+  // Two boxes that touch at an open corner: parted there, they have points at the same place.
+  Mesh mesh;
+  mesh.regions = {{1, {}}};
+  for (const double at : {0.0, 1.0}) {
+    const Mesh cube = box(1);
+    const int n = static_cast<int>(mesh.points.size());
+    for (const Vec3& p : cube.points) mesh.points.push_back(p + Vec3{at, at, at});
+    bool is_open = false;
+    for (const auto& v : cube.triangles) {
+      const bool touches = std::ranges::any_of(v, [&](int i) {
+        return cube.points[i] == Vec3{1 - at, 1 - at, 1 - at};
+      });
+      if (touches && !std::exchange(is_open, true)) continue;
+      mesh.triangles.push_back({v[0] + n, v[1] + n, v[2] + n});
+      mesh.triangle_region.push_back(0);
+    }
+  }
+  const SurfaceModel model = triangulated(mesh);
+  EXPECT_TRUE(has_warning(model, "parted the surface where it touched itself"));
+  EXPECT_FALSE(has_warning(model, "weld tolerance"));
+  EXPECT_FALSE(has_warning(model, "--weld"));
 }
 
 TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
