@@ -136,6 +136,10 @@ std::string rest_to_read(const std::string& bytes, const std::map<int, std::stri
                          bool keep_going, CadShape& cad) {
   const StepRest rest = rest_of_step(bytes, unreadable);
   if (rest.lost.empty()) return bytes;
+  if (rest.is_whole) {
+    cad.warnings.push_back("curves of edges on surfaces are missing, and made anew: " + first_of(rest.lost));
+    return rest.text;
+  }
   std::string text = rest.ends_early
                          ? "the STEP file is damaged: " + rest.lost[0]
                          : fmt::format("{} of the STEP file cannot be read: {}",

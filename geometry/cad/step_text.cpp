@@ -92,7 +92,8 @@ class StepText {
         else
           is_left = true;
       }
-    if (!in_data_ && !is_shape_hurt_) return {};
+    rest.is_whole = !in_data_ && !is_shape_hurt_;
+    if (rest.is_whole && only_in_space_.empty()) return {};
     if (is_left) rest.text = rewritten();
     return rest;
   }
@@ -192,7 +193,6 @@ class StepText {
     const Statement& s = statements_[r.owner];
     if (gone_[r.owner]) return;
     if (is_curve_on_surfaces(s.type) && r.list >= 0) {
-      is_shape_hurt_ = true;
       only_in_space_.insert(r.owner);
       return;
     }

@@ -11,6 +11,7 @@ struct StepRest {
   std::vector<std::string> lost;  ///< "#9, which #7 (EDGE_CURVE) needs, is not defined"; empty: all is there
   std::vector<int> faces;         ///< numbers of those that need it
   bool ends_early = false;
+  bool is_whole = false;  ///< only curves in parameters are missing, which can be made anew
   std::string text;  ///< the file without all that; empty: nothing is lost, or no face is left
 };
 
