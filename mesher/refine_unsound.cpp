@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "mesher/finish_steps.h"
+#include "metrics/judgement/soundness.h"
 
 namespace delquad {
 namespace {
@@ -99,10 +100,8 @@ Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared,
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
-}  // namespace
-
-void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
-                    RunResult& result) {
+void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+                RunResult& result) {
   // Lines that were given are kept.
   const bool can_be_finer =
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
@@ -158,6 +157,43 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   note_seconds(Counters<RefinementSummary>::step, lost_seconds, result.log.summaries);
   if (is_other) note_worth(Counters<RefinementSummary>::step, before, worth_of(result), result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
+}
+
+/// Meshes without the faces where the mesh is not sound, while that leaves some.
+void leave_out_unsound(const Word& word, PreparedProblem& prepared, RunResult& result) {
+  if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored || prepared.surface->given)
+    return;
+  const std::vector<FaceFailure> before = prepared.failures;
+  double seconds = result.seconds;
+  RunResult run = result;
+  try {
+    while (!run.soundness.sound()) {
+      const std::size_t n_known = prepared.failures.size();
+      for (const Place& place : run.soundness.places)
+        if (place.face >= 0 &&
+            std::ranges::find(prepared.failures, place.face, &FaceFailure::face) == prepared.failures.end())
+          prepared.failures.push_back(
+              {place.face, fmt::format("the mesh of {} is not sound", show_place(run.mesh, place))});
+      if (prepared.failures.size() == n_known) break;
+      run = run_word(prepared, word);
+      seconds += run.seconds;
+    }
+  } catch (const InputError&) {
+    // Nothing is left.
+  }
+  if (run.soundness.sound())
+    result = std::move(run);
+  else
+    prepared.failures = before;
+  result.seconds = seconds;
+}
+
+}  // namespace
+
+void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+                    RunResult& result) {
+  make_finer(prepare_anew, word, prepared, result);
+  if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 
 }  // namespace delquad

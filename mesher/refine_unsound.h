@@ -29,7 +29,7 @@ using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 /// places and meshes anew, as long as there get fewer such places, but no more quads than a budget allows;
 /// where that does not help, sharp edges there become features. `prepared` and `result` become those of the
 /// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
-/// more.
+/// more, and where the problem says keep_going, faces with such places are left out if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     RunResult& result);
 

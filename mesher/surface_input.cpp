@@ -75,7 +75,6 @@ void check_for_cad(const SurfaceSpec& spec) {
     throw InputError(fmt::format("{}: {} has no effect on a CAD model, whose faces and curves are its own",
                                  spec.where, what));
   };
-  if (spec.weld_tolerance) refuse("a weld tolerance");
   if (spec.mirror) refuse("a mirror");
   if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0 &&
       spec.ignore_below == 0)
@@ -167,6 +166,12 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
   options.unit = problem.surface.unit;
   options.keep_going = problem.keep_going;
   options.glue = problem.surface.glue;
+  if (problem.surface.weld_tolerance) options.weld = *problem.surface.weld_tolerance;
+  if (problem.size.field)
+    options.size = [field = problem.size.field](const Vec3& x) {
+      int hint = -1;
+      return field->at(x, hint);
+    };
   const auto* example = std::get_if<ExampleModel>(&problem.model);
   if (example != nullptr && !options.unit.empty() && options.unit != "mm")
     throw InputError(problem.surface.where + ": lengths of the examples are in mm");

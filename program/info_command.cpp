@@ -130,6 +130,7 @@ int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
   Case c = read_model_case(arguments.model);
   set_surface(arguments, c);
+  if (size > 0) c.size.base = *arguments.size;
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}, {"-o", arguments.output}});
   if (!arguments.json.empty()) check_output(arguments.json);
   if (!arguments.output.empty()) {

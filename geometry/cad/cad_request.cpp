@@ -10,7 +10,7 @@ namespace delquad::cad {
 namespace {
 
 /// To be changed with what is sent either way.
-constexpr int kProtocol = 4;
+constexpr int kProtocol = 5;
 
 /// Calls `visit` with every number of a request that has a fixed size, in the order in which they are sent.
 template <class Request, class Visit>
@@ -22,6 +22,7 @@ void visit_numbers(Request& r, const Visit& visit) {
   visit(r.options.healing_seconds);
   visit(r.options.by_outline);
   visit(r.options.glue);
+  visit(r.options.weld);
   visit(r.options.keep_going);
   visit(r.threads);
   visit(r.seconds);

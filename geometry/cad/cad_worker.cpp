@@ -47,8 +47,6 @@ namespace delquad::cad {
 
 namespace {
 
-/// Free edges closer than this fraction of the diagonal are one; well above rounding, below any feature.
-constexpr double kSewing = 1e-6;
 /// Fraction of the diagonal: how far edges that bound no face may be from their chords.
 constexpr double kLooseDeflection = 1e-5;
 
@@ -102,7 +100,7 @@ void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& wat
   }
   const DoingStage stage(kHealing);
   const KernelWatch::Healing limited(watch);
-  heal_shape(cad, kSewing * cad.diagonal);
+  heal_shape(cad, options.weld * cad.diagonal);
   unwind_faces(cad);
 }
 
@@ -173,7 +171,7 @@ CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
   cad.loose = loose_edges(cad, kLooseDeflection * cad.diagonal);
   drop_inner_edges(cad);
   heal(cad, request.options, request.heals, watch);
-  if (request.options.glue) glue_shape(cad, kSewing * cad.diagonal);
+  if (request.options.glue) glue_shape(cad, request.options.weld * cad.diagonal);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));

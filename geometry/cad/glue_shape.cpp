@@ -5,10 +5,13 @@
 #include <BOPAlgo_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Message_Report.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "geometry/cad/sub_shapes.h"
@@ -55,6 +58,19 @@ TopTools_IndexedMapOfShape common_of(const TopTools_ListOfShape& all, TopAbs_Sha
     }
   }
   return common;
+}
+
+/// How many do not hang together by edges.
+int count_parts(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  const TopTools_IndexedMapOfShape faces = parts(shape, TopAbs_FACE);
+  DisjointSets joined(faces.Extent());
+  int n = faces.Extent();
+  for (int e = 1; e <= faces_of.Extent(); ++e)
+    for (const TopoDS_Shape& face : faces_of(e))
+      n -= joined.join(faces.FindIndex(faces_of(e).First()) - 1, faces.FindIndex(face) - 1);
+  return n;
 }
 
 std::string join_titles(const std::vector<std::string>& titles) {
@@ -120,9 +136,11 @@ void glue_shape(CadShape& cad, double tolerance) {
   const std::vector<std::string> cut = follow_faces(builder, cad);
   cad.shape = glued;
   const TopTools_ListOfShape after = glued_parts(glued);
-  cad.warnings.push_back(fmt::format("glued: {} bodies have {} faces and {} edges in common", bodies.Extent(),
-                                     common_of(after, TopAbs_FACE).Extent(),
-                                     common_of(after, TopAbs_EDGE).Extent()));
+  const int n_parts = count_parts(glued);
+  cad.warnings.push_back(
+      fmt::format("glued: {} bodies have {} faces and {} edges in common{}", bodies.Extent(),
+                  common_of(after, TopAbs_FACE).Extent(), common_of(after, TopAbs_EDGE).Extent(),
+                  n_parts > 1 ? fmt::format("; {} parts hang apart, without a common edge", n_parts) : ""));
   if (!cut.empty())
     cad.warnings.push_back(fmt::format(
         "glued: faces cut where others lie on them, by their numbers before: {}", join_titles(cut)));

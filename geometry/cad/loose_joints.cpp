@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,6 +32,7 @@ constexpr double kPartOfChord = 0.01;
 /// at 15 degrees; steps that are no shorter than this part of the one before lead nowhere.
 constexpr int kMostMeetingSteps = 200;
 constexpr double kStepsShrink = 0.97;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of two ascending lists.
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> both;
@@ -84,6 +86,44 @@ class JointFinder {
     return std::move(joints_);
   }
 
+  /// `joints`: of all that touch.
+  std::vector<NearContact> find_near(const std::vector<LooseJoint>& joints) {
+    std::set<Pair> touching;
+    for (const LooseJoint& j : joints) touching.insert(parts_of(j.faces[0], j.faces[1]));
+    std::map<std::array<int, 4>, NearContact> nearest;  // by parts, of one part by faces
+    const auto measure = [&](const Vec3& x, int f, int g) {
+      const double apart = distance(x, g, tolerance_);
+      if (!(apart <= tolerance_)) return;
+      const auto [p, q] = parts_of(f, g);
+      const auto [r, s] = p == q ? in_order(f, g) : Pair{0, 0};
+      const auto [at, is_new] = nearest.try_emplace({p, q, r, s}, NearContact{{f, g}, x, apart});
+      if (!is_new && apart < at->second.distance) at->second = {{f, g}, x, apart};
+    };
+    for (const auto& [a, b] : near_pairs()) {
+      const bool is_one_part = faces_[a].part == faces_[b].part;
+      if (is_one_part ? !common(faces_[a].nodes, faces_[b].nodes).empty() : touching.contains(parts_of(a, b)))
+        continue;
+      for (const auto& [f, g] : {Pair{a, b}, Pair{b, a}}) {
+        check_cancelled();
+        for (const int l : faces_[f].lines) {
+          const auto& [v, w] = mesh_.lines[l];
+          const Vec3 &p = mesh_.points[v], &q = mesh_.points[w];
+          if (!Box<Vec3>::around({p, q}).overlaps(faces_[g].box)) continue;
+          if (is_one_part && sides_of_edge(sides_, v, w).size() > 1) continue;
+          for (const Vec3& x : {p, q, model_.projector->to_curve(mesh_.line_curve[l], 0.5 * (p + q))})
+            measure(x, f, g);
+        }
+        for (const int t : faces_[f].triangles)
+          if (!is_one_part && box_of(t).overlaps(faces_[g].box))
+            measure(model_.projector->to_face(f, 1.0 / 3 * (corner(t, 0) + corner(t, 1) + corner(t, 2))), f,
+                    g);
+      }
+    }
+    std::vector<NearContact> contacts;
+    for (const auto& [key, contact] : nearest) contacts.push_back(contact);
+    return contacts;
+  }
+
  private:
   struct Trees {
     NearestTriangle nearest;
@@ -105,7 +145,8 @@ class JointFinder {
     face.box = box_of(face.triangles[0]);
     for (const int t : face.triangles)
       for (int k = 0; k < 3; ++k) face.box.add(corner(t, k));
-    const Vec3 more{deflection_, deflection_, deflection_};
+    const double margin = deflection_ + tolerance_;
+    const Vec3 more{margin, margin, margin};
     face.box = {face.box.low - more, face.box.high + more};
   }
 
@@ -282,20 +323,26 @@ class JointFinder {
     return trees_of(g).nearest.find(x, 3 * deflection_ + tolerance_).triangle >= 0;
   }
 
-  /// The triangles tell where the face is, its surface how far, its curves where it ends.
-  bool is_on(const Vec3& x, int g, double tolerance) {
-    if (!(faces_[g].box.distance2(x) <= tolerance * tolerance)) return false;
-    const NearestTriangle::Found found = trees_of(g).nearest.find(x, 2 * deflection_ + tolerance);
-    return found.triangle >= 0 && norm(model_.projector->to_face(g, x) - x) <= tolerance &&
-           is_within(x, faces_[g].triangles[found.triangle], found.weights, tolerance);
+  bool is_on(const Vec3& x, int g, double tolerance) { return distance(x, g, tolerance) <= tolerance; }
+
+  /// Of x from g, if it is no more than `reach`, else more than that. The triangles tell where the face is,
+  /// its surface how far, its curves where it ends.
+  double distance(const Vec3& x, int g, double reach) {
+    if (!(faces_[g].box.distance2(x) <= reach * reach)) return kInfinity;
+    const NearestTriangle::Found found = trees_of(g).nearest.find(x, 2 * deflection_ + reach);
+    if (found.triangle < 0) return kInfinity;
+    const double apart = norm(model_.projector->to_face(g, x) - x);
+    return apart <= reach ? std::max(apart, beyond(x, faces_[g].triangles[found.triangle], found.weights))
+                          : apart;
   }
 
-  /// Whether x, next to a place of a triangle, is not beyond the boundary of its face.
-  bool is_within(const Vec3& x, int t, const std::array<double, 3>& weights, double tolerance) const {
+  /// How far x, next to a place of a triangle, is from the boundary of its face if it is beyond that, else 0.
+  double beyond(const Vec3& x, int t, const std::array<double, 3>& weights) const {
     const auto& v = mesh_.triangles[t];
     if (const auto whole = std::ranges::find(weights, 1.0); whole != weights.end())
-      return is_at_corner(x, face_of(t), v[whole - weights.begin()], tolerance);
+      return beyond_corner(x, face_of(t), v[whole - weights.begin()]);
     const Vec3 normal = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    double most = 0;
     for (int k = 0; k < 3; ++k) {
       const int a = v[k], b = v[(k + 1) % 3];
       const Vec3 inwards = cross(normal, mesh_.points[b] - mesh_.points[a]);
@@ -303,20 +350,18 @@ class JointFinder {
       const auto line = line_on_.find(in_order(a, b));
       if (line == line_on_.end() || !ends_at(face_of(t), line->second)) continue;
       const Vec3 beside = x - model_.projector->to_curve(mesh_.line_curve[line->second], x);
-      if (norm(beside) > tolerance && !(dot(beside, inwards) > 0)) return false;
+      if (!(dot(beside, inwards) > 0)) most = std::max(most, norm(beside));
     }
-    return true;
+    return most;
   }
 
   /// The same where a node is the nearest place of the face: beyond it, if it is one of the boundary.
-  bool is_at_corner(const Vec3& x, int f, int node, double tolerance) const {
-    bool is_inside = true;
-    for (const int l : faces_[f].lines) {
-      if (std::ranges::count(mesh_.lines[l], node) == 0 || !ends_at(f, l)) continue;
-      if (norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x) <= tolerance) return true;
-      is_inside = false;
-    }
-    return is_inside;
+  double beyond_corner(const Vec3& x, int f, int node) const {
+    double least = kInfinity;
+    for (const int l : faces_[f].lines)
+      if (std::ranges::count(mesh_.lines[l], node) > 0 && ends_at(f, l))
+        least = std::min(least, norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x));
+    return least < kInfinity ? least : 0;
   }
 
   /// Whether the face lies on one side of the line.
@@ -342,6 +387,13 @@ std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vecto
                                      double deflection, double tolerance) {
   return model.fine.regions.size() < 2 ? std::vector<LooseJoint>{}
                                        : JointFinder(model, solids, deflection, tolerance).find();
+}
+
+std::vector<NearContact> near_contacts(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
+                                       const std::vector<LooseJoint>& joints, double deflection,
+                                       double reach) {
+  return model.fine.regions.size() < 2 ? std::vector<NearContact>{}
+                                       : JointFinder(model, solids, deflection, reach).find_near(joints);
 }
 
 }  // namespace delquad::cad

@@ -28,4 +28,18 @@ struct LooseJoint {
 std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
                                      double deflection, double tolerance);
 
+/// Two faces that come near to each other, do not touch, and share no nodes.
+struct NearContact {
+  std::array<int, 2> faces;  ///< indices of regions
+  Vec3 at;                   ///< a place of the first
+  double distance;           ///< from there to the second, a length
+};
+
+/// Of parts that are nowhere nearer than these distances to each other, up to `reach`, and have none of the
+/// `joints` (all that touch): one for two parts, and one for two faces of an open part, of which one has a
+/// free edge beside the other. Places are corners and middles of the triangulation's sides and triangles.
+std::vector<NearContact> near_contacts(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
+                                       const std::vector<LooseJoint>& joints, double deflection,
+                                       double reach);
+
 }  // namespace delquad::cad

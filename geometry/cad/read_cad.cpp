@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -35,6 +37,8 @@ namespace {
 constexpr double kProjection = 1e-12;
 /// Faces nearer than this part of the diagonal lie on each other; as far apart as edges that are sewn.
 constexpr double kTouching = 1e-6;
+/// Up to this part of it they may come near: a tenth of edges of which twenty make a diagonal.
+constexpr double kNear = 1.0 / 200;
 
 /// Faces of each body.
 std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
@@ -94,13 +98,44 @@ std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints)
   return joints.size() > kMostNamed ? text + "; ..." : text;
 }
 
+/// Warns of what nearly touches: its mesh would come apart there.
+void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double diagonal,
+               const std::function<double(const Vec3&)>& size) {
+  constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
+  constexpr std::size_t kMostNamed = 20;
+  std::erase_if(contacts, [&](const NearContact& c) {
+    return c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
+  });
+  if (contacts.empty()) return;
+  const auto title = [&](int f) {
+    return face_title(model.fine.regions[f].tag, model.fine.regions[f].names);
+  };
+  std::string list;
+  double widest = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& [faces, at, distance] = contacts[i];
+    widest = std::max(widest, distance);
+    if (i < kMostNamed)
+      list += fmt::format("{}{} is {:.3g} from {} at {}", i == 0 ? "" : "; ", title(faces[0]), distance,
+                          title(faces[1]), show_point(at));
+  }
+  if (contacts.size() > kMostNamed) list += "; ...";
+  const double digit = std::pow(10, std::floor(std::log10(widest / diagonal)));
+  model.warnings.push_back(fmt::format(
+      "faces nearly touch at {} and stay apart: {}: move them together in CAD, or try --glue --weld {:.0e} "
+      "(surface.glue, weld_tolerance: a part of the diagonal)",
+      counted(std::ssize(contacts), "place"), list, (std::floor(widest / diagonal / digit) + 1) * digit));
+}
+
 /// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
 void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& solids, double deflection,
-                  double tolerance, bool glued) {
-  const std::vector<LooseJoint> joints = loose_joints(model, solids, deflection, tolerance);
+                  double diagonal, const CadOptions& options) {
+  const std::vector<LooseJoint> joints = loose_joints(model, solids, deflection, kTouching * diagonal);
+  tell_near(model, near_contacts(model, solids, joints, deflection, kNear * diagonal), diagonal,
+            options.size);
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
-  if (glued)
+  if (options.glue)
     throw InputError(fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap",
                                  counted(std::ssize(joints), "place"), list));
   model.warnings.push_back(
@@ -189,7 +224,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
   if (!model.embedded.empty()) part_single_lines(model);
   check_joints(model, {groups.begin(), groups.begin() + count_solids(cad.shape)},
-               options.deflection * cad.diagonal, kTouching * cad.diagonal, options.glue);
+               options.deflection * cad.diagonal, cad.diagonal, options);
   return model;
 }
 

@@ -32,7 +32,6 @@
 #include "geometry/cad/lost_shapes.h"
 #include "geometry/cad/step_names.h"
 #include "geometry/cad/step_text.h"
-#include "geometry/surface/surface_messages.h"
 
 namespace delquad::cad {
 

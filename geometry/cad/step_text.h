@@ -12,7 +12,7 @@ struct StepRest {
   std::vector<int> faces;         ///< numbers of those that need it
   bool ends_early = false;
   bool is_whole = false;  ///< only curves in parameters are missing, which can be made anew
-  std::string text;  ///< the file without all that; empty: nothing is lost, or no face is left
+  std::string text;       ///< the file without all that; empty: nothing is lost, or no face is left
 };
 
 /// Finds entities that are used and not defined, and where a file ends too early. `unreadable`: others that

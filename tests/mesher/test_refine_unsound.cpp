@@ -61,6 +61,26 @@ TEST(RefineUnsound, LeavesSoundMeshesAlone) {
   EXPECT_FALSE(result.summaries.has("refine_unsound"));
 }
 
+TEST(RefineUnsound, KeepGoingLeavesOutWhatIsNotSound) {
+  MeshProblem problem = ridge(0.5);
+  auto& sheets = std::get<TriangleModel>(problem.model).mesh;
+  const Mesh flat = testing_support::triangle_grid(4, 4, 2, 2);
+  const int n = static_cast<int>(sheets.points.size());
+  for (const Vec3& p : flat.points) sheets.points.push_back(p + Vec3{0, 5, 0});
+  for (const auto& [a, b, c] : flat.triangles) {
+    sheets.triangles.push_back({a + n, b + n, c + n});
+    sheets.triangle_region.push_back(0);
+  }
+  problem.options.set("repair.refine_unsound", false);
+  EXPECT_THROW(mesh(problem, "DB"), UnsoundError);
+  problem.keep_going = true;
+  const MeshResult result = mesh(problem, "DB");
+  ASSERT_FALSE(result.failures.empty());
+  EXPECT_NE(result.failures[0].reason.find("is not sound"), std::string::npos) << result.failures[0].reason;
+  EXPECT_TRUE(result.soundness.sound());
+  EXPECT_EQ(result.mesh.quads.size(), 16u) << "of the flat sheet alone";
+}
+
 /// A ball whose points are thrown in and out: at this size quads fold.
 MeshProblem rubble(int seed) {
   TriangleModel ball;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -9,6 +10,7 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
+#include "tests/geometry/cad/surface_counts.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
@@ -56,7 +58,56 @@ TEST_F(DamagedCad, StepFilesAreRefusedWithTheEntity) {
   expect_refused(changed(text, "ADVANCED_FACE", "ADVANCED_FACX"), {"STEP file cannot be read", "ClosedShell"},
                  faces - 1);
   expect_refused(changed(text, "CLOSED_SHELL('',(#", "CLOSED_SHELL('',(#9"),
-                 {"cannot be read", "ClosedShell", "AdvancedFace"}, faces - 1);
+                 {"cannot be read", "CLOSED_SHELL", "is not defined"}, faces - 1);
+}
+
+TEST_F(DamagedCad, MissingEntitiesTakeTheFacesThatNeedThem) {
+  const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  // How many faces of a box have one of these.
+  const std::pair<const char*, std::size_t> cases[] = {
+      {"VERTEX_POINT", 3},  {"EDGE_CURVE", 2},   {"ORIENTED_EDGE", 1},
+      {"EDGE_LOOP", 1},     {"FACE_BOUND", 1},   {"PLANE", 1},
+      {"ADVANCED_FACE", 1}, {"CLOSED_SHELL", 0}, {"MANIFOLD_SOLID_BREP", 0}};
+  for (const auto& [type, n_lost] : cases) {
+    const std::size_t at = text.find(std::string(" = ") + type + "("), begin = text.rfind('#', at);
+    ASSERT_NE(at, std::string::npos) << type;
+    const std::string number = text.substr(begin, at - begin);
+    std::string damaged = text;
+    damaged.erase(begin, text.find(';', at) + 1 - begin);
+    const std::string told = number + ", which ";
+    expect_refused(damaged, {told.c_str(), "--keep-going meshes the rest"}, 0);
+    expect_refused(damaged, {"is not defined"}, 6 - n_lost);
+    if (n_lost > 0) continue;
+    const SurfaceModel rest = read_cad(CadModel{{}, damaged}, {.keep_going = true});
+    EXPECT_EQ(count(rest.fine).free_sides, 0) << type;
+  }
+}
+
+TEST_F(DamagedCad, NumbersThatCannotBeReadTakeTheirFaces) {
+  const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  const std::size_t plane = text.find(" = PLANE("), axis = text.find("#", plane);
+  const std::string placement = text.substr(axis, text.find(')', axis) - axis);
+  const std::size_t at = text.find("(", text.find(placement + " = AXIS2_PLACEMENT_3D"));
+  const std::size_t point = text.find('#', at);
+  const std::string number = text.substr(point, text.find(',', point) - point);
+  const std::string place = number + " = CARTESIAN_POINT('',(";
+  expect_refused(changed(text, place, place + "2147483648-"), {number.c_str(), "not a Real"}, 5);
+}
+
+TEST_F(DamagedCad, FilesThatEndTooEarly) {
+  const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  const std::size_t last = text.rfind(" = ADVANCED_FACE(");
+  const std::string half = text.substr(0, last + 4);
+  const auto line = std::to_string(1 + std::ranges::count(half, '\n'));
+  const std::string told = "ends too early, in line " + line;
+  expect_refused(half, {"STEP file", told.c_str()}, 0);
+  const SurfaceModel rest = read_cad(CadModel{{}, half}, {.keep_going = true});
+  EXPECT_EQ(rest.fine.regions.size(), 5u);
+  expect_input_error(
+      [&] {
+        read_cad(CadModel{{}, text.substr(0, text.find("DATA;") + 9)}, {.keep_going = true});
+      },
+      {"ends too early", "no face is left"});
 }
 
 TEST_F(DamagedCad, IgesFilesAreRefusedWithTheEntity) {

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRep_Builder.hxx>
@@ -136,7 +140,40 @@ TEST_F(Glue, OneBodyIsLeftAlone) {
 }
 
 TEST_F(Glue, NeighboursInABodyAndBodiesApartAreNotSaidToTouch) {
-  EXPECT_FALSE(says(read_cad(write({box(0, 0, 0, 1, 1, 1), box(1.001, 0, 0, 1, 1, 1)})), "share no nodes"));
+  const auto file = write({box(0, 0, 0, 1, 1, 1), box(1.001, 0, 0, 1, 1, 1)});
+  const SurfaceModel model = read_cad(file);
+  EXPECT_FALSE(says(model, "share no nodes"));
+  EXPECT_TRUE(
+      says(model, "faces nearly touch at 1 place and stay apart: face 2 (solid 1) is 0.001 from face 7"));
+  EXPECT_FALSE(says(read_cad(file, {.size = [](const Vec3&) { return 0.009; }}), "nearly touch"));
+}
+
+TopoDS_Shape sheet(const gp_Pnt& at, const gp_Vec& u, const gp_Vec& v) {
+  return BRepBuilderAPI_MakeFace(
+      BRepBuilderAPI_MakePolygon(at, at.Translated(u), at.Translated(u + v), at.Translated(v), true).Wire());
+}
+
+TEST_F(Glue, SheetsThatNearlyTouch) {
+  const TopoDS_Shape plate = sheet({0, 0, 0}, {40, 0, 0}, {0, 30, 0});
+  const auto size = [](const Vec3&) { return 1.0; };
+  for (const double gap : {1e-4, 1e-3, 1e-2, 0.09}) {
+    SCOPED_TRACE(gap);
+    const std::string told = fmt::format("{:.3g} from face 1", gap);
+    // A web above the plate; a plate beside it.
+    for (const TopoDS_Shape& other :
+         {sheet({0, 10, gap}, {40, 0, 0}, {0, 0, 6}), sheet({40 + gap, 0, 0}, {20, 0, 0}, {0, 30, 0})}) {
+      const auto file = write({plate, other});
+      EXPECT_TRUE(says(read_cad(file, {.size = size}), told));
+      const SurfaceModel glued = read_cad(file, {.glue = true, .size = size});
+      EXPECT_TRUE(says(glued, "2 parts hang apart"));
+      EXPECT_TRUE(says(glued, told));
+      const SurfaceModel joined = read_cad(file, {.glue = true, .weld = 1.2 * gap / std::hypot(40, 30)});
+      EXPECT_FALSE(says(joined, "apart"));
+      EXPECT_FALSE(says(joined, "nearly touch"));
+    }
+  }
+  EXPECT_FALSE(says(read_cad(write({plate, sheet({0, 10, 0.11}, {40, 0, 0}, {0, 0, 6})}), {.size = size}),
+                    "nearly touch"));
 }
 
 TEST_F(Glue, BodiesThatTouchOtherwiseAreToldOnce) {

@@ -37,6 +37,20 @@ SurfaceModel flat_model(const std::vector<Vec3>& polygon) {
   return model;
 }
 
+TEST(ModelReport, CurvesInsideAreNoWidth) {
+  // A square with a curve in its middle.
+  SurfaceModel model = flat_model({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}});
+  Mesh& mesh = model.fine;
+  mesh.points.insert(mesh.points.end(), {{4, 5, 0}, {6, 5, 0}});
+  mesh.triangles = {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {3, 0, 4}};
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  mesh.lines.push_back({4, 5});
+  mesh.line_curve.push_back(4);
+  mesh.curves.push_back({5, {}});
+  model.corners.insert(model.corners.end(), {4, 5});
+  EXPECT_NEAR(report_model(model).faces[0].width, 5, 1e-12) << "from the curve to the sides";
+}
+
 TEST(ModelReport, Box) {
   const ModelReport report = report_of(box(3, 1, 2, 3));
   EXPECT_EQ(report.low, (Vec3{0, 0, 0}));
