@@ -11,8 +11,8 @@
 #include "features/symmetry/mirror_mesh.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/drop_unused_points.h"
-#include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 #include "mesher/runner.h"
 
 namespace delquad {

@@ -161,7 +161,8 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
 
 /// Meshes without the faces where the mesh is not sound, while that leaves some.
 void leave_out_unsound(const Word& word, PreparedProblem& prepared, RunResult& result) {
-  if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored || prepared.surface->given)
+  if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
+      prepared.surface->given)
     return;
   const std::vector<FaceFailure> before = prepared.failures;
   double seconds = result.seconds;

@@ -309,10 +309,9 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
 }
 
 TEST_F(Cases, OptionsReachTheStages) {
-  const Case c = read(
-      square_ +
-      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, lower_clamp = true "
-      "}\nrecombination = { treatment = \"none\" }\n");
+  const Case c = read(square_ +
+                      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, lower_clamp = true "
+                      "}\nrecombination = { treatment = \"none\" }\n");
   const InsertionOptions insertion = insertion_options(c.options);
   EXPECT_EQ(insertion.frontal.h_max, 1.2);
   EXPECT_EQ(insertion.frontal.rejection, 0.6);

@@ -21,7 +21,9 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
   EXPECT_EQ(options.text("recombination.solver"), "primal-dual");
   EXPECT_TRUE(options.flag("repair.part_twins"));
   EXPECT_EQ(options.find("insertion.rejection"), nullptr);
-  options.set("insertion.rejection", 0.5).set("smoothing.method", "lloyd").set("smoothing.outer_iterations", 3);
+  options.set("insertion.rejection", 0.5)
+      .set("smoothing.method", "lloyd")
+      .set("smoothing.outer_iterations", 3);
   EXPECT_EQ(insertion_options(options).frontal.rejection, 0.5);
   EXPECT_EQ(cvt_options(options).method, SmoothingMethod::kLloyd);
   EXPECT_EQ(cvt_options(options).smoothing.outer_iterations, 3);
