@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <queue>
-#include <vector>
 
 #include "base/box.h"
 #include "base/cancel.h"

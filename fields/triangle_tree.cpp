@@ -1,6 +1,5 @@
 #include "fields/triangle_tree.h"
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <ostream>
-#include <utility>
 
 #include "io/mesh_io.h"
 #include "io/xml.h"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
-#include <utility>
 
 #include "base/box_tree.h"
 #include "geometry/mesh/quad_corners.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "base/disjoint_sets.h"
 

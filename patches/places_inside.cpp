@@ -1,7 +1,5 @@
 #include "patches/places_inside.h"
 
-#include <cmath>
-
 #include "base/cancel.h"
 
 namespace delquad {

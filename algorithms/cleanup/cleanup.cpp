@@ -1,7 +1,6 @@
 #include "algorithms/cleanup/cleanup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

@@ -1,6 +1,5 @@
 #include "algorithms/insertion/packing.h"
 
-#include <array>
 #include <cmath>
 #include <vector>
 

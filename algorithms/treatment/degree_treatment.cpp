@@ -1,7 +1,6 @@
 #include "algorithms/treatment/degree_treatment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <vector>
 

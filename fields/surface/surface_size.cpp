@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 

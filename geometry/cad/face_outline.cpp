@@ -13,7 +13,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 

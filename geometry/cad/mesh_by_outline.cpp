@@ -16,7 +16,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
-#include <cmath>
 #include <gp_Pnt.hxx>
 #include <map>
 #include <optional>

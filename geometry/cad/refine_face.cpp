@@ -1,7 +1,6 @@
 #include "geometry/cad/refine_face.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>

@@ -1,7 +1,5 @@
 #include "geometry/mesh/open_quads.h"
 
-#include <utility>
-
 namespace delquad {
 
 OpenQuads::OpenQuads(const Mesh& mesh, std::span<const HalfEdge> sides)

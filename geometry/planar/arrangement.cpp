@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <utility>
 
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"

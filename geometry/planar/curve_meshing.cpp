@@ -5,7 +5,6 @@
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/disjoint_sets.h"

@@ -1,7 +1,6 @@
 #include "geometry/planar/curve_span.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/predicates.h"

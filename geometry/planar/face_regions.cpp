@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"

@@ -1,7 +1,6 @@
 #include "geometry/surface/cut_planner.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>

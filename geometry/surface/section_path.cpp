@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <queue>
-#include <tuple>
 
 namespace delquad {
 

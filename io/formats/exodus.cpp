@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cerrno>
 
 #include "geometry/mesh/element_nodes.h"

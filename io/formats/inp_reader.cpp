@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <climits>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"

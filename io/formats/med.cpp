@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <map>
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/library_file.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <climits>
 #include <map>
 #include <numeric>
 #include <tuple>

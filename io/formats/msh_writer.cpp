@@ -3,7 +3,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <climits>
 #include <map>
 
 #include "io/entity_names.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 
 #include "io/face_colours.h"
 #include "io/mesh_formats.h"

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string>
-
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"

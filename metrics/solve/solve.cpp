@@ -1,10 +1,7 @@
 #include "metrics/solve/solve.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
-#include <utility>
 
 #include "base/cancel.h"
 #include "delquad/error.h"

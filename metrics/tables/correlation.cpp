@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <utility>
 
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/samples.h"

@@ -1,7 +1,6 @@
 #include "metrics/tables/marks.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace delquad {
 namespace {

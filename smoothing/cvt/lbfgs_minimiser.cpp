@@ -2,7 +2,6 @@
 #include <ceres/gradient_problem_solver.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/cancel.h"

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "base/box.h"
 #include "base/cancel.h"
