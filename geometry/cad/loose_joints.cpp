@@ -32,7 +32,7 @@ constexpr double kPartOfChord = 0.01;
 /// at 15 degrees; steps that are no shorter than this part of the one before lead nowhere.
 constexpr int kMostMeetingSteps = 200;
 constexpr double kStepsShrink = 0.97;
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
 /// Of two ascending lists.
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> both;
@@ -328,9 +328,9 @@ class JointFinder {
   /// Of x from g, if it is no more than `reach`, else more than that. The triangles tell where the face is,
   /// its surface how far, its curves where it ends.
   double distance(const Vec3& x, int g, double reach) {
-    if (!(faces_[g].box.distance2(x) <= reach * reach)) return kFar;
+    if (!(faces_[g].box.distance2(x) <= reach * reach)) return kNowhere;
     const NearestTriangle::Found found = trees_of(g).nearest.find(x, 2 * deflection_ + reach);
-    if (found.triangle < 0) return kFar;
+    if (found.triangle < 0) return kNowhere;
     const double apart = norm(model_.projector->to_face(g, x) - x);
     return apart <= reach ? std::max(apart, beyond(x, faces_[g].triangles[found.triangle], found.weights))
                           : apart;
@@ -357,11 +357,11 @@ class JointFinder {
 
   /// The same where a node is the nearest place of the face: beyond it, if it is one of the boundary.
   double beyond_corner(const Vec3& x, int f, int node) const {
-    double least = kFar;
+    double least = kNowhere;
     for (const int l : faces_[f].lines)
       if (std::ranges::count(mesh_.lines[l], node) > 0 && ends_at(f, l))
         least = std::min(least, norm(model_.projector->to_curve(mesh_.line_curve[l], x) - x));
-    return least < kFar ? least : 0;
+    return least < kNowhere ? least : 0;
   }
 
   /// Whether the face lies on one side of the line.
