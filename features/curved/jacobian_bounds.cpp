@@ -19,7 +19,7 @@ constexpr int kMostBoxes = 400;
 constexpr double kRounding = 1e-13;
 
 /// A part of the square.
-struct Subpatch {
+struct ParameterBox {
   Bernstein<double> jacobian, uu, vv;  ///< numerator, |x_u|^2, |x_v|^2
   int depth = 0;
   double low = -1;  ///< of the scaled Jacobian
@@ -28,7 +28,7 @@ struct Subpatch {
 double least(const Bernstein<double>& f) { return *std::ranges::min_element(f.c); }
 double greatest(const Bernstein<double>& f) { return *std::ranges::max_element(f.c); }
 
-double low_of(const Subpatch& box, double rounding) {
+double low_of(const ParameterBox& box, double rounding) {
   const double j = least(box.jacobian) - rounding;
   const double above = std::sqrt(std::max(greatest(box.uu), 0.0) * std::max(greatest(box.vv), 0.0));
   if (j > 0) return above > 0 ? std::min(1.0, j / above) : -1;
@@ -37,7 +37,7 @@ double low_of(const Subpatch& box, double rounding) {
 }
 
 /// The least at the box's corners.
-double found_in(const Subpatch& box) {
+double found_in(const ParameterBox& box) {
   double found = 1;
   for (const int u : {0, 1})
     for (const int v : {0, 1}) {
@@ -66,14 +66,14 @@ JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double en
   for (const Vec3& c : normal.c) sum = sum + c;
   const double length = norm(sum);
   if (!(length > 0)) return {-1, -1};
-  Subpatch whole{dot_product(normal, (1 / length) * sum), dot_product(xu, xu), dot_product(xv, xv)};
+  ParameterBox whole{dot_product(normal, (1 / length) * sum), dot_product(xu, xu), dot_product(xv, xv)};
   double largest = 0;
   for (const Vec3& c : normal.c) largest = std::max(largest, norm(c));
   const double rounding = kRounding * largest;
   whole.low = low_of(whole, rounding);
   JacobianBounds bounds{whole.low, found_in(whole)};
-  const auto later = [](const Subpatch& a, const Subpatch& b) { return a.low > b.low; };
-  std::priority_queue<Subpatch, std::vector<Subpatch>, decltype(later)> boxes(later);
+  const auto later = [](const ParameterBox& a, const ParameterBox& b) { return a.low > b.low; };
+  std::priority_queue<ParameterBox, std::vector<ParameterBox>, decltype(later)> boxes(later);
   boxes.push(std::move(whole));
   for (int made = 1; made < kMostBoxes; made += 2) {
     bounds.proven = std::min(boxes.top().low, bounds.found);
@@ -81,13 +81,13 @@ JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double en
     if (bounds.proven >= enough || gap <= kClose || (bounds.proven > 0 && gap <= kClosePart * bounds.found) ||
         bounds.found <= 0)
       break;
-    const Subpatch box = boxes.top();
+    const ParameterBox box = boxes.top();
     boxes.pop();
     const bool along_u = box.depth % 2 == 0;
     const auto jacobian = halves(box.jacobian, along_u), uu = halves(box.uu, along_u),
                vv = halves(box.vv, along_u);
     for (const int side : {0, 1}) {
-      Subpatch half{jacobian[side], uu[side], vv[side], box.depth + 1};
+      ParameterBox half{jacobian[side], uu[side], vv[side], box.depth + 1};
       half.low = std::max(low_of(half, rounding), box.low);
       bounds.found = std::min(bounds.found, found_in(half));
       boxes.push(std::move(half));
