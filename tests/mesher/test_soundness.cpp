@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cases/case_file.h"
+#include "geometry/mesh/check_invariants.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
 #include "mesher/prepare_surface.h"

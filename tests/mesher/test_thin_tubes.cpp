@@ -94,9 +94,10 @@ TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
     const auto at = [&](int k) -> Vec3& { return result.mesh.points[v[(tip - v.begin() + k) % 4]]; };
     at(2) = at(1) + 0.505 * (at(3) - at(1));
   }
-  judge_quads(prepared, "spoilt", result);
-  EXPECT_EQ(result.bad_in_corners, 0);
-  EXPECT_GE(result.bad_elsewhere, 1);
+  const BadQuads bad =
+      judge_quads(prepared, "spoilt", result.mesh, result.metrics, result.warnings, result.soundness);
+  EXPECT_EQ(bad.in_corners, 0);
+  EXPECT_GE(bad.elsewhere, 1);
 }
 
 /// A square of side 10 with a slit from the middle of a side to its centre, in so many lines.

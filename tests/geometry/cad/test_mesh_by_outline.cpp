@@ -22,7 +22,7 @@ namespace {
 using namespace testing_support;
 using std::numbers::pi;
 
-constexpr CadOptions kByOutline{.by_outline = true};
+const CadOptions kByOutline{.by_outline = true};
 
 /// Both ways lead to the same faces, curves and topology, and to areas and volumes that differ by what the
 /// deflection allows.
