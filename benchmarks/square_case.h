@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "curves/mesh_planar_curves.h"
 #include "delquad/fields.h"
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"

@@ -9,6 +9,7 @@
 #include "base/box.h"
 #include "base/box_tree.h"
 #include "cases/problem.h"
+#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
 #include "features/given/given_domain.h"
 #include "features/given/given_surface.h"

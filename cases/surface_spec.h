@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cases/toml_reader.h"
-#include "geometry/surface/mirror.h"
+#include "delquad/model.h"
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {

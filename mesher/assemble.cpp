@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "features/layers/planar_layers.h"
-#include "features/periodic/face_images.h"
+#include "features/periodic/periodic.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/drop_unused_points.h"

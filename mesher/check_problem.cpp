@@ -10,7 +10,7 @@
 #include "base/located.h"
 #include "features/given/given_surface.h"
 #include "features/layers/layer_heights.h"
-#include "features/sizes/compose_size.h"
+#include "curves/compose_size.h"
 #include "geometry/mesh/check_mesh.h"
 
 namespace delquad {

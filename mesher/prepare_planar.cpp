@@ -3,15 +3,15 @@
 #include <utility>
 #include <variant>
 
+#include "curves/compose_size.h"
 #include "delquad/error.h"
 #include "features/crosses/size_aware.h"
 #include "features/given/given_domain.h"
 #include "features/given/named_domain.h"
-#include "features/grids/add_grids.h"
+#include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
 #include "features/layers/planar_layers.h"
 #include "features/seed/perturb.h"
-#include "features/sizes/compose_size.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/gap_warning.h"
 #include "features/sizes/named_parts.h"

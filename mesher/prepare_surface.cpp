@@ -10,27 +10,26 @@
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/parallel.h"
+#include "curves/compose_size.h"
+#include "curves/mesh_surface_curves.h"
 #include "features/crosses/size_aware.h"
+#include "features/embedded/imprint.h"
 #include "features/given/given_domain.h"
-#include "features/grids/add_grids.h"
-#include "features/periodic/periodic_sides.h"
+#include "features/given/kept_curves.h"
+#include "features/grids/grids.h"
+#include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
-#include "features/sizes/compose_size.h"
 #include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
-#include "features/sizes/imprint_named.h"
 #include "features/sizes/join_short_curves.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
-#include "features/symmetry/symmetric_size.h"
 #include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "geometry/surface/periodic_lines.h"
 #include "mesher/model_steps.h"
 #include "mesher/surface_input.h"
-#include "patches/surface_domain.h"
 
 namespace delquad {
 namespace {
@@ -61,18 +60,6 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
   std::string tags;
   for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
   for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
-}
-
-/// All faces but those that are images of others.
-Flattening flatten_all(SurfaceModel& model, const PeriodicSides& periodic) {
-  if (periodic.empty()) return flatten(model);
-  FlattenOptions options;
-  options.left_out.assign(model.fine.regions.size(), 0);
-  for (const FacePair& pair : periodic.faces) options.left_out[pair.face] = 1;
-  const std::size_t n_curves = model.fine.curves.size();
-  options.after_cuts = [&] { return match_corners(model, periodic, n_curves); };
-  match_corners(model, periodic, n_curves);
-  return flatten(model, options);
 }
 
 /// Meshes the curves; faces for which that is impossible go.
@@ -154,7 +141,7 @@ class SurfaceSteps final : public ModelSteps {
     improve_triangulation(model_);
     refine_for_size(model_, wanted_);
     periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
-    flattening_ = located(problem_.where, [&] { return flatten_all(model_, periodic_); });
+    flattening_ = located(problem_.where, [&] { return flatten_periodic(model_, periodic_); });
     for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
     add_unflattened(flattening_, model_, failures_);
   }
@@ -193,10 +180,7 @@ class SurfaceSteps final : public ModelSteps {
           for (const CurveSide& side : loop) surface_->domain.chain_stays[side.chain] = 1;
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
     if (!cut_) return;
-    p.symmetry = cut_->planes.all();
-    p.size.field = folded_size(p.size.field, cut_->planes);
-    if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut_->planes);
-    surface_->mirrored = mirrored_surface(std::move(*cut_), *surface_);
+    add_whole(std::move(*cut_), *surface_, p);
   }
 
  private:

@@ -12,6 +12,7 @@
 #include "delquad/error.h"
 #include "mesher/finish_steps.h"
 #include "metrics/judgement/soundness.h"
+#include "features/symmetry/mirrored_surface.h"
 
 namespace delquad {
 namespace {

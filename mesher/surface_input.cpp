@@ -9,6 +9,7 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/symmetry/add_mirror_image.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/keep_elements.h"
@@ -16,7 +17,6 @@
 #include "geometry/mesh/stray_points.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
-#include "geometry/surface/mirror.h"
 #include "geometry/surface/triangulated_model.h"
 
 namespace delquad {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 namespace delquad {
 namespace {
@@ -131,11 +130,9 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
                      const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
                      std::vector<int>& counts) {
-  std::vector<int> leader(curves.chains.size());
-  std::iota(leader.begin(), leader.end(), 0);
-  for (const ChainPair& pair : curves.images.pairs) leader[pair.chain] = leader[pair.master];
+  const std::vector<int> leader = leaders(curves);
   std::vector<AgreeingCurve> agreeing;
-  for (const CurveDemand& d : joined_demands(wanted.demands, curves.images.pairs))
+  for (const CurveDemand& d : joined_demands(wanted.demands, curves.images))
     agreeing.push_back({std::max(d.integral, 1e-3), d.minimum, d.exact == 0, 0, d.patches});
   for (const int c : kept) agreeing[leader[c]].is_free = false;
 

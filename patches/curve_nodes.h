@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "base/matching/matching.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
@@ -30,13 +29,16 @@ struct CurveDemand {
   int exact = 0;             ///< where their number is given; 0: it is free
 };
 
-/// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
-/// them. The curves to change by one are a minimum-weight T-join over patches and curves (odd patches are the
-/// terminals; the curves of the outline lead to an outside whose parity is free), weighted by |log((n +- 1) /
-/// integral)|. Curves at which more than two patches meet are changed before, where the others cannot do it
-/// alone. `odd_patches` receives the patches for which there is none.
-std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
-                             const MatchingSolver& solver, std::vector<int>& odd_patches);
+/// A piece of a curve that gets the images of the nodes of another.
+struct ChainPair {
+  int chain, master;
+  bool forward;  ///< both run the same way
+  Motion motion;
+};
+
+/// How the curves are to be meshed so that each pair has as many edges: what bounds the one bounds the other.
+std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
+                                        const std::vector<ChainPair>& pairs);
 
 /// A node on a curve: at `s` in [0, number of lines], the fine line's index plus the fraction along it.
 struct CurveNode {
@@ -81,7 +83,10 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places);
 
-/// The place in space of a node at `s`, as in CurveNode.
+/// The point of the fine lines at `s`, as in CurveNode.
+Vec3 fine_point_at(const Mesh& fine, const CurveChain& chain, double s);
+
+/// The place in space of a node there.
 Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
                     double s);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "delquad/error.h"
+#include "geometry/mesh/constrained_delaunay.h"
+
 namespace delquad {
 
 namespace {
@@ -74,6 +77,15 @@ PatchBoundary place_boundary(const FlatPatch& map, const PatchOutline& outline,
     for (int i = 0; i < n; ++i) boundary.edges.push_back({first + i, first + (i + 1) % n});
   }
   return boundary;
+}
+
+bool meshable(const PatchBoundary& boundary) {
+  try {
+    constrained_delaunay(boundary);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 }  // namespace delquad

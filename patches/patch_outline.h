@@ -47,4 +47,8 @@ PatchBoundary place_boundary(const FlatPatch& map, const PatchOutline& outline,
                              const std::vector<CurveChain>& chains, const SurfaceNodes& nodes,
                              std::vector<int>* edge_chain = nullptr);
 
+/// Does the boundary enclose an area? Only the triangulation can tell: it also finds points that coincide and
+/// loops that are turned inside out.
+bool meshable(const PatchBoundary& boundary);
+
 }  // namespace delquad

@@ -12,12 +12,12 @@
 #include "delquad/mesher.h"
 #include "fields/fields.h"
 #include "geometry/planar/planar_model.h"
-#include "geometry/surface/symmetric_half.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
 
 struct LayerReport;
+struct MirroredSurface;
 
 /// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
 struct PreparedPatch {
@@ -41,17 +41,10 @@ struct GivenEntities {
   std::vector<int> curve_of, region_of;  ///< of each of PreparedProblem::boundary; -1: no line of the mesh
 };
 
-/// A surface of which one part is meshed, and the rest is its mirror image.
-struct MirroredSurface {
-  SurfaceModel whole;            ///< its curves end with the images of the cuts
-  int first_cut;                 ///< the first of these
-  std::vector<SurfaceCut> cuts;  ///< of the whole
-  SymmetryPlanes planes;
-  std::vector<MirrorMatch> matches;  ///< of each plane
-  std::vector<int> whole_curve;      ///< of each curve of the part; -1: a section, which is none of the whole
-  std::vector<int> curve_planes, face_planes;  ///< as in SymmetricHalf, with cuts
-  std::vector<int>
-      node_planes;  ///< of the nodes on curves, the bits of the planes where they are their images
+/// A surface of which one part is meshed, with its cuts.
+struct WholeSurface {
+  SurfaceModel model;
+  std::vector<SurfaceCut> cuts;
 };
 
 /// What the patches of a surface were made from.
@@ -60,12 +53,13 @@ struct PreparedSurface {
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
-  std::optional<MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
-  std::optional<GivenEntities> given;       ///< of a GivenMesh
-  std::shared_ptr<const SurfaceModel> cad;  ///< as it was read; null of other models
+  std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+  std::shared_ptr<const WholeSurface> is_part_of;   ///< that; null: `model` is the whole
+  std::optional<GivenEntities> given;               ///< of a GivenMesh
+  std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
 
-  const SurfaceModel& whole() const { return mirrored ? mirrored->whole : model; }
-  const std::vector<SurfaceCut>& all_cuts() const { return mirrored ? mirrored->cuts : cuts; }
+  const SurfaceModel& whole() const { return is_part_of ? is_part_of->model : model; }
+  const std::vector<SurfaceCut>& all_cuts() const { return is_part_of ? is_part_of->cuts : cuts; }
 };
 
 /// The maps of all patches.

@@ -7,12 +7,12 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
-#include "patches/divided_chains.h"
 #include "patches/narrow_places.h"
 #include "patches/tube_sizes.h"
 
@@ -105,19 +105,6 @@ void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vec
   }
 }
 
-/// Curves that face a divided one want as many edges.
-void demand_division(CurveDemands& wanted) {
-  std::map<int, int> of_group;
-  for (std::size_t c = 0; c < wanted.divided.size(); ++c) {
-    if (wanted.divided[c].empty()) continue;
-    wanted.demands[c].exact = static_cast<int>(wanted.divided[c].size()) - 1;
-    of_group.try_emplace(wanted.group[c], wanted.demands[c].exact);
-  }
-  for (std::size_t c = 0; c < wanted.demands.size(); ++c)
-    if (const auto at = of_group.find(wanted.group[c]); at != of_group.end())
-      wanted.demands[c].integral = at->second;
-}
-
 }  // namespace
 
 SizeOnLine size_on_lines(const SurfaceSize& size) {
@@ -141,8 +128,7 @@ void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
       [&](std::size_t p) { return static_cast<double>(maps[p].flat.points.size()); });
 }
 
-SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                          const PeriodicSides& periodic) {
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves;
   curves.maps = std::move(flattening.patches);
@@ -151,7 +137,6 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   curves.is_embedded.assign(fine.curves.size(), 0);
   for (const EmbeddedCurve& embedded : model.embedded) curves.is_embedded[embedded.curve] = 1;
   curves.chains = curve_chains(model);
-  curves.images = pair_chains(model, curves.chains, curves.cut_face, periodic);
   const LineIndex lines(curves.chains);
   for (const FlatPatch& map : curves.maps)
     curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
@@ -160,9 +145,15 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   return curves;
 }
 
+std::vector<int> leaders(const SurfaceCurves& curves) {
+  std::vector<int> leader(curves.chains.size());
+  std::iota(leader.begin(), leader.end(), 0);
+  for (const ChainPair& pair : curves.images) leader[pair.chain] = leader[pair.master];
+  return leader;
+}
+
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SurfaceSize& size, const SizeField& asked,
-                            const std::vector<CurveDivision>& divisions) {
+                            const SurfaceSize& size, const SizeField& asked) {
   const std::vector<CurveChain>& chains = curves.chains;
   std::vector<std::vector<double>> limits = limits_on_curves(curves);
   CurveDemands wanted;
@@ -191,17 +182,32 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
     sum[wanted.group[c]] += std::log(wanted.demands[c].integral), ++members[wanted.group[c]];
   for (std::size_t c = 0; c < chains.size(); ++c)
     wanted.demands[c].integral = std::exp(sum[wanted.group[c]] / members[wanted.group[c]]);
-  wanted.divided = divide_chains(fine, chains, divisions);
-  for (const ChainPair& pair : curves.images.pairs)
-    if (!wanted.divided[pair.chain].empty())
-      throw InputError(
-          fmt::format("curve {} is divided and gets the nodes of curve {}: expected the latter to be "
-                      "divided",
-                      fine.curves[chains[pair.chain].curve].tag, fine.curves[chains[pair.master].curve].tag));
-  demand_division(wanted);
   demand_edges_at_corners(curves, wanted.demands);
   demand_edges_of_loops(chains, wanted.integrals, wanted.demands);
   return wanted;
+}
+
+Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, const SurfaceNodes& nodes) {
+  Mesh boundary;
+  boundary.curves = fine.curves;
+  boundary.regions = fine.regions;
+  for (size_t c = 0; c < chains.size(); ++c)
+    for (size_t i = 0; i + 1 < nodes.on_curve[c].size(); ++i) {
+      boundary.lines.push_back({nodes.on_curve[c][i].node, nodes.on_curve[c][i + 1].node});
+      boundary.line_curve.push_back(chains[c].curve);
+    }
+  boundary.points = nodes.points;
+  for (const NamedPoint& named : fine.named_points) {
+    const auto ends = [&](const CurveChain& c) {
+      return c.points.front() == named.point || c.points.back() == named.point;
+    };
+    const auto chain = std::ranges::find_if(chains, ends);
+    if (chain == chains.end()) throw std::logic_error("a named point is the end of no curve");
+    const auto& on_curve = nodes.on_curve[chain - chains.begin()];
+    boundary.named_points.push_back(
+        {chain->points.front() == named.point ? on_curve.front().node : on_curve.back().node, named.entity});
+  }
+  return boundary;
 }
 
 std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,

@@ -12,7 +12,6 @@
 #include "patches/curve_nodes.h"
 #include "patches/face_corners.h"
 #include "patches/patch_outline.h"
-#include "patches/periodic_chains.h"
 
 namespace delquad {
 
@@ -25,14 +24,16 @@ struct SurfaceCurves {
   std::vector<int> cut_face;  ///< of each curve of the model: the face that this cut runs through; -1: no cut
   std::vector<char> is_embedded;  ///< of each curve of the model
   std::vector<CurveChain> chains;
-  ChainPairs images;                   ///< of them
+  std::vector<ChainPair> images;       ///< each once, behind the pair that its master is the image of
   std::vector<PatchOutline> outlines;  ///< of each map
   std::vector<FaceCorner> corners;
   std::vector<std::vector<double>> tube_sizes;  ///< at the vertices of each map
 };
 
-SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size,
-                          const PeriodicSides& periodic);
+SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size);
+
+/// Of each chain the one whose number of edges it has: its master, or itself.
+std::vector<int> leaders(const SurfaceCurves& curves);
 
 /// How many edges curves want and must have, by chain.
 struct CurveDemands {
@@ -40,7 +41,8 @@ struct CurveDemands {
   std::vector<double> lengths;  ///< in sizes as asked
   std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
   std::vector<CurveDemand> demands;
-  std::vector<std::vector<double>> divided;  ///< see divide_chains()
+  /// Of each the places that its nodes were given, as CurveNode::s, both ends included; empty: it is free.
+  std::vector<std::vector<double>> divided = {};
 };
 
 /// `size` outlives it.
@@ -48,12 +50,14 @@ SizeOnLine size_on_lines(const SurfaceSize& size);
 
 /// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                            const SurfaceSize& size, const SizeField& asked,
-                            const std::vector<CurveDivision>& divisions);
+                            const SurfaceSize& size, const SizeField& asked);
 
 /// One for each curve that is much shorter than the size.
 std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
                                           const CurveDemands& wanted);
+
+/// Nodes, lines, curves and regions, once the nodes are those that remain.
+Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, const SurfaceNodes& nodes);
 
 std::string face_name(const Mesh& fine, const FlatPatch& map);
 

@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "base/matching/matching.h"
 #include "delquad/mesh.h"
 #include "fields/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/surface/flatten.h"
-#include "geometry/surface/periodic_faces.h"
 #include "geometry/surface/surface_model.h"
 #include "patches/boundary_cap.h"
 #include "patches/face_corners.h"
@@ -48,26 +46,6 @@ struct SurfaceDomain {
   long long steps = 0;  ///< that agree_counts() and face_nodes() took, where curves were meshed
   std::vector<Warning> warnings;
 };
-
-/// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
-/// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
-/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
-/// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
-/// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
-/// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
-/// `mapped` asks, get numbers that fit. `agreement`: the price of agree_on_counts(); 0: numbers follow the
-/// size alone. Throws FaceError when no refinement gives a valid boundary, naming the face, and InputError
-/// where divisions leave a patch with an odd number of edges.
-SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
-                                  const MatchingSolver& solver, const SizeField* asked = nullptr,
-                                  const std::vector<CurveDivision>& divisions = {},
-                                  const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
-                                  double agreement = 0);
-
-/// The same of a model whose curves are kept point by point: all their points are nodes, and no stage moves
-/// those that are on no cut. The k-th point of a patch's boundary is the vertex of its map from which the
-/// k-th side of its outline begins. Warnings name the patches with an odd boundary.
-SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size);
 
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print

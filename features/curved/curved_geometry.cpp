@@ -11,7 +11,6 @@
 #include "base/segment.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/curve_search.h"
-#include "patches/divided_chains.h"
 
 namespace delquad {
 namespace {

@@ -14,7 +14,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
-#include "patches/patch_boundaries.h"
+#include "patches/patch_outline.h"
 
 namespace delquad {
 namespace {

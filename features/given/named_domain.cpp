@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "features/embedded/embedded_pieces.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/domain_builder.h"
-#include "geometry/planar/whiskers.h"
 
 namespace delquad {
 namespace {

@@ -1,4 +1,4 @@
-#include "features/grids/add_grids.h"
+#include "features/grids/grids.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "features/grids/mapped_grid.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "geometry/planar/grid_sides.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 #include "patches/all_patches.h"

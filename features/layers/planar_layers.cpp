@@ -7,10 +7,10 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
 #include "features/sizes/fine_spots.h"
 #include "geometry/mesh/entity_names.h"
-#include "geometry/planar/grid_sides.h"
 
 namespace delquad {
 namespace {

@@ -1,4 +1,4 @@
-#include "features/periodic/face_images.h"
+#include "features/periodic/periodic.h"
 
 #include <algorithm>
 #include <array>

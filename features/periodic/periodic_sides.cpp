@@ -1,4 +1,4 @@
-#include "features/periodic/periodic_sides.h"
+#include "features/periodic/paired_lines.h"
 
 #include <fmt/format.h>
 

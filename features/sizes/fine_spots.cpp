@@ -113,18 +113,6 @@ std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
   return finer_near(std::move(base), std::move(finer));
 }
 
-std::vector<FineSpot> edges_of(const PlanarDomain& domain, const std::vector<char>& of_model_curve) {
-  std::vector<FineSpot> spots;
-  const Mesh& mesh = domain.boundary;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const std::vector<int>& curves = domain.model_curves[mesh.line_curve[l]];
-    if (std::ranges::none_of(curves, [&](int c) { return of_model_curve[c] != 0; })) continue;
-    const Vec3 &a = mesh.points[mesh.lines[l][0]], &b = mesh.points[mesh.lines[l][1]];
-    spots.push_back({a, b, norm(b - a), 0});
-  }
-  return spots;
-}
-
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
                                             std::vector<FineSpot> spots) {
   if (spots.empty()) return base;

@@ -28,9 +28,6 @@ std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> bas
 std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
                                          const std::vector<FineSpot>& spots);
 
-/// The edges of the domain on these curves of the model, each a spot of its own length.
-std::vector<FineSpot> edges_of(const PlanarDomain& domain, const std::vector<char>& of_model_curve);
-
 /// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
 /// its own length. Only of domains with junctions.
 std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size);

@@ -118,14 +118,4 @@ std::vector<FineSpot> NamedParts::known_spots(const std::vector<NamedSize>& want
   return spots;
 }
 
-std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
-                                const std::string& name) {
-  std::vector<int> found;
-  for (std::size_t i = 0; i < entities.size(); ++i)
-    if (by_number(kind, entities[i]) == name ||
-        std::ranges::find(entities[i].names, name) != entities[i].names.end())
-      found.push_back(static_cast<int>(i));
-  return found;
-}
-
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "features/sizes/fine_spots.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
@@ -42,9 +43,5 @@ class NamedParts {
 
   std::map<std::string, std::vector<Part>> parts_;
 };
-
-/// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".
-std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
-                                const std::string& name);
 
 }  // namespace delquad

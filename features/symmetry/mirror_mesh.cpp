@@ -49,7 +49,7 @@ class MeshMirror {
       curve = m_.whole_curve[curve];
       return true;
     });
-    mesh_.curves = m_.whole.fine.curves;
+    mesh_.curves = m_.whole.model.fine.curves;
     mesh_.named_points.clear();
   }
 
@@ -94,24 +94,25 @@ class MeshMirror {
     if (among.size() == 1) return among[0];
     // A curve of the whole has several images where ends of others on it have none.
     if (lines_of_.empty()) {
-      lines_of_.resize(m_.whole.fine.curves.size());
-      for (std::size_t l = 0; l < m_.whole.fine.lines.size(); ++l)
-        lines_of_[m_.whole.fine.line_curve[l]].push_back(m_.whole.fine.lines[l]);
+      lines_of_.resize(m_.whole.model.fine.curves.size());
+      for (std::size_t l = 0; l < m_.whole.model.fine.lines.size(); ++l)
+        lines_of_[m_.whole.model.fine.line_curve[l]].push_back(m_.whole.model.fine.lines[l]);
     }
     const Vec3 middle = 0.5 * (mesh_.points[line[0]] + mesh_.points[line[1]]);
     int nearest = among[0];
     double least = std::numeric_limits<double>::infinity();
     for (const int other : among)
       for (const auto& [a, b] : lines_of_[other]) {
-        const double distance = distance_to_segment(middle, m_.whole.fine.points[a], m_.whole.fine.points[b]);
+        const double distance =
+            distance_to_segment(middle, m_.whole.model.fine.points[a], m_.whole.model.fine.points[b]);
         if (distance < least) least = distance, nearest = other;
       }
     return nearest;
   }
 
   void name_points() {
-    for (const NamedPoint& named : m_.whole.fine.named_points) {
-      const Vec3 x = m_.whole.fine.points[named.point];
+    for (const NamedPoint& named : m_.whole.model.fine.named_points) {
+      const Vec3 x = m_.whole.model.fine.points[named.point];
       int nearest = -1;
       double least = std::numeric_limits<double>::infinity();
       for (const auto& line : mesh_.lines)
@@ -153,7 +154,7 @@ void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFai
       const int face = image_face(mirrored, mask, failure.face);
       if (std::ranges::find(failures, face, &FaceFailure::face) != failures.end()) continue;
       failures.push_back({face, fmt::format("face {} is the mirror image of another: {}",
-                                            mirrored.whole.fine.regions[face].tag, failure.reason)});
+                                            mirrored.whole.model.fine.regions[face].tag, failure.reason)});
     }
 }
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "patches/prepared.h"
+#include "features/symmetry/mirrored_surface.h"
 
 namespace delquad {
 

@@ -9,11 +9,11 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/symmetry/mirror_match.h"
 #include "features/symmetry/mirror_mesh.h"
 #include "features/symmetry/symmetric_size.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"
-#include "geometry/planar/curve_divisions.h"
-#include "geometry/surface/find_planes.h"
 
 namespace delquad {
 namespace {
@@ -60,15 +60,12 @@ class DivisionSharing {
   }
 
   void add(const CurveDivision& division) {
-    const std::vector<Entity>& curves = surface_.whole.fine.curves;
-    bool found = false;
-    for (std::size_t c = 0; c < curves.size(); ++c) {
-      if (!names_curve(division, curves[c].names, curves[c].tag)) continue;
-      found = true;
-      asked_.emplace(static_cast<int>(c), division);
-      if (!pieces_[c].empty()) share(division, static_cast<int>(c));
+    const std::vector<int> named = entities_named(surface_.whole.fine.curves, "curve", division.name);
+    for (const int c : named) {
+      asked_.emplace(c, division);
+      if (!pieces_[c].empty()) share(division, c);
     }
-    if (!found) result.push_back(division);
+    if (named.empty()) result.push_back(division);
   }
 
   /// Curves behind a plane are divided as those before it.
@@ -197,11 +194,13 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
   return of_part;
 }
 
-MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface) {
+void add_whole(CutSurface cut, PreparedSurface& surface, PreparedProblem& p) {
+  p.symmetry = cut.planes.all();
+  p.size.field = folded_size(p.size.field, cut.planes);
+  if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut.planes);
   const int first_cut = static_cast<int>(cut.whole.fine.curves.size());
-  MirroredSurface m{std::move(cut.whole),
+  MirroredSurface m{{std::move(cut.whole), {}},
                     first_cut,
-                    {},
                     cut.planes,
                     std::move(cut.matches),
                     std::move(cut.half.whole_curve),
@@ -211,19 +210,19 @@ MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface)
   // The images of each cut follow each other, by the bits of the planes.
   const int images = 1 << m.planes.count();
   int tag = 0;
-  for (const Entity& e : m.whole.fine.curves) tag = std::max(tag, e.tag);
+  for (const Entity& e : m.whole.model.fine.curves) tag = std::max(tag, e.tag);
   for (std::size_t c = m.whole_curve.size(); c < surface.model.fine.curves.size(); ++c) {
     const auto at = std::ranges::find(surface.cuts, static_cast<int>(c), &SurfaceCut::curve);
     const int face = at != surface.cuts.end() ? at->face : 0;
-    m.whole_curve.push_back(static_cast<int>(m.whole.fine.curves.size()));
+    m.whole_curve.push_back(static_cast<int>(m.whole.model.fine.curves.size()));
     m.curve_planes.push_back(m.face_planes[face]);
     for (int mask = 0; mask < images; ++mask) {
-      m.whole.fine.curves.push_back({++tag, {}});
+      m.whole.model.fine.curves.push_back({++tag, {}});
       if (at == surface.cuts.end()) continue;
       SurfaceCut image = *at;
-      image.curve = static_cast<int>(m.whole.fine.curves.size()) - 1;
+      image.curve = static_cast<int>(m.whole.model.fine.curves.size()) - 1;
       image.face = image_face(m, mask, face);
-      m.cuts.push_back(image);
+      m.whole.cuts.push_back(image);
     }
   }
   const SurfaceDomain& domain = surface.domain;
@@ -234,7 +233,9 @@ MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface)
   for (const SymmetricHalf::Place& place : cut.half.touching)
     for (std::size_t v = 0; v < m.node_planes.size(); ++v)
       if (domain.boundary.points[v] == place.at) m.node_planes[v] |= place.planes;
-  return m;
+  const auto shared = std::make_shared<const MirroredSurface>(std::move(m));
+  surface.mirrored = shared;
+  surface.is_part_of = {shared, &shared->whole};
 }
 
 }  // namespace delquad

@@ -5,10 +5,22 @@
 #include <vector>
 
 #include "delquad/mesher.h"
-#include "geometry/surface/symmetric_half.h"
+#include "features/symmetry/symmetric_half.h"
 #include "patches/prepared.h"
 
 namespace delquad {
+
+/// A surface of which one part is meshed, and the rest is its mirror image.
+struct MirroredSurface {
+  WholeSurface whole;  ///< its curves end with the images of the cuts
+  int first_cut;       ///< the first of these
+  SymmetryPlanes planes;
+  std::vector<MirrorMatch> matches;  ///< of each plane
+  std::vector<int> whole_curve;      ///< of each curve of the part; -1: a section, which is none of the whole
+  std::vector<int> curve_planes, face_planes;  ///< as in SymmetricHalf, with cuts
+  std::vector<int>
+      node_planes;  ///< of the nodes on curves, the bits of the planes where they are their images
+};
 
 /// A symmetric surface, cut at its planes.
 struct CutSurface {
@@ -35,7 +47,8 @@ std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& d
 std::vector<double> most_of_faces(std::vector<double> values, const CutSurface& surface);
 std::vector<double> most_of_curves(const std::vector<double>& values, const CutSurface& surface);
 
-/// `surface` has the domain of the part, its model and its cuts.
-MirroredSurface mirrored_surface(CutSurface cut, const PreparedSurface& surface);
+/// Makes the domain of the part, its model and its cuts that of a symmetric surface; the sizes of the problem
+/// count at all images.
+void add_whole(CutSurface cut, PreparedSurface& surface, PreparedProblem& p);
 
 }  // namespace delquad

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "delquad/fields.h"
-#include "geometry/surface/symmetry_planes.h"
+#include "features/symmetry/symmetry_planes.h"
 
 namespace delquad {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "delquad/mesh.h"
 
@@ -14,5 +15,13 @@ bool has_name(const Entity& region, const std::string& name);
 
 /// What messages call a curve: its first name, or its number.
 std::string curve_title(const Entity& curve);
+
+/// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".
+std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
+                                const std::string& name);
+
+/// The same. Throws InputError, beginning with `where`, for a name that none has.
+std::vector<int> find_entities(const std::vector<Entity>& entities, const std::string& kind,
+                               const std::string& name, const std::string& where);
 
 }  // namespace delquad

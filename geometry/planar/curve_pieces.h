@@ -49,26 +49,17 @@ std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& c
 /// The loops that have each curve of the model.
 std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, const ModelChain& chain);
 
-/// Gives the curves of each division their nodes. Throws InputError for names that no curve has, for too few
-/// edges, and where two divisions disagree.
-void divide_pieces(const PlanarModel& model, std::span<const CurveDivision> divisions,
-                   std::vector<CurvePiece>& pieces);
+/// A place of the plane, moved.
+Vec2 moved(const Motion& motion, Vec2 p);
 
-/// Pairs the pieces of periodic curves, and puts the ends of those that are images where these are. Throws
-/// InputError where they do not match.
-void pair_periodic(const PlanarModel& model, std::span<const PeriodicPair> periodic, ModelChain& chain,
-                   std::vector<CurvePiece>& pieces);
-
-/// Gives pieces with a master its images.
+/// Gives pieces with a master its images. Throws InputError where they are off the piece.
 void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces);
-
-/// Changes numbers of edges by one, where it costs least, until every region has an even number of them.
-/// Throws InputError where what was divided forbids that.
-void make_counts_even(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
-                      bool loops_are_apart, std::vector<CurvePiece>& pieces);
 
 /// Ends of pieces at each node.
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes);
+
+/// The model's curves with their names and numbers.
+std::vector<Entity> curve_entities(const PlanarModel& model);
 
 /// What begins messages on a model: its file.
 std::string message_prefix(const PlanarModel& model);

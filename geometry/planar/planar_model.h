@@ -13,29 +13,6 @@ namespace delquad {
 /// delta at a point, physical length.
 using PointSize = std::function<double(const Vec3&)>;
 
-struct CurveMeshOptions {
-  /// The most boundary edges allowed; InputError with the estimate beyond it, before anything is allocated.
-  double max_edges = 1e8;
-  std::vector<CurveDivision> divisions = {};
-  std::vector<PeriodicPair> periodic = {};
-  MappedSpec mapped = {};
-  SymmetrySpec symmetry = {};
-  /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
-  /// grids must not make more of these.
-  PointSize grid_size = {};
-};
-
-/// Meshes the model's curves at equal integrals of ds/delta. Each compulsory piece gets n = round(integral)
-/// edges, at least one (a closed curve three); the pieces of each component are changed by one, where it
-/// costs least
-/// (|log((n +- 1)/integral)|), so that every component's boundary has an even number of edges (a loop with a
-/// region on both sides is even by itself). Result: points and lines (neither elements nor regions), the
-/// curves named. A node that curves share stands once: those first, in the order of the curves. The curves of
-/// a loop may run either way and stand in any order; ends that are equal up to kJoinTolerance (see
-/// geometry/model_chain.h) are one node. Throws InputError for open loops, zero-length curves, sizes not > 0,
-/// and as make_domain() does.
-Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options = {});
-
 /// Where a node is on its curve, and how far it may slide: over from <= t <= to.
 struct CurvePlace {
   std::shared_ptr<const Curve> curve;  ///< null: the node stays
@@ -105,10 +82,5 @@ struct DomainOptions {
 /// patch's points go round its outline, then round what lies inside, each from its lexicographically smallest
 /// node. Throws InputError as arrange_lines() and build_domain().
 PlanarDomain make_domain(Mesh lines, const DomainOptions& options = {});
-
-/// The two steps at once: curves meshed, then told apart by nesting, regions named as in the model. Throws
-/// InputError as both do, and for loops whose curves touch although their edges do not (see loops_apart.h).
-PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
-                         const CurveMeshOptions& options = {});
 
 }  // namespace delquad

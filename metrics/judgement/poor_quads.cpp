@@ -17,6 +17,7 @@
 #include "base/text.h"
 #include "features/layers/planar_layers.h"
 #include "metrics/judgement/soundness.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "metrics/shape.h"
 
 namespace delquad {

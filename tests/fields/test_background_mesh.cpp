@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/planar/planar_model.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/mesher/layered_model.h"
+#include "tests/features/layers/layered_model.h"
 
 namespace delquad {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "patches/even_counts.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces.h"
 

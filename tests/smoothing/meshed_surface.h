@@ -7,6 +7,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
+#include "curves/mesh_surface_curves.h"
 #include "delquad/extend.h"
 #include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"

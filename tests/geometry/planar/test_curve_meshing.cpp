@@ -6,11 +6,16 @@
 #include <numbers>
 #include <random>
 
+#include "curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
+
+Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options = {}) {
+  return make_domain(model, size, options).boundary;
+}
 
 std::vector<int> edges_per_curve(const Mesh& mesh) {
   std::vector<int> count(mesh.curves.size(), 0);

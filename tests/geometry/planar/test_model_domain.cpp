@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cases/formulas.h"
+#include "curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"
 

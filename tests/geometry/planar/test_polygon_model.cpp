@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
 #include "geometry/planar/sampled_curve.h"
 #include "tests/geometry/planar/models.h"

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "delquad/mesher.h"
+#include "features/periodic/periodic.h"
+#include "features/symmetry/mirrored_surface.h"
+#include "fields/sampled_fields.h"
+#include "fields/surface/surface_size.h"
+#include "geometry/planar/planar_model.h"
+#include "patches/prepared.h"
+
+// What a size is made of.
+//
+// | ingredient                        | planar models of curves        | surfaces                       |
+// |-----------------------------------|--------------------------------|--------------------------------|
+// | base, sources, the largest size   | base_size()                    | base_size()                    |
+// | sizes by name                     | in turn with the curves, twice | imprint_named()                |
+// | the least of mirror images        | least_of_images()              | cut_at_planes()                |
+// | gradation                         | along the background mesh      | last, along the surface        |
+// | curvature                         | none                           | surface_size()                 |
+// | given edges, short curves, spots  | last                           | surface_size()                 |
+//
+// Lines and meshes that are given have base, names and gradation alone.
+
+namespace delquad {
+
+/// The size without what depends on the model; `own` makes the one that stands in for a base. A function is
+/// sampled on `domain`.
+std::shared_ptr<const SizeField> base_size(const SizeSpec& spec, const SampleDomain& domain,
+                                           std::vector<Warning>& warnings,
+                                           const std::function<std::shared_ptr<const SizeField>()>& own);
+/// What stands in for a base that was not given: the largest size. Throws InputError with `why` where there
+/// is none.
+std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why);
+
+PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1);
+
+/// Throws InputError for more quads than problem.max_elements.
+void check_count(double quads, const MeshProblem& problem);
+
+/// Whether planes of symmetry are given or looked for.
+bool is_symmetric(const MeshProblem& problem);
+
+/// A planar model of curves, meshed by its size, which is composed on the way: p.size, p.symmetry and
+/// p.plane.background are those of the domain. `spots`: see Refinement.
+PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
+                          const std::vector<SizeSpot>& spots, PreparedProblem& p);
+
+/// The size on a surface, of `base` and all ingredients that follow it. `divisions`: those of the model.
+/// `cut`: null, or the model is the part.
+WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
+                        std::shared_ptr<const SizeField> base, const std::vector<CurveDivision>& divisions,
+                        const std::vector<SizeSpot>& spots, const CutSurface* cut);
+
+/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have that of
+/// their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they are all.
+double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
+                      const CutSurface* part = nullptr);
+
+}  // namespace delquad

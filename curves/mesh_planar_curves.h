@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+struct CurveMeshOptions {
+  /// The most boundary edges allowed; InputError with the estimate beyond it, before anything is allocated.
+  double max_edges = 1e8;
+  std::vector<CurveDivision> divisions = {};
+  std::vector<PeriodicPair> periodic = {};
+  MappedSpec mapped = {};
+  SymmetrySpec symmetry = {};
+  /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
+  /// grids must not make more of these.
+  PointSize grid_size = {};
+};
+
+/// Meshes the model's curves at equal integrals of ds/delta, and tells what they bound, regions named as in
+/// the model. Each compulsory piece gets n = round(integral) edges, at least one (a closed curve three);
+/// pieces are changed by one, where it costs least (|log((n +- 1)/integral)|), so that every region has an
+/// even number of edges around it. A node that curves share stands once: those first, in the order of the
+/// curves. The curves of a loop may run either way and stand in any order; ends that are equal up to
+/// kJoinTolerance (see model_chain.h) are one node. Throws InputError for open loops, zero-length curves,
+/// sizes not > 0, as build_domain(), and for loops whose curves touch although their edges do not (see
+/// loops_apart.h).
+PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
+                         const CurveMeshOptions& options = {});
+
+}  // namespace delquad

@@ -1,0 +1,221 @@
+#include "curves/mesh_surface_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "base/activity.h"
+#include "curves/patch_boundaries.h"
+#include "delquad/error.h"
+#include "features/divisions/divisions.h"
+#include "features/periodic/periodic.h"
+#include "patches/corner_caps.h"
+#include "patches/narrow_seeds.h"
+#include "patches/surface_curves.h"
+#include "patches/tip_caps.h"
+
+namespace delquad {
+
+namespace {
+
+/// So many times curves are refined to keep boundary polygons from crossing.
+constexpr int kRefinements = 8;
+/// And no more once all curves have so many edges, which takes a second for each time.
+constexpr long long kMostEdges = 1'000'000;
+/// So many times curves that keep boundaries from enclosing quads leave agreement.
+constexpr int kMostKept = 10;
+/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
+constexpr long long kMostSteps = 200'000'000;
+
+/// The curves that keep boundaries from enclosing quads do not take part in agreement, then get more edges,
+/// until there are none.
+PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
+                                       const AcrossView& across, CurveDemands& wanted,
+                                       const SurfaceSize& size, const MatchingSolver& solver,
+                                       const MappedSpec& spec, double price, Budget& steps,
+                                       std::vector<MappedFace>& mapped) {
+  Agreement agreement{price};
+  for (int attempt = 0, kept = 0;;) {
+    PatchBoundaries placed =
+        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, steps, mapped);
+    const std::size_t n_kept = agreement.kept.size();
+    if (price > 0 && kept++ < kMostKept)
+      for (const std::vector<int>& at_fault : placed.at_fault)
+        agreement.kept.insert(at_fault.begin(), at_fault.end());
+    if (agreement.kept.size() > n_kept) continue;
+    const FlatPatch* crossing = nullptr;
+    bool can_change = false;
+    for (size_t p = 0; p < curves.maps.size(); ++p) {
+      if (!placed.at_fault[p].empty()) crossing = &curves.maps[p];
+      for (const int c : placed.at_fault[p]) wanted.demands[c].minimum = 2 * placed.counts[c];
+      can_change |=
+          std::ranges::any_of(placed.at_fault[p], [&](int c) { return wanted.demands[c].exact == 0; });
+    }
+    if (crossing == nullptr) return placed;
+    const long long edges = std::accumulate(placed.counts.begin(), placed.counts.end(), 0LL);
+    if (attempt++ == kRefinements || !can_change || (attempt > 1 && edges > kMostEdges))
+      throw FaceError(crossing->face, fmt::format("{}: its boundary crosses itself in the parameter plane {}",
+                                                  face_name(model.fine, *crossing),
+                                                  can_change ? "however fine its curves are"
+                                                             : "with the edges that its curves are given"));
+  }
+}
+
+Warning warn_of_spent_steps() {
+  return {"steps that were stopped before their end", 0,
+          "the numbers and places of nodes on curves were compared no longer, as that would take too long: "
+          "more vertices than need be may be irregular; fewer and wider faces, or a larger size, help"};
+}
+
+/// Nodes of a patch where two curves meet that have it on one side only.
+std::set<int> corners_between_curves(int p, const std::vector<FaceCorner>& corners,
+                                     const std::vector<CurveDemand>& demands, const SurfaceNodes& nodes) {
+  const auto is_seam = [&](int chain) { return std::ranges::count(demands[chain].patches, p) > 1; };
+  std::set<int> found;
+  for (const FaceCorner& c : corners) {
+    if (c.patch != p || is_seam(c.before) || is_seam(c.after)) continue;
+    const auto& on_curve = nodes.on_curve[c.after];
+    found.insert((c.after_ends ? on_curve.back() : on_curve.front()).node);
+  }
+  return found;
+}
+
+/// Takes pointed tips and sharp corners out of patches, and the nodes that this drops from their curves.
+class Capping {
+ public:
+  Capping(const SurfaceModel& model, const SurfaceCurves& curves, const std::vector<CurveDemand>& demands,
+          SurfaceDomain& domain)
+      : model_(model), curves_(curves), demands_(demands), domain_(domain) {}
+
+  /// Caps that leave no area, as where two boundaries are nearer than an edge, are not made, nor those that
+  /// take nodes of periodic curves away.
+  void cap(int p) {
+    SurfacePatch& patch = domain_.patches[p];
+    const PatchBoundary before = patch.boundary;
+    const std::size_t n_points = domain_.nodes.points.size();
+    for (const bool tips : {true, false}) {
+      const std::vector<BoundaryCap> caps = find(p, patch, tips);
+      if (!caps.empty() && (drop_paired(caps) || !meshable(patch.boundary))) {
+        patch.boundary = before;
+        domain_.nodes.points.resize(n_points);
+        continue;
+      }
+      for (const BoundaryCap& cap : caps) accept(p, cap);
+      return;
+    }
+  }
+
+ private:
+  std::vector<BoundaryCap> find(int p, SurfacePatch& patch, bool tips) {
+    SurfaceNodes& nodes = domain_.nodes;
+    const auto add = [&](const Vec3& x) {
+      nodes.points.push_back(x);
+      return static_cast<int>(nodes.points.size()) - 1;
+    };
+    int hint = -1;
+    std::vector<BoundaryCap> caps;
+    if (tips) caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model_, u, hint)); });
+    const std::set<int> corners = corners_between_curves(p, curves_.corners, demands_, nodes);
+    const CapNodes cap_nodes{[&](int node) { return corners.contains(node); },
+                             [&](int node) { return nodes.points[node]; },
+                             [&](const Vec3& x, Vec2 u) {
+                               return model_.projector ? model_.projector->to_face(patch.map.face, x)
+                                                       : lift(patch, model_, u, hint);
+                             },
+                             [&](Vec2 u) { return fine_normal(patch, model_.fine, u, hint); }, add};
+    for (BoundaryCap& cap : cap_corners(patch.boundary, cap_nodes)) caps.push_back(std::move(cap));
+    return caps;
+  }
+
+  /// Whether caps take nodes away that are images or have them.
+  bool drop_paired(const std::vector<BoundaryCap>& caps) const {
+    const auto is_dropped = [&](const CurveNode& n) {
+      return std::ranges::any_of(caps, [&](const BoundaryCap& cap) {
+        return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
+      });
+    };
+    return std::ranges::any_of(curves_.images, [&](const ChainPair& pair) {
+      return std::ranges::any_of(domain_.nodes.on_curve[pair.chain], is_dropped) ||
+             std::ranges::any_of(domain_.nodes.on_curve[pair.master], is_dropped);
+    });
+  }
+
+  void accept(int p, const BoundaryCap& cap) {
+    for (auto& on_curve : domain_.nodes.on_curve)
+      std::erase_if(on_curve, [&](const CurveNode& n) {
+        return std::ranges::find(cap.dropped, n.node) != cap.dropped.end();
+      });
+    domain_.caps.push_back({p, cap});
+  }
+
+  const SurfaceModel& model_;
+  const SurfaceCurves& curves_;
+  const std::vector<CurveDemand>& demands_;
+  SurfaceDomain& domain_;
+};
+
+}  // namespace
+
+SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
+                                  const MatchingSolver& solver, const SizeField* asked,
+                                  const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
+                                  const MappedSpec& mapped, double agreement) {
+  const Mesh& fine = model.fine;
+  SurfaceCurves curves = find_curves(model, std::move(flattening), size);
+  ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
+  curves.images = std::move(pairs.pairs);
+  const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
+  CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
+  divide_curves(fine, curves, divisions, wanted);
+  SurfaceDomain domain;
+  domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
+  std::vector<MappedFace> grids;
+  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  Budget steps(kMostSteps);
+  PatchBoundaries placed =
+      place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, steps, grids);
+  domain.steps = kMostSteps - steps.left();
+  if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
+  domain.mapped = grid_patches(grids, curves, placed.counts);
+  check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
+  for (const int p : placed.odd_patches)
+    domain.warnings.push_back(
+        {"faces with an odd boundary that no curve can make even", 0,
+         face_name(fine, curves.maps[p]) + " has an odd boundary that no curve can make even"});
+
+  std::vector<std::shared_ptr<BackgroundMesh>> backgrounds(curves.maps.size());
+  for_each_patch(fine, curves.maps,
+                 [&](size_t p) { backgrounds[p] = std::make_shared<BackgroundMesh>(curves.maps[p].flat); });
+  domain.nodes = std::move(placed.nodes);
+  domain.sharp_corners =
+      find_sharp_corners(curves.corners, curves.chains, curves.maps, domain.nodes, kBadEta);
+  Capping capping(model, curves, wanted.demands, domain);
+  for (size_t p = 0; p < curves.maps.size(); ++p) {
+    domain.patches.push_back({std::move(curves.maps[p]), std::move(curves.outlines[p]),
+                              std::move(placed.boundaries[p]), std::move(backgrounds[p]),
+                              std::move(curves.tube_sizes[p])});
+    SurfacePatch& patch = domain.patches[p];
+    if (std::ranges::find(grids, static_cast<int>(p), &MappedFace::face) != grids.end()) continue;
+    const DoingFace face(fine.regions[patch.map.face].tag);
+    try {
+      capping.cap(static_cast<int>(p));
+      seed_narrow_places(patch.boundary);
+    } catch (const InputError& error) {
+      throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(fine, patch.map), error.what()));
+    }
+  }
+  if (!divisions.empty()) warn_of_lost_nodes(fine, curves, wanted, divisions, domain);
+  domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
+  add_pairs_of_chains(curves, pairs.faces, domain);
+  domain.chains = std::move(curves.chains);
+  for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
+  for (const ChainPair& pair : curves.images)
+    domain.chain_stays[pair.chain] = domain.chain_stays[pair.master] = 1;
+  domain.cut_face = std::move(curves.cut_face);
+  return domain;
+}
+
+}  // namespace delquad

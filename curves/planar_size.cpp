@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "curves/compose_size.h"
+#include "curves/mesh_planar_curves.h"
+#include "delquad/error.h"
+#include "features/divisions/divisions.h"
+#include "features/seed/perturb.h"
+#include "features/sizes/fine_spots.h"
+#include "features/sizes/named_parts.h"
+#include "features/sizes/size_warnings.h"
+#include "features/symmetry/planar_symmetry.h"
+#include "features/symmetry/symmetric_size.h"
+#include "fields/fields.h"
+
+namespace delquad {
+namespace {
+
+/// Up to this many boundary edges, the domain is cheap enough to be built before the number of quads is
+/// known.
+constexpr double kCheapEdges = 2e5;
+/// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
+constexpr double kCoarseEdges = 4e3;
+
+/// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
+double rough_edges(const PlanarModel& model, const SizeField& size) {
+  constexpr int kChords = 200;  // a curve
+  double edges = 0;
+  int hint = -1;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k < kChords; ++k) {
+      const Vec2 a = curve.shape->point(double(k) / kChords), b = curve.shape->point(double(k + 1) / kChords);
+      const Vec2 m = 0.5 * (a + b);
+      edges += norm(b - a) / size.at({m.x, m.y, 0}, hint);
+    }
+  return edges;
+}
+
+/// Refuses a hopeless size while it is still cheap: estimates the quads on a domain with coarser boundaries.
+void check_count_early(const MeshProblem& problem, const PlanarModel& model,
+                       const std::shared_ptr<const SizeField>& size) {
+  const double edges = rough_edges(model, *size);
+  if (!(edges > kCheapEdges)) return;
+  std::optional<PlanarDomain> coarse;
+  try {
+    coarse = make_domain(model, as_function(size, edges / kCoarseEdges));
+  } catch (const InputError&) {
+    // The boundary makes sense only at its full resolution, where the same check is made again.
+  }
+  // Each boundary edge has a quad, which has two at most, but for corners.
+  check_count(coarse ? expected_quads(BackgroundMesh(coarse->patches), *size) : edges / 2, problem);
+}
+
+Box<Vec3> box_of(const PlanarModel& model) {
+  constexpr int kPoints = 64;  // a curve
+  std::vector<Vec3> points;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= kPoints; ++k) {
+      const Vec2 p = curve.shape->point(double(k) / kPoints);
+      points.push_back({p.x, p.y, 0});
+    }
+  return Box<Vec3>::around(points);
+}
+
+double diagonal_of(const PlanarModel& model) {
+  const Box<Vec3> box = box_of(model);
+  return norm(box.high - box.low);
+}
+
+/// Places where the mesh was not sound, before the model was turned.
+std::vector<FineSpot> fine_spots(const MeshProblem& problem, const std::vector<SizeSpot>& spots) {
+  std::vector<FineSpot> fine;
+  for (const SizeSpot& spot : spots) {
+    const Vec2 turned{spot.at.x, spot.at.y};
+    const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
+    fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
+  }
+  return fine;
+}
+
+/// Those that are given or found.
+std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
+  if (!is_symmetric(problem)) return {};
+  const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);
+  return symmetry ? symmetry->planes() : std::vector<SymmetryPlane>{};
+}
+
+/// A model whose curves are meshed as often as a decision on their size depends on how they were.
+class SizedModel {
+ public:
+  SizedModel(const MeshProblem& problem, const PlanarModel& model, PreparedProblem& p)
+      : problem_(problem), model_(model), p_(p) {}
+
+  /// Meshes the curves by another size. `grid_size`: of the sides of grids, where that is another one.
+  void mesh_by(std::shared_ptr<const SizeField> size,
+               const std::shared_ptr<const SizeField>& grid_size = nullptr) {
+    p_.size.field = std::move(size);
+    check_count_early(problem_, model_, p_.size.field);
+    CurveMeshOptions options;
+    if (grid_size) options.grid_size = as_function(grid_size);
+    options.max_edges = static_cast<double>(problem_.max_elements);
+    options.divisions = problem_.divisions;
+    options.periodic = problem_.periodic;
+    options.mapped = problem_.mapped;
+    options.symmetry = problem_.symmetry;
+    const auto& field = p_.size.field;
+    domain = make_domain(
+        model_, as_function(problem_.seed == 0 ? field : jittered(field, problem_.seed, diagonal_of(model_))),
+        options);
+  }
+
+  PlanarDomain domain;
+
+ private:
+  const MeshProblem& problem_;
+  const PlanarModel& model_;
+  PreparedProblem& p_;
+};
+
+}  // namespace
+
+PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
+                          const std::vector<SizeSpot>& spots, PreparedProblem& p) {
+  const SizeSpec& spec = problem.size;
+  PreparedSize& size = p.size;
+  SizedModel sized(problem, model, p);
+  const PlanarDomain& domain = sized.domain;
+  size.field = base_size(spec, {box_of(model)}, p.warnings, [&] {
+    return largest_size(
+        spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
+  });
+  p.symmetry = planes_of(problem, model);
+  const auto with_images = [&](std::shared_ptr<const SizeField> field) {
+    return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));
+  };
+  const std::shared_ptr<const SizeField> base = with_images(size.field);
+  sized.mesh_by(base);
+  // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
+  for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
+    const NamedParts parts(model, domain);
+    if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
+    sized.mesh_by(with_images(finer_near(base, parts.spots(spec.named))));
+  }
+  // Sizes grow along the background mesh of the curves' edges.
+  if (spec.gradation > 0) {
+    p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+    sized.mesh_by(limit_gradation(size.field, p.plane.background, spec.gradation));
+  }
+  // Sizes beside divided curves are the lengths of their edges.
+  if (!problem.divisions.empty()) {
+    size.asked = size.field;
+    size.adapted_to.push_back("given edges");
+    sized.mesh_by(as_divided(size.field, model, domain, problem.divisions));
+  }
+  // Edges are short where curves between two of their nodes are.
+  const std::vector<FineSpot> fine = short_edges(domain, *size.field);
+  if (!fine.empty()) size.adapted_to.push_back("short curves");
+  if (!spots.empty()) size.adapted_to.push_back("sound quads");
+  if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
+    if (!size.asked) size.asked = size.field;
+    std::vector<FineSpot> all = fine_spots(problem, spots);
+    const auto grid_size = finer_near(size.field, all);
+    all.insert(all.begin(), fine.begin(), fine.end());
+    sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);
+  }
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  return std::move(sized.domain);
+}
+
+}  // namespace delquad

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/planar/curve_pieces.h"
+#include "patches/surface_curves.h"
+#include "patches/surface_domain.h"
+
+namespace delquad {
+
+/// Gives the curves of each division their nodes. Throws InputError for names that no curve has, for too few
+/// edges, and for curves that are divided twice.
+void divide_pieces(const PlanarModel& model, const std::vector<CurveDivision>& divisions,
+                   std::vector<CurvePiece>& pieces);
+
+/// Of each piece of a curve the places of its nodes, as CurveNode::s, ascending, both ends included; empty
+/// where no division names its curve. Throws InputError as divide_pieces().
+std::vector<std::vector<double>> divide_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                               const std::vector<CurveDivision>& divisions);
+
+/// Asks for these numbers of edges, and for as many of the curves that face a divided one. Throws InputError
+/// as divide_chains(), and for curves that get the nodes of others.
+void divide_curves(const Mesh& fine, const SurfaceCurves& curves, const std::vector<CurveDivision>& divisions,
+                   CurveDemands& wanted);
+
+/// Refuses divisions that leave a patch with an odd boundary.
+void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
+                          const std::vector<int>& odd_patches, const std::vector<CurveDivision>& divisions);
+
+/// Tells of divided curves that lost nodes to caps: those near the tip of a cone.
+void warn_of_lost_nodes(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
+                        const std::vector<CurveDivision>& divisions, SurfaceDomain& domain);
+
+/// The size, and near divided curves the lengths of their edges, larger ones too. `domain`: of the model, as
+/// it is divided.
+std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const PlanarModel& model,
+                                            const PlanarDomain& domain,
+                                            const std::vector<CurveDivision>& divisions);
+std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const SurfaceModel& model,
+                                            const std::vector<CurveDivision>& divisions);
+
+}  // namespace delquad

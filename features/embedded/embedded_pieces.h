@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/planar/curve_pieces.h"
+#include "geometry/planar/curve_span.h"
+
+namespace delquad {
+
+/// Whether one of these curves of the model is a crack.
+bool is_crack(const PlanarModel& model, const std::vector<int>& curves);
+
+/// A point that stands alone in a region becomes a node because an edge leaves it. The ends of these edges,
+/// one for each of `points`: about as long as `sizes`, shorter where curves or other points are near, and
+/// away from what is next. Throws InputError, naming the point, where there is no room for a thousandth of
+/// its size.
+std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curves,
+                                              const std::vector<Vec2>& points,
+                                              const std::vector<double>& sizes,
+                                              const std::vector<std::string>& labels);
+
+/// Points that are on no curve get two edges, pieces without curves. Throws InputError as whisker_ends().
+void add_whiskers(const PlanarModel& model, const PointSize& size, ModelChain& chain,
+                  std::vector<CurvePiece>& pieces);
+
+/// Points with such edges lie in a region, and curves that no loop has on no boundary; throws InputError
+/// where they do not. `lines`: of the pieces; curves of the model from `first_axis` on may lie anywhere.
+void check_embedded(const PlanarModel& model, const ModelChain& chain, const std::vector<CurvePiece>& pieces,
+                    int first_axis, const Mesh& lines, const Arrangement& arrangement,
+                    const FaceRegions& regions);
+
+}  // namespace delquad

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/warning.h"
+#include "delquad/fields.h"
+#include "geometry/planar/planar_model.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// Makes model.loose part of the model's triangulation, which is split along them.
+///
+/// Points go to the nearest place of the surface. Between two of them a line runs where the plane through
+/// both and the mean of their normals cuts the surface, the shortest way: decided by which side of that plane
+/// each vertex lies on. It becomes embedded curves, one in each face that it runs through, which share nodes
+/// with all that they cross. Single points on no curve get a nameless curve of about the size to either side,
+/// away from what is near (as whisker_ends() in the plane), so that any mesh has them as nodes.
+///
+/// Throws InputError for lines that were asked for and that are further than a thousandth of the model's
+/// diagonal from the surface, leave it or run along another curve, have length zero, or points nearer to each
+/// other than a thousandth of the size; and for points with no room for a curve. The model's warnings name
+/// lines of its file that are left out.
+void imprint(SurfaceModel& model, const PointSize& size);
+
+/// Imprints the loose lines and points of a model, and returns the size with what is asked of it by names,
+/// theirs among them. Throws InputError as imprint() does, and for a name that nothing has.
+std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& named,
+                                               std::shared_ptr<const SizeField> size, SurfaceModel& model,
+                                               std::vector<Warning>& warnings);
+
+}  // namespace delquad

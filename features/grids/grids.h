@@ -1,0 +1,128 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/matching/side_counts.h"
+#include "delquad/model.h"
+#include "geometry/planar/curve_pieces.h"
+#include "geometry/planar/planar_model.h"
+#include "patches/prepared.h"
+#include "patches/surface_curves.h"
+
+/// Faces that become grids: found, given numbers of edges that fit, filled.
+namespace delquad {
+
+/// A part of a face's outline between two nodes that any mesh has, the face on its left.
+struct OutlinePart {
+  int curve;     ///< a piece of one, whose number of edges is to be chosen
+  int node;      ///< at which it begins
+  Vec3 at;       ///< that node
+  double angle;  ///< inside of the face, there; radians
+  double want;   ///< edges
+};
+using FaceOutline = std::vector<std::vector<OutlinePart>>;  ///< loops, the outer one first
+
+/// A face that is to become a grid of four sides, three grids around a middle of three, or a ring.
+struct MappedFace {
+  int face;
+  bool is_asked;  ///< by name, and not found
+  std::vector<std::vector<int>>
+      sides;                        ///< four or three, of curves, one after the other; of a ring its loops
+  std::vector<std::size_t> begins;  ///< where in the outline they begin, ascending; of a ring: none
+};
+
+/// Tells which faces become grids, and where these have their corners: at the points that are told; else a
+/// face with just three nodes that turn by more than 30 degrees, or three at all, has these, any other the
+/// four nodes at which it turns most as a rectangle does. Two loops that turn nowhere are a ring. What is
+/// asked for by `automatic` has four corners within 35 degrees of right angles, all else within 30 degrees of
+/// straight, and opposite sides that want numbers of edges within a factor of two.
+class GridFinder {
+ public:
+  using NamedPlaces = std::vector<std::pair<std::string, Vec3>>;
+  /// Throws InputError for names that no region has. The arguments outlive this object.
+  GridFinder(const MappedSpec& spec, const std::vector<Entity>& regions, const NamedPlaces& points);
+
+  /// Nothing where the face stays free. Throws InputError where a named one cannot be a grid.
+  std::optional<MappedFace> find(int face, const Entity& region, const FaceOutline& outline);
+  /// Throws InputError for corners that lie on no outline.
+  void finish() const;
+
+ private:
+  struct Corners {
+    const GridCorners* asked;
+    std::vector<Vec3> at;
+    bool is_used = false;
+    std::string missing;  ///< why they are no nodes of an outline
+  };
+  std::vector<std::size_t> told_corners(const Entity& region, const FaceOutline& outline);
+
+  const MappedSpec& spec_;
+  std::vector<Corners> corners_;
+};
+
+/// Chooses numbers of edges, see balance_counts(). `around`: of each face its curves, each as often as it
+/// lies beside; `leader`: of each curve the one whose number it has. Faces that are not asked for become free
+/// where the others cannot agree with them.
+std::vector<UnbalancedFace> balance_grids(std::vector<CountedCurve>& curves,
+                                          const std::vector<std::vector<int>>& around,
+                                          const std::vector<int>& leader, std::vector<MappedFace>& mapped);
+
+/// Why it cannot be balanced. `mapped`: null of a free face. `curves`: with the numbers of edges that they
+/// have, `names` what they are called.
+std::string why_unbalanced(const UnbalancedFace& bad, const std::string& label, const MappedFace* mapped,
+                           const std::vector<CountedCurve>& curves, const std::vector<std::string>& names);
+
+/// A face of a planar domain that is to become a grid.
+struct MappedPlanarFace : MappedFace {
+  std::vector<Vec2> nodes = {};  ///< at which the parts of its outline begin, loop by loop
+};
+
+/// The faces to map, see GridFinder. Throws InputError as it does.
+std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const MappedSpec& spec,
+                                                const Mesh& lines, const Arrangement& arrangement,
+                                                const FaceRegions& regions, const ModelChain& chain,
+                                                const std::vector<CurvePiece>& pieces);
+
+/// Numbers of edges so that mapped faces have what they need, and every other region an even one around it.
+/// `grid_size`: see CurveMeshOptions. Faces that are not asked for may drop out. Throws InputError where what
+/// was divided forbids that.
+void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
+                    const Arrangement& arrangement, const FaceRegions& regions, const PointSize& grid_size,
+                    std::vector<CurvePiece>& pieces);
+
+/// The patches that these faces are, with the points of their boundaries at which sides begin (a ring: none).
+/// `points`: those of the domain's boundary.
+std::vector<MappedPatch> mapped_patches(const std::vector<MappedPlanarFace>& mapped,
+                                        const std::vector<CurvePiece>& pieces,
+                                        const std::vector<PatchBoundary>& patches,
+                                        const std::vector<Vec3>& points);
+
+/// The patches (MappedFace::face) that become grids of their faces, see GridFinder. A face that was cut open
+/// into one patch may be a tube, with the cut on two opposite sides. Throws InputError as GridFinder does,
+/// and for a named face of several patches.
+std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
+                                           const SurfaceCurves& curves, const CurveDemands& wanted);
+
+/// Numbers of edges of chains so that mapped patches have what they need, and the others an even number
+/// around; those for which that cannot be are `odd_patches`. Patches that are not asked for may drop out of
+/// `mapped`. Throws InputError where a named face cannot be a grid.
+std::vector<int> grid_counts(const MappedSpec& spec, const Mesh& fine, const SurfaceCurves& curves,
+                             const CurveDemands& wanted, std::vector<MappedFace>& mapped,
+                             std::vector<int>& odd_patches);
+
+/// The same by the places where sides begin on the patches' boundaries.
+std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
+                                      const std::vector<int>& counts);
+
+/// Gives patches that are to be grids theirs. In the plane, and in the parameter plane of a surface, nodes
+/// come from transfinite interpolation; on a surface also from that in space, each in the nearest point of
+/// the patch, and the one whose quads are better in space in the mean counts. Where it would fold, and of
+/// three sides always, it is smoothed. Patches that were not asked for stay free where that does not pay. On
+/// a planar domain the nodes on the sides of those that were stay from then on. Throws InputError, with the
+/// place, where a named one would fold.
+void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, PreparedProblem& p);
+
+}  // namespace delquad

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "features/periodic/periodic.h"
+
+namespace delquad {
+
+/// To each face of `from` its image among those of `to`. Throws InputError where there is none, and where the
+/// two are apart: by more than 1e-6 of the model's diagonal, and on triangulations by more than chords of one
+/// surface may be.
+std::vector<FacePair> pair_faces(const SurfaceModel& model, const std::vector<int>& from,
+                                 const std::vector<int>& to, const PeriodicPair& pair);
+
+/// Images may lie so far from what they are images of, in diagonals of the model.
+inline constexpr double kPeriodicTolerance = 1e-6;
+
+/// Two points of a line, the lower first.
+inline std::array<int, 2> side_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// The lines of two sides, as indices into fine.lines.
+struct PairedLines {
+  std::vector<int> from, to;
+  PeriodicPair of;  ///< who asked for it
+};
+/// How many pairs there are: first those of curves, then those of faces.
+std::size_t n_pairs(const PeriodicSides& sides);
+/// Of the n-th pair; of faces the lines around and in them. Curves from `n_curves` on are cuts, and do not
+/// count.
+PairedLines paired_lines(const Mesh& fine, const PeriodicSides& sides, std::size_t pair,
+                         std::size_t n_curves);
+
+/// Adds the nodes of a piece of a curve, each beside that of which it is the image, to those of both curves.
+void add_node_pairs(int curve, int master, const Motion& motion, const std::vector<int>& images,
+                    const std::vector<int>& masters, std::vector<PeriodicNodes>& all);
+
+}  // namespace delquad

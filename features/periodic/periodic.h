@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include "base/warning.h"
+#include "geometry/planar/curve_pieces.h"
+#include "geometry/surface/flatten.h"
+#include "patches/surface_curves.h"
+#include "patches/surface_domain.h"
+
+/// Sides that are images of others, with the same nodes: what is called for it, in this order.
+namespace delquad {
+
+/// Pairs the pieces of periodic curves, and puts the ends of those that are images where these are. Throws
+/// InputError where they do not match.
+void pair_pieces(const PlanarModel& model, const std::vector<PeriodicPair>& periodic, ModelChain& chain,
+                 std::vector<CurvePiece>& pieces);
+
+/// Adds the nodes of these pairs to Mesh::periodic. `mesh` has the ends of pieces first, `n_ends`, then their
+/// nodes between, piece by piece.
+void add_pairs_of_pieces(const std::vector<CurvePiece>& pieces, std::size_t n_ends, Mesh& mesh);
+
+/// A face that gets the mesh of another, moved.
+struct FacePair {
+  int face, master;  ///< indices into SurfaceModel::fine.regions
+  bool is_reversed;  ///< the moved triangles of the master look away from the face
+  PeriodicPair of;   ///< who asked for it, and the motion that takes the master there
+};
+
+/// In what a surface model is periodic.
+struct PeriodicSides {
+  std::vector<PeriodicPair> curves;
+  std::vector<FacePair> faces;
+  bool empty() const { return curves.empty() && faces.empty(); }
+};
+
+/// What periodic sides of a surface model are: faces where both names are those of faces, else curves. Throws
+/// InputError for names that nothing has, for faces that do not match and for those of two pairs.
+PeriodicSides find_periodic_sides(const SurfaceModel& model, const std::vector<PeriodicPair>& asked,
+                                  std::vector<Warning>& warnings);
+
+/// Flattens all faces but those that are images of others, and sees to it that images of corners are corners,
+/// and that closed curves of pairs have one. Throws InputError where the image of a corner is off the other
+/// side.
+Flattening flatten_periodic(SurfaceModel& model, const PeriodicSides& periodic);
+
+/// The pieces of the curves around and in a face, beside those of its master.
+struct ImageFace {
+  FacePair pair;
+  std::vector<ChainPair> chains;  ///< a piece may be its own image
+};
+
+/// What is an image on the curves.
+struct ChainPairs {
+  std::vector<ChainPair> pairs;  ///< each image once, behind the pair that its master is the image of
+  std::vector<ImageFace> faces;
+};
+
+/// The pairs of pieces that periodic sides consist of, of a model that was flattened so. `cut_face`: of each
+/// curve, -1 where it is no cut. Throws InputError for names that no curve has, for pieces without an image,
+/// and where images of images do not agree.
+ChainPairs pair_chains(const SurfaceModel& model, const std::vector<CurveChain>& chains,
+                       const std::vector<int>& cut_face, const PeriodicSides& periodic);
+
+/// Puts the nodes of images where those of their masters are; both have as many edges.
+void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
+                      const std::vector<SizeIntegral>& integrals, CurvePlaces& places);
+
+/// Puts nodes where the images are. Throws InputError where that is off the curve.
+void place_images(const SurfaceModel& model, const SurfaceCurves& curves, SurfaceNodes& nodes);
+
+/// Adds the pairs of nodes by curve and by face, those inside of faces left out; images of faces get the
+/// sharp corners of their masters.
+void add_pairs_of_chains(const SurfaceCurves& curves, const std::vector<ImageFace>& faces,
+                         SurfaceDomain& domain);
+
+/// Gives the faces of `mesh.periodic_faces` the elements of their masters, moved, which must be there, and
+/// adds the nodes inside to the pairs. Faces that are `left_out` (by region) lose their pair.
+void add_face_images(const std::vector<char>& left_out, Mesh& mesh);
+
+}  // namespace delquad

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "features/symmetry/symmetry_planes.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad {
+
+/// A symmetric model's places have their images on it to this part of the model's diagonal; on a
+/// triangulation by so much besides as its triangles may lie off the surface that they stand for. On faces
+/// that are narrow, and on their curves, it is this part of the width.
+inline constexpr double kSymmetric = 1e-4, kSymmetricOfWidth = 0.05;
+
+/// What of a model is the image of what, at one plane.
+struct MirrorMatch {
+  std::string failure;       ///< why the model is not symmetric; empty: it is
+  std::vector<int> face;     ///< of each face, its image
+  std::vector<char> turned;  ///< of each face: its image looks to the other side
+  /// Of each curve, those that its image lies on, ascending. None of those that need no image: whiskers, and
+  /// nameless seams, which have the same face on both sides.
+  std::vector<std::vector<int>> curves;
+  std::vector<char> is_loose_seam;  ///< of each curve: such a seam, without an image
+  bool by_embedded = false;         ///< all but embedded curves and single points is symmetric
+};
+
+/// Compares a model with its images.
+class MirrorMatcher {
+ public:
+  explicit MirrorMatcher(const SurfaceModel& model);
+  ~MirrorMatcher();
+
+  MirrorMatch match(const SymmetryPlanes& planes, int plane) const;
+  /// Whether a few places have images, ten times as far off as they may be in the end.
+  bool may_be(const SymmetryPlanes& planes, int plane) const;
+  /// The plane that fits the model best, near one that nearly does.
+  SymmetryPlane adjusted(const SymmetryPlane& plane) const;
+  /// The mean distance of images from the model, over some places.
+  double misfit(const SymmetryPlane& plane) const;
+
+ private:
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
+};
+
+struct FoundPlanes {
+  std::vector<SymmetryPlane> planes;  ///< perpendicular to each other
+  std::string spoiled;  ///< a plane that would be one more, and the embedded item without an image; or empty
+};
+
+/// The planes at which a model is symmetric; none where none are found. They go
+/// through the middle of the model or the centroid of its surface. Of those that are equally good, the ones
+/// that are perpendicular to x, y and z come first.
+FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher);
+
+}  // namespace delquad

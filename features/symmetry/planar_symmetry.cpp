@@ -1,0 +1,475 @@
+#include "features/symmetry/planar_symmetry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "delquad/error.h"
+#include "features/divisions/division_places.h"
+#include "geometry/planar/curve_span.h"
+#include "geometry/planar/loops_apart.h"
+
+namespace delquad {
+namespace {
+
+/// Curves are seen by so many points where symmetries are looked for.
+constexpr int kSamplesOfCurve = 32, kProbesOfCurve = 5;
+/// Normals of planes may be so far from perpendicular; radians.
+constexpr double kPerpendicular = 1e-9;
+
+double extent_of(const PlanarModel& model) {
+  std::vector<Vec2> points;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= kSamplesOfCurve; ++k)
+      points.push_back(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve));
+  return norm(Box<Vec2>::around(std::span(points)).size());
+}
+
+/// The parameters of the corners of a curve, and of its ends.
+std::vector<double> corner_parameters(const Curve& shape) {
+  std::vector<double> corners{0};
+  const std::vector<double> inside = shape.fixed_parameters();
+  corners.insert(corners.end(), inside.begin(), inside.end());
+  corners.push_back(1);
+  return corners;
+}
+
+/// Curves as spans between their corners, to ask how near they are.
+class NearCurves {
+ public:
+  explicit NearCurves(const PlanarModel& model) {
+    for (const ModelCurve& curve : model.curves) {
+      const std::vector<double> corners = corner_parameters(*curve.shape);
+      for (std::size_t c = 1; c < corners.size(); ++c)
+        spans_.emplace_back(*curve.shape, corners[c - 1], corners[c]);
+    }
+  }
+  bool has(Vec2 x, double tolerance) const {
+    return std::ranges::any_of(spans_, [&](const CurveSpan& span) {
+      return std::sqrt(span.box().distance2(x)) <= tolerance && span.nearest(x).distance <= tolerance;
+    });
+  }
+
+ private:
+  std::vector<CurveSpan> spans_;
+};
+
+/// The centroid of the curves by their lengths.
+Vec2 centroid(const PlanarModel& model) {
+  Vec2 sum;
+  double length = 0;
+  for (const ModelCurve& curve : model.curves) {
+    const std::vector<double> corners = corner_parameters(*curve.shape);
+    Vec2 last = curve.shape->point(0);
+    for (std::size_t c = 1; c < corners.size(); ++c)
+      for (int k = 1; k <= kSamplesOfCurve; ++k) {
+        const double part = static_cast<double>(k) / kSamplesOfCurve;
+        const Vec2 next = curve.shape->point((1 - part) * corners[c - 1] + part * corners[c]);
+        const double chord = norm(next - last);
+        sum = sum + (chord / 2) * (last + next);
+        length += chord;
+        last = next;
+      }
+  }
+  return (1 / length) * sum;
+}
+
+/// Directions of axes that may be: along x and y, diagonals, to ends and middles of curves, and halfway
+/// between them.
+std::vector<double> candidate_angles(const PlanarModel& model, Vec2 centre) {
+  constexpr std::size_t kMost = 64;
+  std::vector<double> angles{std::numbers::pi / 2, 0, std::numbers::pi / 4, 3 * std::numbers::pi / 4};
+  const auto add = [&](Vec2 d) {
+    if (norm(d) == 0 || angles.size() >= kMost) return;
+    double angle = std::atan2(d.y, d.x);
+    if (angle < 0) angle += std::numbers::pi;
+    if (std::ranges::none_of(angles, [&](double a) { return std::abs(a - angle) < 1e-6; }))
+      angles.push_back(angle);
+  };
+  for (const ModelCurve& curve : model.curves)
+    for (const double t : corner_parameters(*curve.shape)) add(curve.shape->point(t) - centre);
+  for (const ModelCurve& curve : model.curves) add(curve.shape->point(0.5) - centre);
+  return angles;
+}
+
+/// A point in a region without an image.
+const ModelPoint* point_without_image(const PlanarModel& model, const NearCurves& curves,
+                                      const Symmetry& symmetry, int plane) {
+  const auto has_image = [&](const ModelPoint& p) {
+    const Vec2 image = symmetry.reflect({plane}, p.at);
+    return curves.has(p.at, symmetry.tolerance()) ||
+           std::ranges::any_of(model.points, [&](const ModelPoint& other) {
+             return norm(other.at - image) <= symmetry.tolerance();
+           });
+  };
+  const auto found = std::ranges::find_if_not(model.points, has_image);
+  return found == model.points.end() ? nullptr : &*found;
+}
+
+/// The first curve without an image, and its place; -1: there is none.
+std::pair<int, Vec2> curve_without_image(const PlanarModel& model, const NearCurves& curves,
+                                         const Symmetry& symmetry, int plane) {
+  for (std::size_t c = 0; c < model.curves.size(); ++c)
+    for (int k = 0; k < kProbesOfCurve; ++k) {
+      const Vec2 image = symmetry.reflect({plane}, model.curves[c].shape->point((k + 0.37) / kProbesOfCurve));
+      if (!curves.has(image, symmetry.tolerance())) return {static_cast<int>(c), image};
+    }
+  return {-1, {}};
+}
+
+bool has_symmetry(const PlanarModel& model, const NearCurves& curves, const Symmetry& symmetry, int plane) {
+  return curve_without_image(model, curves, symmetry, plane).first < 0 &&
+         point_without_image(model, curves, symmetry, plane) == nullptr;
+}
+
+SymmetryPlane plane_at(Vec2 centre, double axis_angle) {
+  const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
+  return {{centre.x, centre.y, 0}, {exact(std::sin(axis_angle)), exact(-std::cos(axis_angle)), 0}};
+}
+
+}  // namespace
+
+Symmetry::Symmetry(std::vector<SymmetryPlane> planes, double tolerance) : tolerance_(tolerance) {
+  for (const SymmetryPlane& p : planes) {
+    const double length = std::hypot(p.normal.x, p.normal.y);
+    planes_.push_back({{p.point.x, p.point.y}, {p.normal.x / length, p.normal.y / length}});
+  }
+}
+
+std::vector<SymmetryPlane> Symmetry::planes() const {
+  std::vector<SymmetryPlane> planes;
+  for (const Axis& a : planes_) planes.push_back({{a.at.x, a.at.y, 0}, {a.normal.x, a.normal.y, 0}});
+  return planes;
+}
+
+double Symmetry::distance(int plane, Vec2 x) const {
+  return dot(x - planes_[plane].at, planes_[plane].normal);
+}
+
+std::vector<int> Symmetry::folds_of(Vec2 x) const {
+  std::vector<int> folds;
+  for (int k = 0; k < n_planes(); ++k)
+    if (distance(k, x) < -tolerance_) folds.push_back(k);
+  return folds;
+}
+
+Vec2 Symmetry::reflect(const std::vector<int>& folds, Vec2 x) const {
+  for (const int k : folds) x = x - (2 * distance(k, x)) * planes_[k].normal;
+  return x;
+}
+
+bool Symmetry::is_on(int plane, Vec2 x) const { return std::abs(distance(plane, x)) <= tolerance_; }
+
+Vec2 Symmetry::put_on(int plane, Vec2 x) const { return x - distance(plane, x) * planes_[plane].normal; }
+
+std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
+  const Vec2 along = perp(planes_[plane].normal), middle = put_on(plane, 0.5 * (box.low + box.high));
+  const double reach = norm(box.size());
+  return {middle - reach * along, middle + reach * along};
+}
+
+std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
+  const double tolerance = kTouch * extent_of(model);
+  const NearCurves curves(model);
+  if (!spec.automatic) {
+    const auto& planes = spec.planes;
+    const auto angle = [](const Vec3& n) { return std::atan2(n.y, n.x); };
+    if (planes.size() > 2 ||
+        (planes.size() == 2 &&
+         std::abs(std::cos(angle(planes[0].normal) - angle(planes[1].normal))) > kPerpendicular))
+      throw InputError(spec.where + ": expected one plane of symmetry, or two that are perpendicular");
+    Symmetry symmetry(planes, tolerance);
+    for (int k = 0; k < symmetry.n_planes(); ++k)
+      if (const ModelPoint* p = point_without_image(model, curves, symmetry, k)) {
+        const Vec2 image = symmetry.reflect({k}, p->at);
+        throw InputError(fmt::format(
+            "{}: the model is not symmetric: the point '{}' ({}) has no mirror image at ({:.10g}, {:.10g})",
+            spec.where, p->name, p->where, image.x, image.y));
+      }
+    return symmetry;
+  }
+  const Vec2 centre = centroid(model);
+  std::vector<SymmetryPlane> found;
+  for (const double angle : candidate_angles(model, centre)) {
+    const Symmetry one({plane_at(centre, angle)}, tolerance);
+    if (!has_symmetry(model, curves, one, 0)) continue;
+    found.push_back(plane_at(centre, angle));
+    const Symmetry other({plane_at(centre, angle + std::numbers::pi / 2)}, tolerance);
+    if (has_symmetry(model, curves, other, 0))
+      found.push_back(plane_at(centre, angle + std::numbers::pi / 2));
+    return Symmetry(found, tolerance);
+  }
+  return std::nullopt;
+}
+
+std::string what_spoils_symmetry(const PlanarModel& model) {
+  std::vector<char> in_loop(model.curves.size(), 0);
+  for (const ModelLoop& loop : model.loops)
+    for (const int c : loop.curves) in_loop[c] = 1;
+  PlanarModel outline{model.source, {}, {}, {}};
+  for (std::size_t c = 0; c < model.curves.size(); ++c)
+    if (in_loop[c]) outline.curves.push_back(model.curves[c]);
+  const std::optional<Symmetry> symmetry = find_symmetry(outline, {{}, true});
+  if (!symmetry) return {};
+  const NearCurves curves(model);
+  std::string item;
+  auto [curve, image] = curve_without_image(model, curves, *symmetry, 0);
+  if (curve >= 0) {
+    item = curve_label(model, curve);
+  } else if (const ModelPoint* point = point_without_image(model, curves, *symmetry, 0)) {
+    item = point_label(model, static_cast<int>(point - model.points.data()));
+    image = symmetry->reflect({0}, point->at);
+  } else {
+    return {};
+  }
+  const SymmetryPlane plane = symmetry->planes()[0];
+  return fmt::format(
+      "the plane through {} with the normal {} would be one, but {} has no "
+      "mirror image at {}",
+      show_point(plane.point), show_point(plane.normal), item, show_point(image));
+}
+
+namespace {
+
+/// Where a curve that a plane cuts has nodes, their images need them, too. A closed curve that lies on one
+/// side may begin anywhere.
+void add_images_of_nodes(const ModelCurve& curve, const Symmetry& symmetry, PlanarModel& model) {
+  const Vec2 begin = curve.shape->point(0);
+  const std::vector<int> side = symmetry.folds_of(begin);
+  bool is_cut = norm(curve.shape->point(1) - begin) > symmetry.tolerance();
+  for (int k = 1; k < kSamplesOfCurve; ++k)
+    is_cut |= symmetry.folds_of(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve)) != side;
+  if (!is_cut) return;
+  const std::vector<std::vector<int>> all{{0}, {1}, {0, 1}};
+  for (const double t : corner_parameters(*curve.shape))
+    for (const std::vector<int>& folds : all) {
+      if (folds.back() >= symmetry.n_planes()) continue;
+      const Vec2 image = symmetry.reflect(folds, curve.shape->point(t));
+      if (std::ranges::none_of(
+              model.points, [&](const ModelPoint& p) { return norm(p.at - image) <= symmetry.tolerance(); }))
+        model.points.push_back({image, {}, {}});
+    }
+}
+
+}  // namespace
+
+PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry) {
+  PlanarModel result = model;
+  for (const ModelCurve& curve : model.curves) add_images_of_nodes(curve, symmetry, result);
+  std::vector<Vec2> points;
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= kSamplesOfCurve; ++k)
+      points.push_back(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve));
+  const Box<Vec2> box = Box<Vec2>::around(std::span(points));
+  for (int k = 0; k < symmetry.n_planes(); ++k) {
+    const auto [a, b] = symmetry.axis(k, box);
+    result.curves.push_back({make_segment(a, b), {}, {}});
+  }
+  return result;
+}
+
+namespace {
+
+/// The mirror image of a curve.
+class ImageCurve final : public Curve {
+ public:
+  ImageCurve(std::shared_ptr<const Curve> shape, std::function<Vec2(Vec2)> image)
+      : shape_(std::move(shape)), image_(std::move(image)) {}
+  Vec2 point(double t) const override { return image_(shape_->point(t)); }
+  std::vector<double> fixed_parameters() const override { return shape_->fixed_parameters(); }
+
+ private:
+  std::shared_ptr<const Curve> shape_;
+  std::function<Vec2(Vec2)> image_;
+};
+
+/// Finds the piece that another is the image of, and makes it that.
+class SymmetricPairs {
+ public:
+  SymmetricPairs(const Symmetry& symmetry, ModelChain& chain, std::vector<CurvePiece>& pieces)
+      : symmetry_(symmetry),
+        chain_(chain),
+        pieces_(pieces),
+        valence_(pieces_at_nodes(pieces, chain.nodes.size())) {}
+
+  /// Whether there is one.
+  bool pair(CurvePiece& piece, const std::vector<int>& folds) {
+    const auto folded = [&](double s) {
+      return symmetry_.reflect(folds, piece.shape->point(piece.from + s * (piece.to - piece.from)));
+    };
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const CurvePiece& master = pieces_[i];
+      const bool closed = piece.ends[0] == piece.ends[1];
+      if (closed != (master.ends[0] == master.ends[1])) continue;
+      const auto is_at = [&](int end, int node) {
+        const Vec2 x = symmetry_.reflect(folds, chain_.nodes[piece.ends[end]]);
+        return norm(chain_.nodes[master.ends[node]] - x) <= symmetry_.tolerance();
+      };
+      const bool forward = is_at(0, 0) && is_at(1, 1), backward = is_at(0, 1) && is_at(1, 0);
+      const bool may_turn = closed && valence_[piece.ends[0]] == 2 && valence_[master.ends[0]] == 2;
+      if (!forward && !backward && !may_turn) continue;
+      const CurveSpan span(*master.shape, master.from, master.to);
+      if (std::ranges::any_of(std::array{0.21, 0.5, 0.83}, [&](double s) {
+            return span.nearest(folded(s)).distance > symmetry_.tolerance();
+          }))
+        continue;
+      if (!forward && backward) std::swap(piece.ends[0], piece.ends[1]);
+      become(piece, static_cast<int>(i), folds);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  void become(CurvePiece& piece, int index, const std::vector<int>& folds) {
+    CurvePiece& master = pieces_[index];
+    piece.master = index;
+    piece.image = [folds, symmetry = symmetry_](Vec2 x) { return symmetry.reflect(folds, x); };
+    piece.shape = std::make_shared<ImageCurve>(master.shape, piece.image);
+    piece.from = master.from;
+    piece.to = master.to;
+    master.least = std::max(master.least, piece.least);
+    for (const int k : {0, 1})
+      if (piece.ends[k] != master.ends[k])
+        chain_.nodes[piece.ends[k]] = piece.image(chain_.nodes[master.ends[k]]);
+  }
+
+  const Symmetry& symmetry_;
+  ModelChain& chain_;
+  std::vector<CurvePiece>& pieces_;
+  std::vector<int> valence_;
+};
+
+/// The number of edges nearest to n, below or above it, that divides a curve as symmetrically as its pieces
+/// are; 0: none is near.
+int symmetric_number(const std::vector<CurvePiece>& pieces, const std::vector<int>& own, int n, int step) {
+  std::vector<double> lengths;
+  for (const int i : own) {
+    double length = 0;
+    Vec2 last = pieces[i].shape->point(pieces[i].from);
+    for (int k = 1; k <= kSamplesOfCurve; ++k) {
+      const double part = static_cast<double>(k) / kSamplesOfCurve;
+      const Vec2 next = pieces[i].shape->point((1 - part) * pieces[i].from + part * pieces[i].to);
+      length += norm(next - last);
+      last = next;
+    }
+    lengths.push_back(length);
+  }
+  constexpr int kFarthest = 64;
+  for (int tries = 0; tries < kFarthest; ++tries) {
+    n += step;
+    if (n < static_cast<int>(own.size())) return 0;
+    const auto places = division_places({.name = {}, .edges = n}, lengths, {});
+    bool is_symmetric = true;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (const auto master = std::ranges::find(own, pieces[own[i]].master); master != own.end())
+        is_symmetric &= places[i].size() == places[master - own.begin()].size();
+    if (is_symmetric) return n;
+  }
+  return 0;
+}
+
+/// Divided as its image is not.
+InputError unlike_division(const PlanarModel& model, const std::string& where,
+                           const std::vector<CurvePiece>& pieces, const CurvePiece& piece) {
+  const CurvePiece& master = pieces[piece.master];
+  const std::string label = curve_label(model, piece.curves.front());
+  if (piece.curves.front() != master.curves.front())
+    return InputError(fmt::format("{}: {} is divided, and not as {}, of which it is the mirror image", where,
+                                  label, curve_label(model, master.curves.front())));
+  std::vector<int> own;
+  int n = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (std::ranges::find(pieces[i].curves, piece.curves.front()) != pieces[i].curves.end()) {
+      own.push_back(static_cast<int>(i));
+      n += pieces[i].n;
+    }
+  std::string expected;
+  for (const int step : {-1, 1})
+    if (const int good = symmetric_number(pieces, own, n, step); good > 0)
+      expected += (expected.empty() ? ": expected " : " or ") + std::to_string(good);
+  return InputError(
+      fmt::format("{}: {} edges cannot divide {} symmetrically, which is cut into {} pieces at planes of "
+                  "symmetry and images of its nodes{}",
+                  where, n, label, own.size(), expected));
+}
+
+}  // namespace
+
+void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
+                    ModelChain& chain, std::vector<CurvePiece>& pieces) {
+  for (Vec2& x : chain.nodes)
+    for (int k = 0; k < symmetry.n_planes(); ++k)
+      if (symmetry.is_on(k, x)) x = symmetry.put_on(k, x);
+  SymmetricPairs pairs(symmetry, chain, pieces);
+  for (CurvePiece& piece : pieces) {
+    const Vec2 middle = piece.shape->point((piece.from + piece.to) / 2);
+    const std::vector<int> folds = symmetry.folds_of(middle);
+    if (folds.empty()) continue;
+    if (!pairs.pair(piece, folds))
+      throw InputError(
+          fmt::format("{}: the model is not symmetric: {} has no mirror image at ({:.10g}, {:.10g})", where,
+                      curve_label(model, piece.curves.front()), symmetry.reflect(folds, middle).x,
+                      symmetry.reflect(folds, middle).y));
+  }
+  for (const CurvePiece& piece : pieces)
+    if (piece.master >= 0 && piece.is_divided &&
+        (!pieces[piece.master].is_divided || pieces[piece.master].n != piece.n))
+      throw unlike_division(model, where, pieces, piece);
+  for (CurvePiece& piece : pieces)
+    if (piece.master >= 0) piece.is_divided = false;
+}
+
+std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
+                                     const std::string& where) {
+  // The middle of the longest edge's ear would do; the mean of the points tells the side, for no patch
+  // crosses a plane.
+  const auto mean = [](const PatchBoundary& patch) {
+    Vec2 sum;
+    for (const Vec2 p : patch.points) sum = sum + p;
+    return (1.0 / static_cast<double>(patch.points.size())) * sum;
+  };
+  std::vector<PatchImage> images;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const std::vector<int> folds = symmetry.folds_of(mean(patches[p]));
+    if (folds.empty()) continue;
+    const std::vector<Vec2>& own = patches[p].points;
+    std::vector<int> by_x(own.size());
+    for (std::size_t i = 0; i < own.size(); ++i) by_x[i] = static_cast<int>(i);
+    std::ranges::sort(by_x, {}, [&](int i) { return own[i].x; });
+    const auto nearest = [&](Vec2 x) {
+      int best = -1;
+      double least = symmetry.tolerance();
+      auto at = std::ranges::lower_bound(by_x, x.x - least, {}, [&](int i) { return own[i].x; });
+      for (; at != by_x.end() && own[*at].x <= x.x + symmetry.tolerance(); ++at)
+        if (const double d = norm(own[*at] - x); d < least) best = *at, least = d;
+      return best;
+    };
+    PatchImage image{static_cast<int>(p),
+                     -1,
+                     {},
+                     [folds, symmetry](Vec2 x) { return symmetry.reflect(folds, x); },
+                     folds.size() % 2 == 1};
+    for (std::size_t m = 0; m < patches.size() && image.master < 0; ++m) {
+      if (patches[m].points.size() != own.size() || !symmetry.folds_of(mean(patches[m])).empty()) continue;
+      image.point.clear();
+      for (const Vec2 x : patches[m].points) {
+        const int found = nearest(image.motion(x));
+        if (found < 0) break;
+        image.point.push_back(found);
+      }
+      if (image.point.size() == own.size()) image.master = static_cast<int>(m);
+    }
+    if (image.master < 0)
+      throw InputError(
+          fmt::format("{}: the model is not symmetric: the region at ({:.4g}, {:.4g}) has no mirror image",
+                      where, mean(patches[p]).x, mean(patches[p]).y));
+    images.push_back(std::move(image));
+  }
+  return images;
+}
+
+}  // namespace delquad

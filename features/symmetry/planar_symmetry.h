@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "geometry/planar/curve_pieces.h"
+
+namespace delquad {
+
+/// A symmetric model: what lies on the positive sides of all planes, and its mirror images.
+class Symmetry {
+ public:
+  /// Planes that are perpendicular to each other; one or two.
+  Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
+
+  /// The planes that the fundamental part of x lies behind, by their indices; empty: x is in it.
+  std::vector<int> folds_of(Vec2 x) const;
+  /// x mirrored at these.
+  Vec2 reflect(const std::vector<int>& folds, Vec2 x) const;
+  /// The planes that x lies on.
+  bool is_on(int plane, Vec2 x) const;
+  Vec2 put_on(int plane, Vec2 x) const;
+  int n_planes() const { return static_cast<int>(planes_.size()); }
+  std::vector<SymmetryPlane> planes() const;
+  double tolerance() const { return tolerance_; }
+  /// Where the plane crosses the box.
+  std::array<Vec2, 2> axis(int plane, const Box<Vec2>& box) const;
+
+ private:
+  double distance(int plane, Vec2 x) const;
+
+  struct Axis {
+    Vec2 at, normal;
+  };
+  std::vector<Axis> planes_;
+  double tolerance_;
+};
+
+/// The planes of a problem; with SymmetrySpec::automatic those that are found, which go through the centroid
+/// of the curves, or none. Throws InputError for planes that are given and not perpendicular, or about which
+/// the model is not symmetric.
+std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
+
+/// Of a model in which no plane is found: one that its loops have, and what in the regions has no image
+/// there, for a warning; empty: its loops have none.
+std::string what_spoils_symmetry(const PlanarModel& model);
+
+/// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
+/// have their images.
+PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry);
+
+/// Takes out the parts of axes, the model's curves from `first_axis` on, that lie outside of everything.
+/// `lines`: those of the pieces.
+void drop_axes_outside(const Mesh& lines, int first_axis, ModelChain& chain, std::vector<CurvePiece>& pieces);
+
+/// Axes are no curves of the model; where one lies on them, that counts.
+void drop_axes(int first_axis, PlanarDomain& domain);
+
+/// Pieces behind a plane get the images of those before it. Throws InputError for pieces without one.
+void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
+                    ModelChain& chain, std::vector<CurvePiece>& pieces);
+
+/// Of each patch that is a mirror image, of which one and how. Throws InputError for patches that are none,
+/// behind a plane.
+std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
+                                     const std::string& where);
+
+}  // namespace delquad
