@@ -49,7 +49,7 @@ std::string colour_of(const IGESData_IGESEntity& entity) {
 
 }  // namespace
 
-PartNames iges_names(const IGESControl_Reader& reader) {
+PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& warnings) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
@@ -58,7 +58,7 @@ PartNames iges_names(const IGESControl_Reader& reader) {
     const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
     names_of.push_back(entity.IsNull() ? "" : name_of(*entity));
   }
-  decode_texts(names_of);
+  if (const std::string warning = decode_texts(names_of); !warning.empty()) warnings.push_back(warning);
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
     if (entity.IsNull()) continue;

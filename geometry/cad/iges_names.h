@@ -7,6 +7,7 @@
 namespace delquad::cad {
 
 /// Names and colours of the faces that `reader` has transferred: those of all entities that hold them.
-PartNames iges_names(const IGESControl_Reader& reader);
+/// `warnings` receives what bytes beyond ASCII were taken for.
+PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& warnings);
 
 }  // namespace delquad::cad

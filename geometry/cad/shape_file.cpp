@@ -175,7 +175,7 @@ CadShape read_step(const CadOptions& options, const std::string& bytes) {
                                               [&](STEPControl_Reader& r) { return load(r, text); });
   const bool is_ascii =
       std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-  cad.names = step_names(reader, is_ascii);
+  cad.names = step_names(reader, is_ascii, cad.warnings);
   return cad;
 }
 
@@ -183,7 +183,7 @@ CadShape read_iges(const std::string& path, const CadOptions& options) {
   IGESControl_Reader reader;
   CadShape cad = transfer<IGESControl_Reader>(
       reader, "IGES", options, {}, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
-  cad.names = iges_names(reader);
+  cad.names = iges_names(reader, cad.warnings);
   return cad;
 }
 

@@ -48,7 +48,7 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
 
 }  // namespace
 
-PartNames step_names(const STEPControl_Reader& reader, bool is_ascii) {
+PartNames step_names(const STEPControl_Reader& reader, bool is_ascii, std::vector<Warning>& warnings) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
   const auto add = [&](const Handle(Standard_Transient) & entity, const std::string& name) {
@@ -61,7 +61,9 @@ PartNames step_names(const STEPControl_Reader& reader, bool is_ascii) {
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   std::vector<std::string> names_of;
   for (int i = 1; i <= model->NbEntities(); ++i) names_of.push_back(name_of(model->Value(i)));
-  if (!is_ascii) decode_kernel_texts(names_of);
+  if (!is_ascii)
+    if (const std::string warning = decode_kernel_texts(names_of); !warning.empty())
+      warnings.push_back(warning);
   for (int i = 1; i <= model->NbEntities(); ++i)
     if (const std::string& name = names_of[i - 1]; !name.empty()) add(model->Value(i), name);
 

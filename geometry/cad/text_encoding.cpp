@@ -1,9 +1,12 @@
 #include "geometry/cad/text_encoding.h"
 
+#include <fmt/format.h>
+
 #include <Resource_Unicode.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_ExtendedString.hxx>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string_view>
 
@@ -103,19 +106,27 @@ std::string bytes_of(const std::string& utf8) {
 
 }  // namespace
 
-void decode_texts(std::vector<std::string>& texts) {
+std::string decode_texts(std::vector<std::string>& texts) {
   const TextEncoding encoding = encoding_of(texts);
+  const auto other =
+      std::ranges::find_if_not(texts, [](const std::string& text) { return is_utf8(text); }) - texts.begin();
   for (std::string& text : texts) text = to_utf8(text, encoding);
+  if (other == std::ssize(texts)) return "";
+  constexpr std::array kNames{"UTF-8", "GB 2312 or GBK", "Shift-JIS", "ISO 8859-1"};  // by encoding
+  return fmt::format(
+      "names are not in UTF-8 and were taken for {}, as '{}': expected UTF-8, or escapes (\\X2\\)",
+      kNames[static_cast<std::size_t>(encoding)], texts[static_cast<std::size_t>(other)]);
 }
 
-void decode_kernel_texts(std::vector<std::string>& texts) {
+std::string decode_kernel_texts(std::vector<std::string>& texts) {
   std::vector<std::string> bytes;
   for (const std::string& text : texts)
     if (const std::string own = bytes_of(text); own != text) bytes.push_back(own);
-  decode_texts(bytes);
+  std::string warning = decode_texts(bytes);
   auto next = bytes.begin();
   for (std::string& text : texts)
     if (bytes_of(text) != text) text = *next++;
+  return warning;
 }
 
 }  // namespace delquad::cad

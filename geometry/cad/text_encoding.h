@@ -7,11 +7,12 @@ namespace delquad::cad {
 
 /// Makes UTF-8 of all texts of a file, which does not say how they are encoded: UTF-8 if all of them are
 /// valid in it, else GB 2312, Shift-JIS or GBK if no byte above 0x7F stands alone, or beside a small letter
-/// as in European words, else ISO 8859-1.
-void decode_texts(std::vector<std::string>& texts);
+/// as in European words, else ISO 8859-1. Returns a warning that says so with an example, or nothing where
+/// all are UTF-8.
+std::string decode_texts(std::vector<std::string>& texts);
 
 /// The same of texts whose bytes the kernel took for ISO 8859-1. Those with characters beyond it, for which
 /// only escapes (\X2\...\X0\) can stand, stay as they are.
-void decode_kernel_texts(std::vector<std::string>& texts);
+std::string decode_kernel_texts(std::vector<std::string>& texts);
 
 }  // namespace delquad::cad

@@ -11,8 +11,8 @@
 namespace delquad {
 namespace {
 
-/// The names of the faces of a STEP file whose first face is called so, in bytes.
-std::vector<std::string> names_with(const std::string& bytes, const std::string& second = "") {
+/// A STEP file whose first faces are called so, in bytes.
+SurfaceModel model_with(const std::string& bytes, const std::string& second = "") {
   std::ostringstream out;
   write_example("thin_box", CadFormat::kStep, out);
   std::string text = out.str();
@@ -23,8 +23,13 @@ std::vector<std::string> names_with(const std::string& bytes, const std::string&
     text.insert(at + empty.size() - 1, name);
     at += empty.size();
   }
+  return read_cad(CadModel{{}, text});
+}
+
+/// The names of its faces.
+std::vector<std::string> names_with(const std::string& bytes, const std::string& second = "") {
   std::vector<std::string> names;
-  for (const Entity& face : read_cad(CadModel{{}, text}).fine.regions)
+  for (const Entity& face : model_with(bytes, second).fine.regions)
     names.insert(names.end(), face.names.begin(), face.names.end());
   return names;
 }
@@ -53,6 +58,18 @@ TEST(NameEncodings, BytesOfOtherSystems) {
                        "Gr\u00F6\u00DFe"));  // ISO 8859-1
   EXPECT_TRUE(has_name(names_with("M\xE9tal", "\xC4\xD6"), "\u00C4\u00D6"))
       << "all names of a file are in one";
+}
+
+TEST(NameEncodings, WhatIsGuessedIsTold) {
+  const auto is_told = [](const std::string& bytes, const std::string& text) {
+    return std::ranges::any_of(model_with(bytes).warnings, [&](const Warning& warning) {
+      return warning.text.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_told("\xD6\xC4", "were taken for GB 2312 or GBK, as '\u5E1C'"));
+  EXPECT_TRUE(is_told("M\xE9tal", "were taken for ISO 8859-1, as 'M\u00E9tal'"));
+  for (const char* text : {"M\u00E9tal", "\\X\\C4nderung", "plain"})
+    EXPECT_FALSE(is_told(text, "taken for")) << text;
 }
 
 TEST(NameEncodings, AreAlwaysUtf8) {
