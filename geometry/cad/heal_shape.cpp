@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <BOPTools_AlgoTools.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -11,6 +12,7 @@
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <IntTools_Context.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
@@ -26,6 +28,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "base/disjoint_sets.h"
@@ -84,18 +87,40 @@ std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
   return faces_of;
 }
 
+/// Of each face the first that runs along the same edges and lies on it, mostly itself.
+std::vector<int> first_of_doubles(const std::vector<std::map<int, int>>& faces_at_edges,
+                                  const TopTools_IndexedMapOfShape& faces, double tolerance) {
+  std::vector<std::vector<int>> edges_of(static_cast<std::size_t>(faces.Extent()) + 1);
+  for (std::size_t e = 0; e < faces_at_edges.size(); ++e)
+    for (const auto& [f, n] : faces_at_edges[e]) edges_of[f].push_back(static_cast<int>(e));
+  const Handle(IntTools_Context) context = new IntTools_Context;
+  std::map<std::vector<int>, std::vector<int>> firsts;
+  std::vector<int> first(edges_of.size());
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    std::vector<int>& known = firsts[edges_of[f]];
+    const auto at = std::ranges::find_if(known, [&](int g) {
+      return !edges_of[f].empty() && BOPTools_AlgoTools::AreFacesSameDomain(
+                                         TopoDS::Face(faces(f)), TopoDS::Face(faces(g)), context, tolerance);
+    });
+    first[f] = at == known.end() ? f : *at;
+    if (first[f] == f) known.push_back(f);
+  }
+  return first;
+}
+
 /// Adds the closed bodies among the faces that are in none yet, by face, numbered by one of their faces.
 /// Faces belong together where two meet; where more do, `in_order`, two and two as they come: files have the
-/// faces of a body one after the other.
-void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, bool in_order,
-                 std::vector<int>& body) {
+/// faces of a body one after the other. Faces on each other enclose nothing.
+void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, const std::vector<int>& first,
+                 bool in_order, std::vector<int>& body) {
   DisjointSets joined(body.size());
   std::vector<std::vector<int>> free(faces_at_edges.size());  // faces at the edge that are in no body
   for (std::size_t e = 0; e < free.size(); ++e) {
     for (const auto& [f, n] : faces_at_edges[e])
       if (body[f] == 0 && n == 1) free[e].push_back(f);
     if (free[e].size() == 2 || (in_order && free[e].size() % 2 == 0))
-      for (std::size_t k = 0; k < free[e].size(); k += 2) joined.join_to(free[e][k], free[e][k + 1]);
+      for (std::size_t k = 0; k < free[e].size(); k += 2)
+        if (first[free[e][k]] != first[free[e][k + 1]]) joined.join_to(free[e][k], free[e][k + 1]);
   }
   std::vector<char> is_open(body.size(), 0);
   for (const std::vector<int>& faces : free) {
@@ -109,8 +134,9 @@ void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, bool in_
 }
 
 /// Where edges of more than two faces coincide, the closed bodies are sewn by themselves: those that touch
-/// stay apart.
-void sew_bodies(CadShape& cad, double tolerance) {
+/// stay apart. Takes out, and returns, faces of no closed body that lie on others: sewn, they would enclose
+/// nothing.
+TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
   TopTools_IndexedMapOfShape faces;
   TopoDS_Compound all, open;
   const BRep_Builder builder;
@@ -121,22 +147,28 @@ void sew_bodies(CadShape& cad, double tolerance) {
     builder.Add(is_open ? open : all, shape);
     if (is_open) TopExp::MapShapes(shape, TopAbs_FACE, faces);
   }
-  if (faces.IsEmpty()) return;
+  if (faces.IsEmpty()) return {};
   const auto at_edges = faces_at_edges(open, faces, tolerance);
-  if (std::ranges::none_of(at_edges, [](const auto& of) { return of.size() > 2; })) return;
-  std::vector<int> body(faces.Extent() + 1, 0);
-  for (const bool in_order : {true, false}) find_closed(at_edges, in_order, body);
+  const std::vector<int> first_at = first_of_doubles(at_edges, faces, tolerance);
+  std::vector<int> body(first_at.size(), 0);
+  if (std::ranges::any_of(at_edges, [](const auto& of) { return of.size() > 2; }))
+    for (const bool in_order : {true, false}) find_closed(at_edges, first_at, in_order, body);
   std::map<int, Handle(BRepBuilderAPI_Sewing)> sewings;
+  std::set<int> known;
+  TopTools_ListOfShape doubles;
   for (int f = 1; f <= faces.Extent(); ++f) {
     if (body[f] == 0) {
-      builder.Add(all, faces(f));
+      if (known.insert(first_at[f]).second)
+        builder.Add(all, faces(f));
+      else
+        doubles.Append(faces(f));
       continue;
     }
     Handle(BRepBuilderAPI_Sewing)& sewing = sewings[body[f]];
     if (sewing.IsNull()) sewing = new BRepBuilderAPI_Sewing(tolerance);
     sewing->Add(faces(f));
   }
-  if (sewings.empty()) return;
+  if (sewings.empty() && doubles.IsEmpty()) return {};
   for (const auto& [first, sewing] : sewings) {
     sewing->Perform();
     builder.Add(all, sewing->SewedShape());
@@ -146,8 +178,10 @@ void sew_bodies(CadShape& cad, double tolerance) {
       if (sewing->IsModifiedSubShape(shape)) return sewing->ModifiedSubShape(shape);
     return shape;
   });
-  cad.warnings.push_back(fmt::format(
-      "free edges coincided: closed bodies that touch have been sewn each by itself: {}", sewings.size()));
+  if (!sewings.empty())
+    cad.warnings.push_back(fmt::format(
+        "free edges coincided: closed bodies that touch have been sewn each by itself: {}", sewings.size()));
+  return doubles;
 }
 
 BRepCheck_Analyzer check_shape(const TopoDS_Shape& shape) {
@@ -268,8 +302,20 @@ void heal_shape(CadShape& cad, double tolerance) {
   // A file may carry an old triangulation, coarser than asked or of another shape.
   BRepTools::Clean(cad.shape);
   fix(cad);
-  sew_bodies(cad, tolerance);
+  const PartNames names = cad.names;
+  const TopTools_ListOfShape doubles = sew_bodies(cad, tolerance);
   sew(cad, tolerance);
+  if (doubles.IsEmpty()) return;
+  TopoDS_Compound all;
+  BRep_Builder().MakeCompound(all);
+  BRep_Builder().Add(all, cad.shape);
+  for (const TopoDS_Shape& face : doubles) {
+    BRep_Builder().Add(all, face);
+    for (TopExp_Explorer part(face, TopAbs_EDGE); part.More(); part.Next())
+      for (const std::string& name : names.of(part.Current())) cad.names.add(part.Current(), name);
+    for (const std::string& name : names.of(face)) cad.names.add(face, name);
+  }
+  cad.shape = all;
 }
 
 bool drop_strips(CadShape& cad, const std::vector<int>& faces) {
