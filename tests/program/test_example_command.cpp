@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <set>
 
 #include "io/mesh_io.h"
@@ -16,6 +17,30 @@ struct Example {
 };
 
 void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
+
+TEST(ExampleCommand, WhatIsLeftOutIsToldByInfoToo) {
+  const TemporaryFolder folder;
+  const auto file = folder / "box.step";
+  ASSERT_EQ(delquad({"example", "thin_box", "-o", file}).exit_code, 0);
+  std::ifstream in(file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = text.find(" = ADVANCED_FACE("), begin = text.rfind('#', at);
+  ASSERT_NE(at, std::string::npos);
+  text.erase(begin, text.find(';', at) + 1 - begin);
+  std::ofstream(file) << text;
+  const auto refused = delquad({"info", file});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "is not defined")) << refused.err;
+  const auto rest = delquad({"info", file, "--keep-going", "--glue"});
+  EXPECT_EQ(rest.exit_code, 4);
+  EXPECT_TRUE(contains(rest.err, "error: left out: 1 part of the STEP file")) << rest.err;
+  EXPECT_TRUE(contains(rest.out, "glue")) << rest.out;
+  // A mesh that fails for another reason: too narrow corners.
+  const auto failed =
+      delquad({"mesh", file, "--keep-going", "--size", "5", "--min-angle", "89.9", "-o", folder / "box.msh"});
+  EXPECT_EQ(failed.exit_code, 5);
+  EXPECT_TRUE(contains(failed.err, "error: left out: 1 part of the STEP file")) << failed.err;
+}
 
 class Examples : public ::testing::TestWithParam<Example> {};
 
