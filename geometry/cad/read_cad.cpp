@@ -104,7 +104,8 @@ void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double di
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
   constexpr std::size_t kMostNamed = 20;
   std::erase_if(contacts, [&](const NearContact& c) {
-    return c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
+    return c.distance <= kTouching * diagonal ||
+           c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
   });
   if (contacts.empty()) return;
   const auto title = [&](int f) {
