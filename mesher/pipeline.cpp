@@ -116,6 +116,10 @@ RunResult run_word(const PreparedProblem& prepared, const Word& word,
   return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
 }
 
+void require_sound(const std::string& label, const RunResult& result) {
+  if (!result.soundness.accepted()) throw UnsoundError(label + ": " + result.soundness.complaint());
+}
+
 Mesh put_together(Finishing& on) {
   run_finish_steps(FinishAt::kPatches, on);
   return assemble(on.prepared, on.state.nodes.points, on.state.patches, on.left_out, &on.result.log);
