@@ -101,10 +101,6 @@ PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement
   return prepared;
 }
 
-void require_sound(const std::string& label, const RunResult& result) {
-  if (!result.soundness.accepted()) throw UnsoundError(label + ": " + result.soundness.complaint());
-}
-
 RunResult run_word(const PreparedProblem& prepared, const Word& word,
                    const std::function<void(const std::string& stage)>& begins) {
   MeshingState state = begin_meshing(prepared);
