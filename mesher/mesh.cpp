@@ -34,6 +34,7 @@ MeshResult result_of(const PreparedProblem& prepared, RunResult run) {
   result.summaries = std::move(run.log.summaries);
   result.warnings = prepared.warnings;
   result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
+  if (!result.soundness.accepted()) result.warnings.emplace_back(result.soundness.complaint());
   result.failures = std::move(run.failures);
   result.surface = std::move(run.surface);
   for (const StepTimes* times : {&prepared.times, &std::as_const(run.log.times)})

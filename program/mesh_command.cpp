@@ -258,13 +258,12 @@ int mesh_command(const MeshArguments& arguments) {
   progress.warn(prepared.warnings);
   RunResult result = run_or_tell(arguments, c, word, prepared, progress);
   std::vector<Warning> warnings;
-  for (const std::string& reason : result.soundness.reasons)
-    warnings.push_back("the mesh is not sound: " + reason);
-  for (const std::string& limit : result.soundness.beyond) warnings.push_back("beyond the limits: " + limit);
+  if (!result.soundness.accepted()) warnings.emplace_back(result.soundness.complaint());
   if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
     warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
                                    fmt::join(renamed, "; ")));
   progress.warn(warnings);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;

@@ -158,9 +158,15 @@ void define_result(py::module_& m) {
           },
           "(index into regions, reason) of faces that were left out; -1: of parts of a file that cannot be "
           "read")
-      .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.sound(); })
+      .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.accepted(); })
       .def_property_readonly(
-          "unsound", [](const Result& r) { return r.rest.soundness.reasons; }, "why it is not sound")
+          "unsound",
+          [](const Result& r) {
+            std::vector<std::string> reasons = r.rest.soundness.reasons;
+            for (const std::string& beyond : r.rest.soundness.beyond) reasons.push_back(beyond);
+            return reasons;
+          },
+          "why it is not sound")
       .def_property_readonly(
           "beyond_limits", [](const Result& r) { return r.rest.soundness.beyond; },
           "which elements are beyond min_angle and max_aspect")

@@ -439,8 +439,9 @@ std::string run_record(const Case& c, const PreparedProblem& prepared, const Wor
                        const RunResult& result, const CellIdentity* cell) {
   Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
   if (const Json own = own_metrics_json(cell); !own.empty()) json["own_metrics"] = own;
-  json["sound"] = result.soundness.sound();
-  if (!result.soundness.sound()) json["unsound"] = result.soundness.reasons;
+  json["sound"] = result.soundness.accepted();
+  if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
+  for (const std::string& beyond : result.soundness.beyond) json["unsound"].push_back(beyond);
   json["options"] = options_json(c);
   json["domain"] = domain_json(prepared);
   json["cross_field"] = cross_json(prepared);

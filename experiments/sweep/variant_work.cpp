@@ -86,8 +86,7 @@ void VariantWork::finish(const Cell& cell) {
   for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
   // What others make is shown as it is.
   if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
-  if (!result.soundness.sound())
-    say(fmt::format("warning: {}: the mesh is not sound: {}", name, result.soundness.text()));
+  if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
   for (const std::string& failure : measure_by_solvers(cell.identity, result))
     say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
   // Before anything of the cell is in place: it may take long.

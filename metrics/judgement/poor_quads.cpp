@@ -35,7 +35,7 @@ const OptionTable<LimitOptions>& limit_table() {
   static const auto all =
       OptionTable<LimitOptions>("limits", "beyond which an element is an error")
           .add({.name = "min_angle", .help = "degrees", .least = 0, .most = 90}, &LimitOptions::min_angle)
-          .add({.name = "max_aspect", .help = "longest over shortest side; 0: any", .least = 0},
+          .add({.name = "max_aspect", .help = "longest over shortest side", .least = 1, .absent = "any"},
                &LimitOptions::max_aspect);
   return all;
 }
@@ -285,11 +285,13 @@ void warn_of_single_precision(const std::string& label, const Mesh& mesh, const 
 void hold_to_limits(const LimitOptions& limits, const Mesh& mesh, const ElementSides& sides,
                     const std::vector<char>& on_purpose, Soundness& soundness) {
   if (limits.min_angle == 0 && limits.max_aspect == 0) return;
+  constexpr double kRounding = 1e-9;  // relative: of coordinates (1e-16) a million times a side
   Places narrow, long_ones;
   double least = limits.min_angle * kDegree, most = limits.max_aspect;
   const auto add = [&](double angle, double aspect, const Place& at) {
-    if (angle < limits.min_angle * kDegree) narrow.add(at), least = std::min(least, angle);
-    if (limits.max_aspect > 0 && aspect > limits.max_aspect) long_ones.add(at), most = std::max(most, aspect);
+    if (angle < (1 - kRounding) * limits.min_angle * kDegree) narrow.add(at), least = std::min(least, angle);
+    if (limits.max_aspect > 0 && aspect > (1 + kRounding) * limits.max_aspect)
+      long_ones.add(at), most = std::max(most, aspect);
   };
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const int i = static_cast<int>(q);

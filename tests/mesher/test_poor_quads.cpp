@@ -110,10 +110,19 @@ TEST(Limits, AreAnErrorWithPlaces) {
   EXPECT_TRUE(mesh(problem, "DB").soundness.accepted());
   problem.options.set("limits.max_aspect", 1.5);
   problem.allow_unsound = true;
-  const Soundness beyond = mesh(problem, "DB").soundness;
+  const MeshResult allowed = mesh(problem, "DB");
+  const Soundness& beyond = allowed.soundness;
   EXPECT_TRUE(beyond.sound());
+  EXPECT_EQ(allowed.warnings.back().text, beyond.complaint());
   ASSERT_EQ(beyond.beyond.size(), 1u);
   EXPECT_NE(beyond.beyond[0].find("an aspect above 1.5"), std::string::npos) << beyond.beyond[0];
+}
+
+TEST(Limits, LetPerfectSquaresThrough) {
+  MeshProblem problem = problem_of_polygons({rectangle({0.1, 0.1}, {1.1, 1.1})}, 0.1);
+  problem.options.set("limits.min_angle", 90.0).set("limits.max_aspect", 1.0);
+  EXPECT_TRUE(mesh(problem, "DB").soundness.accepted());
+  EXPECT_THROW(problem.options.set("limits.max_aspect", 0.5), InputError);
 }
 
 TEST(SinglePrecision, IsToldOfFarModels) {

@@ -218,6 +218,21 @@ TEST(MeshCommand, AMeshThatIsNotSoundIsNotWritten) {
   EXPECT_TRUE(contains(record, kFlat));
 }
 
+TEST(MeshCommand, ExceededLimitsAreInTheRecord) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", kSquareLoop);
+  const std::string beyond = "an aspect above 1, the largest ";
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.27", "--pipeline", "DB",
+                     "--allow-unsound", "--max-aspect", "1", "--json", folder / "r.json"})
+                .exit_code,
+            0);
+  const std::string record = read_text(folder / "r.json");
+  EXPECT_TRUE(contains(record, "\"sound\": false")) << record;
+  const auto at = record.find(beyond);  // among the reasons, and the warnings
+  ASSERT_NE(at, std::string::npos) << record;
+  EXPECT_NE(record.find(beyond, at + 1), std::string::npos) << record;
+}
+
 TEST(MeshCommand, HelpHasTheExitCodes) {
   const std::string help = delquad({"--help"}).out;
   for (const char* code : {"3: triangles are left", "4: faces were left out", "5: the mesh is not sound"})

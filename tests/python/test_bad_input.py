@@ -165,6 +165,10 @@ def test_an_unsound_mesh_comes_with_its_error(tmp_path):
     assert len(caught.value.result.quads) == 1 and not caught.value.result.sound
     again = delquad.mesh(model, word="DB", allow_unsound=True)
     assert again.unsound == caught.value.result.unsound
+    with pytest.raises(delquad.UnsoundError, match="beyond the limits") as caught:
+        delquad.mesh(square(), 0.27, max_aspect=1)
+    result = caught.value.result
+    assert not result.sound and result.unsound == result.beyond_limits and result.unsound[0] in result.warnings[-1]
 
 
 def test_files_that_cannot_be_written(tmp_path):
