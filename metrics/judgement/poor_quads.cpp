@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/box_tree.h"
 #include "base/option_table.h"
 #include "base/segment.h"
 #include "base/text.h"
@@ -40,10 +41,12 @@ const OptionTable<LimitOptions>& limit_table() {
   return all;
 }
 
-/// The edges of a mesh on curves of its model.
+/// The edges of a mesh on curves of its model, with the faces that they bound or lie in.
 class CurveEdges {
  public:
-  CurveEdges(const PreparedProblem& prepared, const Mesh& mesh) : shortest_(mesh.points.size(), kAny) {
+  CurveEdges(const PreparedProblem& prepared, const Mesh& mesh)
+      : mesh_(mesh), shortest_(mesh.points.size(), kAny), shortest_curve_(shortest_) {
+    std::vector<double> curve_length(mesh.curves.size());
     std::vector<char> is_cut(mesh.curves.size(), 0);
     if (prepared.surface)
       for (const SurfaceCut& cut : prepared.surface->all_cuts()) is_cut[cut.curve] = 1;
@@ -51,10 +54,33 @@ class CurveEdges {
       if (is_cut[mesh.line_curve[l]]) continue;
       const auto [a, b] = mesh.lines[l];
       edges_.push_back({std::min(a, b), std::max(a, b), mesh.line_curve[l]});
-      const double length = norm(mesh.points[b] - mesh.points[a]);
+      // As it was before nodes moved along the curves, which is no matter of the model.
+      const Mesh& first = prepared.boundary;
+      const bool is_there = l < first.lines.size() && first.lines[l] == mesh.lines[l];
+      const auto& points = is_there ? first.points : mesh.points;
+      const double length = norm(points[b] - points[a]);
+      curve_length[mesh.line_curve[l]] += length;
       for (const int v : {a, b}) shortest_[v] = std::min(shortest_[v], length);
     }
+    for (const auto& [a, b, c] : edges_)
+      for (const int v : {a, b}) shortest_curve_[v] = std::min(shortest_curve_[v], curve_length[c]);
     std::ranges::sort(edges_);
+    std::vector<Face> faces(mesh.regions.size());
+    std::vector<Box<Vec3>> boxes;
+    const auto add = [&](const auto& element, int region) {
+      faces[region].area += norm(area_vector(corners_of(mesh, element))) / 2;
+      for (std::size_t k = 0; k < element.size(); ++k) {
+        const int a = element[k], b = element[(k + 1) % element.size()];
+        if (curve(a, b) < 0) continue;
+        faces[region].outline += norm(mesh.points[b] - mesh.points[a]);
+        sides_.push_back({a, b, region});
+        boxes.push_back(Box<Vec3>::around({mesh.points[a], mesh.points[b]}));
+      }
+    };
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) add(mesh.quads[q], mesh.quad_region[q]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add(mesh.triangles[t], mesh.triangle_region[t]);
+    for (const Face& face : faces) width_.push_back(face.outline > 0 ? 2 * face.area / face.outline : kAny);
+    tree_ = BoxTree<Vec3>(boxes);
   }
   /// That of the edge from a to b; -1: it is on none.
   int curve(int a, int b) const {
@@ -65,21 +91,45 @@ class CurveEdges {
   /// Of the edges at a node; infinite: none.
   double shortest(int v) const { return shortest_[v]; }
   bool has(int v) const { return shortest_[v] < kAny; }
+  /// Of a face, as ignore_small() has it.
+  double width(int region) const { return width_[region]; }
+  /// The length of the shortest curve at a node.
+  double shortest_curve(int v) const { return shortest_curve_[v]; }
+  /// From a node on a curve to the nearest other edge of its face's outline, up to `most`: not to those that
+  /// begin there, nor to the next. Infinite: there is none.
+  double gap(int v, int region, double most) const {
+    const Vec3& x = mesh_.points[v];
+    double limit2 = most * most, gap = kAny;
+    tree_.nearest(x, limit2, [&](int i) {
+      const auto& [a, b, face] = sides_[i];
+      if (face != region || a == v || b == v || curve(a, v) >= 0 || curve(b, v) >= 0) return;
+      const double d = distance_to_segment(x, mesh_.points[a], mesh_.points[b]);
+      if (d * d <= limit2) gap = d, limit2 = d * d;
+    });
+    return gap;
+  }
 
  private:
+  struct Face {
+    double area = 0, outline = 0;
+  };
+  const Mesh& mesh_;
   std::vector<std::array<int, 3>> edges_;
-  std::vector<double> shortest_;
+  std::vector<double> shortest_, shortest_curve_, width_;
+  std::vector<std::array<int, 3>> sides_;  ///< two nodes and a region
+  BoxTree<Vec3> tree_;
 };
 
 enum Cause { kAtCorner, kAtFineCurve, kAtGap, kAtSharpEdge, kOtherwise, kCauses };
 
 /// A poor quad, and why it is.
 struct PoorQuad {
-  int quad;
+  int quad, cause_at;        ///< `cause_at`: the quad at which its cause is
   double eta, aspect, edge;  ///< `edge`: the shortest in sizes
   Cause cause = kOtherwise;
   double what = 0;              ///< radians of the corner, or a length
   std::array<int, 2> curves{};  ///< at a corner: their tags
+  double ignored_below = 0;  ///< of a surface: a length below which the cause is left out; 0: none is known
   /// How many times beyond its limit.
   double badness() const {
     return std::max({kBadEta / std::max(eta, 1e-300), aspect / kPoorAspect, kPoorEdge / edge});
@@ -96,7 +146,7 @@ class PoorQuads {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
       const auto corners = corners_of(mesh, mesh.quads[q]);
       const ElementShape<4> shape = quad_shape(mesh, static_cast<int>(q), sides);
-      PoorQuad quad{static_cast<int>(q), eta_of(shape.angle), 1, kAny};
+      PoorQuad quad{static_cast<int>(q), static_cast<int>(q), eta_of(shape.angle), 1, kAny};
       double shortest = kAny;
       if (!on_purpose[q]) {
         for (int k = 0; k < 4; ++k) shortest = std::min(shortest, norm(corners[(k + 1) % 4] - corners[k]));
@@ -109,6 +159,7 @@ class PoorQuads {
       quads.push_back(quad);
     }
     std::ranges::stable_sort(quads, std::greater<>(), &PoorQuad::badness);
+    spread_causes();
   }
 
   std::vector<PoorQuad> quads;  ///< the worst first
@@ -140,10 +191,44 @@ class PoorQuads {
           return;
     }
     const int finest = *std::ranges::min_element(v, {}, [&](int i) { return edges_.shortest(i); });
-    const double fine = edges_.shortest(finest), narrow = width_between_curves(v);
-    if (narrow < kFine * size && narrow < fine / 2) return found(kAtGap, narrow);
-    if (fine < kFine * size) return found(kAtFineCurve, fine);
+    const double fine = edges_.shortest(finest), least = kFine * size;
+    const int region = mesh_.quad_region[quad.quad];
+    double narrow = kAny;
+    for (const int i : v)
+      if (edges_.has(i)) narrow = std::min(narrow, edges_.gap(i, region, least));
+    const auto ignored = [&](double length) { quad.ignored_below = length < least ? length : 0; };
+    if (narrow < least && narrow < fine / 2) {
+      ignored(edges_.width(region));
+      return found(kAtGap, narrow);
+    }
+    // An edge that is not much shorter makes sides short, but no sharp angles.
+    if (fine < (quad.edge < kPoorEdge ? kFine : kPoorEdge) * size) {
+      ignored(std::min(edges_.shortest_curve(finest), edges_.width(region)));
+      return found(kAtFineCurve, fine);
+    }
     if (is_triangulated(prepared_) && edges_.has(finest)) found(kAtSharpEdge, 0);
+  }
+  /// Quads that share a node with one that is explained by curves or a gap, and so on, are so for that.
+  void spread_causes() {
+    std::vector<int> from(mesh_.points.size(), -1);  // by node: such a quad
+    const auto is_known = [](const PoorQuad& quad) {
+      return quad.cause == kAtFineCurve || quad.cause == kAtGap;
+    };
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (std::size_t i = 0; i < quads.size(); ++i)
+        if (is_known(quads[i]))
+          for (const int v : mesh_.quads[quads[i].quad])
+            if (from[v] < 0) from[v] = static_cast<int>(i), grows = true;
+      for (PoorQuad& quad : quads)
+        if (quad.cause == kOtherwise || quad.cause == kAtSharpEdge)
+          for (const int v : mesh_.quads[quad.quad])
+            if (from[v] >= 0 && !is_known(quad)) {
+              const PoorQuad& known = quads[from[v]];
+              quad.cause = known.cause, quad.cause_at = known.cause_at, quad.what = known.what,
+              quad.ignored_below = known.ignored_below;
+            }
+    }
   }
 
  public:
@@ -159,24 +244,6 @@ class PoorQuads {
     const Vec3 at = prepared_.boundary.points[corner.node], here = mirrored ? mirrored->planes.fold(x) : x;
     return norm(here - at) <= kSamePlace * norm(at);
   }
-  /// From corners on curves to others, and to sides on curves, that do not follow along a curve.
-  double width_between_curves(const std::array<int, 4>& v) const {
-    double width = kAny;
-    for (int k = 0; k < 4; ++k) {
-      const int a = v[k], b = v[(k + 1) % 4], c = v[(k + 2) % 4], d = v[(k + 3) % 4];
-      const Vec3& x = mesh_.points[a];
-      if (!edges_.has(a)) continue;
-      const bool meets_b = edges_.curve(a, b) >= 0, meets_d = edges_.curve(d, a) >= 0;
-      if (!meets_b && edges_.has(b)) width = std::min(width, norm(mesh_.points[b] - x));
-      if (!meets_b && edges_.curve(b, c) >= 0) width = std::min(width, distance_to_side(x, b, c));
-      if (!meets_d && edges_.curve(c, d) >= 0) width = std::min(width, distance_to_side(x, c, d));
-    }
-    return width;
-  }
-  double distance_to_side(const Vec3& x, int a, int b) const {
-    const Vec3 &from = mesh_.points[a], &to = mesh_.points[b];
-    return norm(x - from - nearest_part(x, from, to) * (to - from));
-  }
 
   const PreparedProblem& prepared_;
   const Mesh& mesh_;
@@ -189,12 +256,14 @@ bool is_given(const PreparedProblem& prepared) {
                              [](const PreparedPatch& patch) { return !patch.given.points.empty(); });
 }
 
-/// What helps against a cause, of which `first` is the worst; empty: nothing that is known.
-std::string advice(const PreparedProblem& prepared, const PoorQuad& first, double most) {
-  if (is_given(prepared) || first.cause == kAtCorner || first.cause == kOtherwise) return "";
-  if (PoorQuads::is_triangulated(prepared))
-    return ": a smaller size there would help, and perhaps --feature-angle 180 where such edges are noise";
-  if (prepared.surface) return fmt::format(": --ignore-below {:.3g} may help", most);
+/// What helps against a cause; empty: nothing that is known. Of its quads, `n`, so many are `ignored` below
+/// that length.
+std::string advice(const PreparedProblem& prepared, const PoorQuad& first, int n, int ignored, double below) {
+  if (is_given(prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
+  if (prepared.surface && ignored == 0) return "";
+  if (prepared.surface)
+    return fmt::format(": --ignore-below {:.3g} may help{}", below,
+                       ignored < n ? fmt::format(" against {} of them", ignored) : "");
   return fmt::format(": {}a size of {:.3g} there would help",
                      first.cause == kAtGap ? "" : "fewer points, or ", first.what);
 }
@@ -202,15 +271,16 @@ std::string advice(const PreparedProblem& prepared, const PoorQuad& first, doubl
 std::string text_of(const PreparedProblem& prepared, const Mesh& mesh, const std::vector<PoorQuad>& quads,
                     Cause cause) {
   const PoorQuad* first = nullptr;
-  double most = 0;
-  int n = 0;
+  double below = 0;
+  int n = 0, ignored = 0;
   for (const PoorQuad& quad : quads) {
     if (quad.cause != cause) continue;
-    if (++n == 1 || (cause == kAtCorner && quad.what < first->what)) first = &quad;
-    most = std::max(most, quad.what);
+    if (++n == 1 || quad.what < first->what) first = &quad;
+    ignored += quad.ignored_below > 0;
+    below = std::max(below, quad.ignored_below);
   }
   if (n == 0) return "";
-  const std::string at = show_place(mesh, middle_of_quad(mesh, first->quad));
+  const std::string at = show_place(mesh, middle_of_quad(mesh, first->cause_at));
   std::string why;
   switch (cause) {
     case kAtCorner:
@@ -231,9 +301,8 @@ std::string text_of(const PreparedProblem& prepared, const Mesh& mesh, const std
     default:
       return fmt::format("; {} for other reasons, as in {}", n, at);
   }
-  // Sizes and lengths that leave none of them.
-  constexpr double kAbove = 1.05;
-  return fmt::format("; {} {}{}", n, why, advice(prepared, *first, kAbove * most));
+  constexpr double kAbove = 1.05;  // of what is to be below
+  return fmt::format("; {} {}{}", n, why, advice(prepared, *first, n, ignored, kAbove * below));
 }
 
 void warn_of_poor_quads(const PreparedProblem& prepared, const std::string& label,

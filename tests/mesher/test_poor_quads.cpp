@@ -1,5 +1,6 @@
 #include "metrics/judgement/poor_quads.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,6 +68,42 @@ TEST(PoorQuads, OfAGapNarrowerThanTheSize) {
   const std::string text = poor_in(mesh(problem_of_polygons(islands(0.022), 1), "DB"));
   expect_told(text, {"in places narrower than the size", "would help"});
   EXPECT_EQ(poor_in(mesh(problem_of_polygons(islands(3), 1), "DB")), "");
+}
+
+TEST(PoorQuads, OfAHoleBesideAWall) {
+  for (const double gap : {0.005, 0.01}) {
+    const std::vector<Polygon> loops{rectangle({0, 0}, {3, 3}), rectangle({gap, 1}, {1, 2})};
+    for (const char* word : {"DB", "DBCO"}) {
+      const std::string text = poor_in(mesh(problem_of_polygons(loops, 0.1), word));
+      expect_told(text, {"narrower than the size, " + fmt::format("{:.3g} in", gap)});
+      for (const char* wrong : {"finer than the size", "for other reasons"})
+        EXPECT_EQ(text.find(wrong), std::string::npos) << text;
+    }
+  }
+}
+
+TEST(PoorQuads, OptionsAreNamedWhereTheyHelp) {
+  // A strip of a plate is a face of its own.
+  const auto poor_of = [](const std::vector<Polygon>& faces, double ignore_below) {
+    Mesh plate;
+    for (const Polygon& face : faces) {
+      const int first = static_cast<int>(plate.points.size());
+      for (const Vec2 x : face) plate.points.push_back({x.x, x.y, 0});
+      plate.triangles.push_back({first, first + 1, first + 2});
+      plate.triangles.push_back({first, first + 2, first + 3});
+      for (int k = 0; k < 2; ++k) plate.triangle_region.push_back(static_cast<int>(plate.regions.size()));
+      plate.regions.push_back({static_cast<int>(plate.regions.size()) + 1, {}});
+    }
+    MeshProblem problem;
+    problem.model = TriangleModel{plate};
+    problem.surface.ignore_below = ignore_below;
+    problem.size.field = make_constant_size(1);
+    return poor_in(mesh(problem, "DB"));
+  };
+  const std::vector<Polygon> strip{rectangle({0, 0}, {10, 5}), rectangle({0, 5}, {10, 5.02}),
+                                   rectangle({0, 5.02}, {10, 10})};
+  expect_told(poor_of(strip, 0), {"narrower than the size, 0.02", "--ignore-below 0.021 may help"});
+  EXPECT_EQ(poor_of(strip, 0.021), "");
 }
 
 TEST(PoorQuads, OfACornerOfTheModel) {
