@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <utility>
@@ -41,27 +43,36 @@ class LimitedSize final : public SizeField {
 std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& tri) {
   const double longest = kCoarsestGrid * diagonal(tri.points);
   std::vector<SizeEnvelope::Sample> samples;
-  std::deque<Corners> queue;
-  for (const auto& v : tri.triangles) queue.push_back(corners_of(tri, v));
   int hint = -1;
+  const auto sizes_at = [&](const Corners& at) {
+    std::array<double, 3> delta;
+    for (int k = 0; k < 3; ++k) delta[k] = base.at({at[k].x, at[k].y, 0}, hint);
+    return delta;
+  };
+  std::deque<std::pair<Corners, std::array<double, 3>>> queue;
+  for (const auto& v : tri.triangles) {
+    const Corners corners = corners_of(tri, v);
+    queue.emplace_back(corners, sizes_at(corners));
+  }
   while (!queue.empty()) {
     check_cancelled();
-    const Corners corners = queue.front();
+    const auto [corners, delta] = queue.front();
     queue.pop_front();
+    const Corners between = middles(corners);
+    const std::array<double, 3> m = sizes_at(between);
     const bool may_split = samples.size() + kPerTriangle * queue.size() < kMostGridSamples;
-    double least = INFINITY, most = 0;
-    for (const Corners& three : {corners, middles(corners)}) {
-      for (const Vec2 x : three) {
-        const double delta = base.at({x.x, x.y, 0}, hint);
-        samples.push_back({x, delta});
-        least = std::min(least, delta);
-        most = std::max(most, delta);
-      }
+    for (int k = 0; k < 3; ++k) {
+      samples.push_back({corners[k], delta[k]});
+      samples.push_back({between[k], m[k]});
     }
+    const auto [least, most] = std::minmax({delta[0], delta[1], delta[2], m[0], m[1], m[2]});
     const double side = longest_side(corners);
     if (may_split && (side > longest || (most > kMostVariation * least && side > kFinest * least))) {
       samples.resize(samples.size() - kPerTriangle);
-      for (const Corners& quarter : quarters(corners)) queue.push_back(quarter);
+      const std::array<double, 3> sizes[] = {
+          {delta[0], m[2], m[1]}, {m[2], delta[1], m[0]}, {m[1], m[0], delta[2]}, m};
+      const auto parts = quarters(corners);
+      for (int k = 0; k < 4; ++k) queue.emplace_back(parts[k], sizes[k]);
     }
   }
   return samples;

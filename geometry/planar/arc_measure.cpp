@@ -14,7 +14,10 @@ namespace delquad {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr int kFirstPanels = 32;
+/// Panels to begin with; fewer do for pieces shorter than this many edges, of which outlines may have
+/// thousands.
+constexpr int kFirstPanels = 32, kFewPanels = 8;
+constexpr double kShortPiece = 0.5;
 /// Integral of a panel at most, in edges: four samples a panel see each edge more than once.
 constexpr double kEdgesPerPanel = 2;
 /// Narrowest panel, relative to the parameter range: a jump of the size there costs nothing any more.
@@ -27,7 +30,15 @@ constexpr double kMaxPanels = 1 << 18;
 ArcMeasure::ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size,
                        const std::string& label, double most)
     : curve_(curve), t0_(t0), t1_(t1), size_(size), label_(label) {
-  std::vector<Panel> panels = first_panels();
+  std::vector<Panel> panels;
+  const Sample middle = sample(0.5 * (t0 + t1));
+  double edges = trapezium(sample(t0), middle) + trapezium(middle, sample(t1));
+  if (edges < kShortPiece) {
+    panels = first_panels(kFewPanels);
+    edges = 0;
+    for (const Panel& p : panels) edges += p.value;
+  }
+  if (!(edges < kShortPiece)) panels = first_panels(kFirstPanels);
   refine(panels, most);
   finish(panels);
 }
@@ -63,14 +74,14 @@ ArcMeasure::Panel ArcMeasure::make_panel(const Sample& a, const Sample& m, const
   return panel;
 }
 
-std::vector<ArcMeasure::Panel> ArcMeasure::first_panels() const {
+std::vector<ArcMeasure::Panel> ArcMeasure::first_panels(int count) const {
   const auto at = [&](int k) {
-    const int n = 2 * kFirstPanels;
+    const int n = 2 * count;
     return sample(k == n ? t1_ : t0_ + (t1_ - t0_) * k / n);
   };
   std::vector<Panel> panels;
   Sample a = at(0);
-  for (int k = 0; k < kFirstPanels; ++k) {
+  for (int k = 0; k < count; ++k) {
     const Sample m = at(2 * k + 1), b = at(2 * k + 2);
     panels.push_back(make_panel(a, m, b));
     a = b;

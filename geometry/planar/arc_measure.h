@@ -52,7 +52,7 @@ class ArcMeasure {
   static double simpson(const Sample& a, const Sample& m, const Sample& b);
   Sample sample(double t) const;
   Panel make_panel(const Sample& a, const Sample& m, const Sample& b) const;
-  std::vector<Panel> first_panels() const;
+  std::vector<Panel> first_panels(int count) const;
   void refine(std::vector<Panel>& panels, double most) const;
   void finish(const std::vector<Panel>& panels);
   double find(const Cell& cell, double begin, double target) const;

@@ -318,18 +318,24 @@ double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_th
 
 /// Of the gathered vertex, with delta' as it is there.
 double QuadRelocation::crowding_around(Vec2 at) const {
+  const auto sum_by = [&](double delta) {
+    double sum = 0;
+    mesh_.for_each_out(gathered_,
+                       [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
+    return sum;
+  };
+  // It grows with delta', which takes longer to know.
+  if (sum_by(std::numeric_limits<double>::max()) == 0) return 0;
   int hint = hint_[gathered_];
-  const double delta = size_.at(at, hint);
-  double sum = 0;
-  mesh_.for_each_out(gathered_,
-                     [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
-  return sum;
+  return sum_by(size_.at(at, hint));
 }
 
 /// Whether a move brings vertices nearer to each other than they may come. Angles alone do not prevent it:
 /// towards a point where two vertices meet, the angles between them may take any value.
 bool QuadRelocation::crowds(Vec2 from, Vec2 to, const Value& there) const {
-  return !there.roomy && crowding_around(to) > crowding_around(from);
+  if (there.roomy) return false;
+  const double crowding = crowding_around(to);
+  return crowding > 0 && crowding > crowding_around(from);
 }
 
 double QuadRelocation::cost(int v) {
