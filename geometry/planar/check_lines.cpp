@@ -117,9 +117,10 @@ class LineArranger {
     std::ranges::sort(used_, [&](int v, int w) { return lexicographic(v, w); });
     for (std::size_t i = 1; i < used_.size(); ++i) {
       const int v = used_[i - 1], w = used_[i];
-      if (at(v) == at(w))
-        fail("two nodes coincide at {}, on {} and on {}: loops must not touch, and a node stands once",
-             place(v), curve_at(v), curve_at(w));
+      if (at(v) != at(w)) continue;
+      if (cross_there(v, w)) fail("lines of {} and {} cross at {}", curve_at(v), curve_at(w), place(v));
+      fail("two nodes coincide at {}, on {} and on {}: lines that touch share a node there", place(v),
+           curve_at(v), curve_at(w));
     }
     std::vector<int> order(mesh_.lines.size());
     std::iota(order.begin(), order.end(), 0);
@@ -134,6 +135,24 @@ class LineArranger {
              place(w), curve(l));
       fail("the line from {} to {} is there twice, on {} and on {}", place(v), place(w), curve(l), curve(m));
     }
+  }
+
+  /// Of two nodes at one place, each with two lines: does one of its lines run on either side of the other's?
+  bool cross_there(int v, int w) const {
+    if (valence(v) != 2 || valence(w) != 2) return false;
+    const auto end = [&](int node, std::size_t k) {
+      const auto [a, b] = line(lines_at_[first_line_[static_cast<std::size_t>(node)] + k]);
+      return at(a == node ? b : a);
+    };
+    const Vec2 x = at(v), a = end(v, 0), b = end(v, 1);
+    const auto side = [&](Vec2 p) {  // 1: counter-clockwise from a to b; 0: on one of the two
+      const int from_a = orient2d(x, a, p), to_b = orient2d(x, p, b);
+      if (from_a == 0 && dot(a - x, p - x) > 0) return 0;
+      if (to_b == 0 && dot(b - x, p - x) > 0) return 0;
+      const bool is_within = orient2d(x, a, b) > 0 ? from_a > 0 && to_b > 0 : from_a > 0 || to_b > 0;
+      return is_within ? 1 : -1;
+    };
+    return side(end(w, 0)) * side(end(w, 1)) < 0;
   }
 
   void check_closed(const Arrangement& arrangement) const {

@@ -97,10 +97,11 @@ void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& 
           if (f.loop <= e.loop || !boxes[i].overlaps(boxes[static_cast<std::size_t>(j)])) return;
           const auto at = meeting(parts[i], parts[static_cast<std::size_t>(j)], tolerance);
           if (!at) return;
-          throw InputError(fmt::format(
-              "{}{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected them more than {:.3g} apart",
-              names.source, names.source.empty() ? "" : ": ", names.curve(e.curve), names.curve(f.curve),
-              at->x, at->y, tolerance));
+          throw InputError(
+              fmt::format("{}{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected a common place, or "
+                          "more than {:.3g} between them",
+                          names.source, names.source.empty() ? "" : ": ", names.curve(e.curve),
+                          names.curve(f.curve), at->x, at->y, tolerance));
         });
   }
 }

@@ -84,6 +84,12 @@ TEST(CrossingLoops, AreRefusedWithThePlace) {
     expect_input_error([&] { make_domain(model_of({loop}), constant(0.3)); }, {word});
   };
   refused({{0, 0}, {4, 4}, {4, 0}, {0, 4}}, "cross at (2, 2)");
+  // Six edges on each diagonal: both have a node there.
+  expect_input_error(
+      [&] {
+        make_domain(model_of({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}), constant(1.42));
+      },
+      {"lines of", "cross at (2, 2)"});
   Polygon twice = kSquare;
   twice.insert(twice.end(), kSquare.begin(), kSquare.end());
   refused(twice, "the loops enclose nothing");
