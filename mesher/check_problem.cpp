@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "base/length_unit.h"
 #include "base/located.h"
+#include "curves/compose_size.h"
 #include "features/given/given_surface.h"
 #include "features/layers/layer_heights.h"
-#include "curves/compose_size.h"
 #include "geometry/mesh/check_mesh.h"
 
 namespace delquad {
@@ -156,15 +158,32 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
                     problem.periodic[0].where, problem.periodic[0].to, problem.periodic[0].from, source));
 }
 
+/// Refuses the options that were given, and says which. `angle_may_be`: not feature angles. They are for
+/// what is `wanted`, and the model `is` something else.
+void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const char* is,
+                            const char* wanted) {
+  const SurfaceSpec& s = problem.surface;
+  std::vector<std::string> given;
+  const auto add = [&](bool is_given, const char* key) {
+    if (is_given) given.push_back(key);
+  };
+  add(s.compounds != Compounds::kNone, "compound");
+  add(s.merge_curves > 0, "merge_curves");
+  add(s.ignore_below > 0, "ignore_below");
+  add(s.feature_angle && !angle_may_be, "feature_angle");
+  add(s.weld_tolerance.has_value(), "weld_tolerance");
+  add(s.mirror.has_value(), "mirror");
+  add(s.glue, "glue");
+  add(!s.unit.empty(), "unit");
+  add(!s.embed.empty(), "embed");
+  if (!given.empty())
+    throw InputError(fmt::format("{}: {}: {} {} for {}", s.where.empty() ? problem.where : s.where, is,
+                                 fmt::join(given, ", "), given.size() == 1 ? "is" : "are", wanted));
+}
+
 /// Refuses what would change a mesh in space before words begin.
 void check_given_in_space(const MeshProblem& problem) {
-  const SurfaceSpec& s = problem.surface;
-  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.weld_tolerance ||
-      s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
-    throw InputError(
-        (s.where.empty() ? problem.where : s.where) +
-        ": a mesh that is given keeps its faces, lines and unit: compounds, welding, gluing, mirrors, units, "
-        "embedded lines and lengths below which entities are ignored are for models");
+  refuse_surface_options(problem, true, "a mesh that is given keeps its faces, lines and unit", "models");
   if (problem.size.curvature > 0 ||
       std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
     throw InputError(problem.size.where + ": sizes by curvature are for models of surfaces");
@@ -172,13 +191,7 @@ void check_given_in_space(const MeshProblem& problem) {
 
 /// Refuses what is for surfaces.
 void check_planar(const MeshProblem& problem) {
-  const SurfaceSpec& s = problem.surface;
-  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.feature_angle ||
-      s.weld_tolerance || s.mirror || s.glue || !s.unit.empty() || !s.embed.empty())
-    throw InputError(
-        (s.where.empty() ? problem.where : s.where) +
-        ": the model is planar: compounds, feature angles, welding, gluing, mirrors, units, lines "
-        "embedded in space and lengths below which entities are ignored are for surfaces");
+  refuse_surface_options(problem, false, "the model is planar", "surfaces");
   if (problem.size.curvature > 0 ||
       std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
     throw InputError(problem.size.where +
