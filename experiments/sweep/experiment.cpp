@@ -250,6 +250,7 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
 
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
+  table.require_known(experiment_keys());
   Experiment experiment;
   experiment.file = file;
   experiment.cases_ = table.tables("case");

@@ -89,6 +89,8 @@ TEST_F(Solvers, UnknownOnesAreRefused) {
   expect_input_error([&] { read("solver = [\"poison\"]\n"); }, {"e.toml", "did you mean 'poisson'"});
   expect_input_error([&] { read("solver = [\"poisson\", \"poisson\"]\n"); }, {"e.toml", "twice"});
   expect_input_error([&] { read("columns = [\"poisson_h1\"]\n"); }, {"unknown metric 'poisson_h1'"});
+  expect_input_error([&] { read("columns = [\"poisson_h1\"]\nsolvre = [\"poisson\"]\n"); },
+                     {"'solvre'", "did you mean 'solver'"});
   const Json names = Json::parse(experiment_schema())["properties"]["solver"]["items"]["enum"];
   EXPECT_EQ(names.get<std::vector<std::string>>(), solver_names());
 }
