@@ -17,8 +17,8 @@
 #include "base/segment.h"
 #include "base/text.h"
 #include "features/layers/planar_layers.h"
-#include "metrics/judgement/soundness.h"
 #include "features/symmetry/mirrored_surface.h"
+#include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 
 namespace delquad {
