@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Message_Report.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <vector>
 
 #include "base/disjoint_sets.h"
@@ -47,17 +50,36 @@ TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   return all;
 }
 
-/// The faces or edges that several of some parts have.
-TopTools_IndexedMapOfShape common_of(const TopTools_ListOfShape& all, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape seen, common;
-  for (const TopoDS_Shape& part : all) {
-    const TopTools_IndexedMapOfShape own = parts(part, kind);
-    for (int i = 1; i <= own.Extent(); ++i) {
-      const int known = seen.Extent();
-      if (seen.Add(own(i)) <= known) common.Add(own(i));
+/// What has become of the faces of each of some bodies.
+TopTools_ListOfShape images_of_bodies(BOPAlgo_Builder& builder, const TopTools_ListOfShape& bodies) {
+  TopTools_ListOfShape all;
+  for (const TopoDS_Shape& body : bodies) {
+    TopoDS_Compound images;
+    BRep_Builder().MakeCompound(images);
+    for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next())
+      for (const TopoDS_Shape& image : images_of(builder, face.Current())) BRep_Builder().Add(images, image);
+    all.Append(images);
+  }
+  return all;
+}
+
+/// How many faces, edges or vertices several bodies have, as they were or as they are; edges that are points
+/// do not count.
+int count_common(const TopTools_ListOfShape& before, const TopTools_ListOfShape& after,
+                 TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape common;
+  for (const TopTools_ListOfShape& bodies : {before, after}) {
+    TopTools_IndexedMapOfShape seen;
+    for (const TopoDS_Shape& body : bodies) {
+      const TopTools_IndexedMapOfShape own = parts(body, kind);
+      for (int i = 1; i <= own.Extent(); ++i) {
+        if (kind == TopAbs_EDGE && BRep_Tool::Degenerated(TopoDS::Edge(own(i)))) continue;
+        const int known = seen.Extent();
+        if (seen.Add(own(i)) <= known) common.Add(own(i));
+      }
     }
   }
-  return common;
+  return common.Extent();
 }
 
 /// How many do not hang together by edges.
@@ -135,11 +157,12 @@ void glue_shape(CadShape& cad, double tolerance) {
         fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
   const std::vector<std::string> cut = follow_faces(builder, cad);
   cad.shape = glued;
-  const TopTools_ListOfShape after = glued_parts(glued);
+  const auto count = [&, before = images_of_bodies(builder, bodies), after = glued_parts(glued)](
+                         TopAbs_ShapeEnum kind) { return count_common(before, after, kind); };
   const int n_parts = count_parts(glued);
   cad.warnings.push_back(
-      fmt::format("glued: {} bodies have {} faces and {} edges in common{}", bodies.Extent(),
-                  common_of(after, TopAbs_FACE).Extent(), common_of(after, TopAbs_EDGE).Extent(),
+      fmt::format("glued: {} bodies have {} faces, {} edges and {} vertices in common{}", bodies.Extent(),
+                  count(TopAbs_FACE), count(TopAbs_EDGE), count(TopAbs_VERTEX),
                   n_parts > 1 ? fmt::format("; {} parts hang apart, without a common edge", n_parts) : ""));
   if (!cut.empty())
     cad.warnings.push_back(fmt::format(

@@ -1,6 +1,14 @@
 #include "geometry/cad/loose_joints.h"
 
+#include <BRep_Tool.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -13,6 +21,7 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
+#include "geometry/cad/sub_shapes.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
 
@@ -32,7 +41,14 @@ constexpr double kPartOfChord = 0.01;
 /// at 15 degrees; steps that are no shorter than this part of the one before lead nowhere.
 constexpr int kMostMeetingSteps = 200;
 constexpr double kStepsShrink = 0.97;
+/// Places where triangles of two faces are nearest to each other: so many are tried, the nearest first.
+constexpr std::size_t kMostStarts = 20;
+/// Two triangles are followed from one to the other so often, which need not reach the nearest places.
+constexpr int kMostExchanges = 8;
+/// Faces come nearer by steps that lower their distance to this part, and are as long as this part of it.
+constexpr double kNearer = 0.9, kShortestStep = 0.25;
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
 /// Of two ascending lists.
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> both;
@@ -53,9 +69,29 @@ std::optional<Vec3> meeting(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return x;
 }
 
+/// A triangle of a face, or a chord of a curve, whose end stands twice.
+struct Piece {
+  std::array<Vec3, 3> at;
+  int face, curve;  ///< curve -1: of the face
+
+  Box<Vec3> box() const { return Box<Vec3>::around(at); }
+  double length() const { return std::max(norm(at[1] - at[0]), norm(at[2] - at[0])); }
+  Vec3 nearest(const Vec3& x) const {
+    const auto w = nearest_weights(at[0], at[1], at[2], x);
+    return w[0] * at[0] + w[1] * at[1] + w[2] * at[2];
+  }
+};
+
+/// A place of one next to the other.
+struct Approach {
+  double apart = std::numeric_limits<double>::infinity();
+  Vec3 at;
+  Piece from, to;
+};
+
 class JointFinder {
  public:
-  JointFinder(const SurfaceModel& model, const std::vector<std::vector<int>>& solids, double deflection,
+  JointFinder(const SurfaceModel& model, const std::vector<std::vector<int>>& shells, double deflection,
               double tolerance)
       : model_(model),
         mesh_(model.fine),
@@ -63,8 +99,8 @@ class JointFinder {
         tolerance_(tolerance),
         sides_(sorted_half_edges(mesh_)),
         faces_(mesh_.regions.size()) {
-    for (int s = 0; s < std::ssize(solids); ++s)
-      for (const int f : solids[s]) faces_[f].solids.push_back(s);
+    for (int s = 0; s < std::ssize(shells); ++s)
+      for (const int f : shells[s]) faces_[f].shells.push_back(s);
     for (int t = 0; t < std::ssize(mesh_.triangles); ++t) faces_[face_of(t)].triangles.push_back(t);
     for (Face& face : faces_) set_box(face);
     find_lines();
@@ -73,15 +109,18 @@ class JointFinder {
 
   std::vector<LooseJoint> find() {
     using Kind = LooseJoint::Kind;
-    const std::vector<Pair> pairs = near_pairs();
+    std::vector<Pair> pairs = near_pairs();
     for (const auto& [f, g] : pairs)
-      if (common(faces_[f].lines, faces_[g].lines).empty() && !add(Kind::kFaces, f, g, common_area(f, g)))
-        add(Kind::kFaces, f, g, common_area(g, f));
+      if (!add(Kind::kFaces, f, g, common_area(f, g))) add(Kind::kFaces, f, g, common_area(g, f));
+    std::erase_if(pairs, [&](const Pair& pair) { return are_of_one_shell(pair[0], pair[1]); });
     for (const auto& [f, g] : pairs)
       if (!has_joint(f, g) && !add_line_joint(f, g)) add_line_joint(g, f);
     for (const auto& [f, g] : pairs)
       if (!has_joint(f, g) && !add(Kind::kCrossing, f, g, crossing(f, g)))
         add(Kind::kCrossing, f, g, crossing(g, f));
+    for (const auto& [f, g] : pairs)
+      if (!has_joint(f, g) && !add(Kind::kTouch, f, g, touching(f, g)))
+        add(Kind::kTouch, f, g, touching(g, f));
     std::ranges::sort(joints_, {}, [](const LooseJoint& j) { return in_order(j.faces[0], j.faces[1]); });
     return std::move(joints_);
   }
@@ -130,7 +169,7 @@ class JointFinder {
     BoxTree<Vec3> boxes;
   };
   struct Face {
-    std::vector<int> triangles, solids, lines, nodes;  ///< ascending; the nodes on lines
+    std::vector<int> triangles, shells, lines, nodes;  ///< ascending; the nodes on lines
     Box<Vec3> box{};
     int part = -1;
     std::unique_ptr<Trees> trees{};
@@ -175,7 +214,22 @@ class JointFinder {
     });
   }
 
-  /// Faces whose boxes meet, that no solid has both, and that are not of one closed shell.
+  bool are_of_one_shell(int f, int g) const {
+    const Face &first = faces_[f], &second = faces_[g];
+    return (first.part == second.part && is_open_[first.part] == 0 &&
+            (first.shells.empty() || second.shells.empty())) ||
+           std::ranges::any_of(first.shells,
+                               [&](int s) { return std::ranges::binary_search(second.shells, s); });
+  }
+
+  /// Whether all lines of one are lines of the other.
+  bool have_one_rim(int f, int g) const {
+    const std::vector<int>&first = faces_[f].lines, &second = faces_[g].lines;
+    return !first.empty() && !second.empty() &&
+           (std::ranges::includes(first, second) || std::ranges::includes(second, first));
+  }
+
+  /// Faces whose boxes meet, and that are not of one closed shell, or have one rim.
   std::vector<Pair> near_pairs() const {
     std::vector<int> order;
     for (int f = 0; f < std::ssize(faces_); ++f)
@@ -186,13 +240,8 @@ class JointFinder {
       check_cancelled();
       const Face& first = faces_[order[i]];
       for (std::size_t j = i + 1; j < order.size() && faces_[order[j]].box.low.x <= first.box.high.x; ++j) {
-        const Face& second = faces_[order[j]];
-        if (first.part == second.part && is_open_[first.part] == 0 &&
-            (first.solids.empty() || second.solids.empty()))
-          continue;
-        if (!first.box.overlaps(second.box)) continue;
-        if (std::ranges::none_of(first.solids,
-                                 [&](int s) { return std::ranges::binary_search(second.solids, s); }))
+        if (!first.box.overlaps(faces_[order[j]].box)) continue;
+        if (!are_of_one_shell(order[i], order[j]) || have_one_rim(order[i], order[j]))
           pairs.push_back(in_order(order[i], order[j]));
       }
     }
@@ -253,13 +302,10 @@ class JointFinder {
     return add(LooseJoint::Kind::kEdge, f, g, middles) || add(LooseJoint::Kind::kCorner, f, g, ends);
   }
 
-  /// A place where a side of a triangle of f goes through g, and not next to what both share: triangles of
-  /// neighbours may cross there.
-  Places crossing(int f, int g) {
-    constexpr std::array<Pair, 3> kSides{{{0, 1}, {1, 2}, {2, 0}}};
-    const std::vector<int> nodes = common(faces_[f].nodes, faces_[g].nodes),
-                           lines = common(faces_[f].lines, faces_[g].lines);
-    const auto is_apart = [&](const Vec3& x) {
+  /// Whether a place is not next to what both share: triangles of neighbours may cross there.
+  auto away_from_shared(int f, int g) const {
+    return [this, nodes = common(faces_[f].nodes, faces_[g].nodes),
+            lines = common(faces_[f].lines, faces_[g].lines)](const Vec3& x) {
       return std::ranges::none_of(nodes,
                                   [&](int v) { return norm(mesh_.points[v] - x) <= 2 * deflection_; }) &&
              std::ranges::none_of(lines, [&](int l) {
@@ -268,6 +314,12 @@ class JointFinder {
                return norm(w[0] * a + (w[1] + w[2]) * b - x) <= 2 * deflection_;
              });
     };
+  }
+
+  /// A place where a side of a triangle of f goes through g.
+  Places crossing(int f, int g) {
+    constexpr std::array<Pair, 3> kSides{{{0, 1}, {1, 2}, {2, 0}}};
+    const auto is_apart = away_from_shared(f, g);
     for (const int t : faces_[f].triangles)
       for (const auto& [i, k] : kSides) {
         const Vec3 &p = corner(t, i), &q = corner(t, k);
@@ -300,6 +352,96 @@ class JointFinder {
       before = apart;
     }
     return is_on(x, f, tolerance_) && is_on(x, g, tolerance_) ? std::optional(x) : std::nullopt;
+  }
+
+  Piece triangle(int t) const { return {{corner(t, 0), corner(t, 1), corner(t, 2)}, face_of(t), -1}; }
+  Piece chord(int l, int f) const {
+    const Vec3 &p = mesh_.points[mesh_.lines[l][0]], &q = mesh_.points[mesh_.lines[l][1]];
+    return {{p, q, q}, f, mesh_.line_curve[l]};
+  }
+  Vec3 project(const Piece& to, const Vec3& x) const {
+    return to.curve < 0 ? model_.projector->to_face(to.face, x) : model_.projector->to_curve(to.curve, x);
+  }
+
+  /// A place where f, or a curve of it, touches g: as a ball does a table, a wheel a road, two rings.
+  Places touching(int f, int g) {
+    std::vector<Approach> all;
+    for (const int t : faces_[f].triangles) add_approaches(triangle(t), g, all);
+    for (const int l : faces_[f].lines)
+      if (!std::ranges::binary_search(faces_[g].lines, l)) add_approaches(chord(l, f), g, all);
+    const auto is_apart = away_from_shared(f, g);
+    std::erase_if(all, [&](const Approach& approach) {
+      return !is_apart(approach.at) || (approach.apart <= tolerance_ && !is_on(approach.at, g, tolerance_));
+    });
+    std::ranges::stable_sort(all, {}, &Approach::apart);
+    all.resize(std::min(all.size(), kMostStarts));
+    for (const Approach& approach : all)
+      if (const Vec3 x = come_nearer(approach);
+          is_apart(x) && is_on(x, f, tolerance_) && is_on(x, g, tolerance_))
+        return {x};
+    return {};
+  }
+
+  /// Where a piece is nearest to g, and to its curves if it is of one, if that may be a common place.
+  void add_approaches(const Piece& from, int g, std::vector<Approach>& all) {
+    const double reach = 2 * deflection_ + tolerance_;
+    const Vec3 more{reach, reach, reach};
+    const Box<Vec3> box{from.box().low - more, from.box().high + more};
+    if (!box.overlaps(faces_[g].box)) return;
+    std::array<Approach, 2> nearest;  // to a triangle, to a chord
+    const auto offer = [&](const Piece& to) {
+      if (!box.overlaps(to.box())) return;
+      Vec3 x = 1.0 / 3 * (from.at[0] + from.at[1] + from.at[2]), y = x;
+      for (int k = 0; k < kMostExchanges; ++k) {
+        y = to.nearest(x);
+        x = from.nearest(y);
+      }
+      Approach& known = nearest[to.curve >= 0];
+      if (const double apart = norm(x - y); apart <= reach && apart < known.apart)
+        known = {apart, x, from, to};
+    };
+    trees_of(g).boxes.search(
+        0.0, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
+        [&](int n) {
+          const int t = faces_[g].triangles[n];
+          offer(triangle(t));
+          for (int k = 0; from.curve >= 0 && k < 3; ++k)
+            if (const auto line =
+                    line_on_.find(in_order(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]));
+                line != line_on_.end())
+              offer(chord(line->second, g));
+        });
+    for (Approach& at : nearest) {
+      if (std::isinf(at.apart)) continue;
+      at.at = project(at.from, at.at);
+      at.apart = norm(at.at - project(at.to, at.at));
+      if (std::isfinite(at.apart)) all.push_back(at);
+    }
+  }
+
+  /// The place of one that is nearest to the other, by steps along it that are halved where they lead
+  /// nowhere.
+  Vec3 come_nearer(const Approach& approach) const {
+    auto [apart, x, from, to] = approach;
+    const Vec3 along = from.at[1] - from.at[0], across = cross(cross(along, from.at[2] - from.at[0]), along);
+    std::vector<Vec3> ways;
+    for (const Vec3& way : {along, across})
+      if (const double length = norm(way); length > 0 && (from.curve < 0 || ways.empty()))
+        for (const double sign : {1.0, -1.0}) ways.push_back(sign / length * way);
+    double step = std::min(from.length(), to.length());
+    while (step > tolerance_ && step >= kShortestStep * apart) {
+      bool comes_nearer = false;
+      for (const Vec3& way : ways) {
+        const Vec3 y = project(from, x + step * way);
+        const double distance = norm(y - project(to, y));
+        if (!(distance < kNearer * apart)) continue;
+        x = y;
+        apart = distance;
+        comes_nearer = true;
+      }
+      if (!comes_nearer) step /= 2;
+    }
+    return x;
   }
 
   /// The nearest triangle on points of its own: as many as it has corners.
@@ -381,19 +523,59 @@ class JointFinder {
   std::set<Pair> joined_;  ///< faces with a joint, in order
 };
 
-}  // namespace
-
-std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
-                                     double deflection, double tolerance) {
-  return model.fine.regions.size() < 2 ? std::vector<LooseJoint>{}
-                                       : JointFinder(model, solids, deflection, tolerance).find();
+/// Whether a face goes on all around a vertex of its own.
+bool is_inside(const TopoDS_Face& face, const TopoDS_Shape& vertex,
+               const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
+  for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+    if (!parts(edge, TopAbs_VERTEX).Contains(vertex) || BRep_Tool::Degenerated(edge)) continue;
+    const TopTools_ListOfShape& with_edge = faces_of.FindFromKey(edge);
+    if (!BRep_Tool::IsClosed(edge, face) ||
+        !std::all_of(with_edge.begin(), with_edge.end(), [&](const auto& f) { return f.IsSame(face); }))
+      return false;
+  }
+  return true;
 }
 
-std::vector<NearContact> near_contacts(const SurfaceModel& model, const std::vector<std::vector<int>>& solids,
+}  // namespace
+
+std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (const TopAbs_ShapeEnum kind : {TopAbs_EDGE, TopAbs_VERTEX})
+      TopExp::MapShapesAndAncestors(faces(f), kind, TopAbs_FACE, faces_of);
+  std::vector<LooseJoint> joints;
+  for (int v = 1; v <= faces_of.Extent(); ++v) {
+    const TopoDS_Shape& vertex = faces_of.FindKey(v);
+    if (vertex.ShapeType() != TopAbs_VERTEX) continue;
+    const TopTools_ListOfShape& all = faces_of(v);
+    const auto other =
+        std::find_if(all.begin(), all.end(), [&](const auto& f) { return !f.IsSame(all.First()); });
+    if (other == all.end()) continue;
+    for (const TopoDS_Shape& face : all) {
+      if (!is_inside(TopoDS::Face(face), vertex, faces_of)) continue;
+      const TopoDS_Shape& touched = face.IsSame(all.First()) ? *other : all.First();
+      const gp_Pnt at = BRep_Tool::Pnt(TopoDS::Vertex(vertex));
+      joints.push_back({LooseJoint::Kind::kTouch,
+                        {faces.FindIndex(face) - 1, faces.FindIndex(touched) - 1},
+                        {at.X(), at.Y(), at.Z()}});
+      break;
+    }
+  }
+  return joints;
+}
+
+std::vector<LooseJoint> loose_joints(const SurfaceModel& model, const std::vector<std::vector<int>>& shells,
+                                     double deflection, double tolerance) {
+  return model.fine.regions.size() < 2 ? std::vector<LooseJoint>{}
+                                       : JointFinder(model, shells, deflection, tolerance).find();
+}
+
+std::vector<NearContact> near_contacts(const SurfaceModel& model, const std::vector<std::vector<int>>& shells,
                                        const std::vector<LooseJoint>& joints, double deflection,
                                        double reach) {
   return model.fine.regions.size() < 2 ? std::vector<NearContact>{}
-                                       : JointFinder(model, solids, deflection, reach).find_near(joints);
+                                       : JointFinder(model, shells, deflection, reach).find_near(joints);
 }
 
 }  // namespace delquad::cad

@@ -40,15 +40,24 @@ constexpr double kTouching = 1e-6;
 /// Up to this part of it they may come near: a tenth of edges of which twenty make a diagonal.
 constexpr double kNear = 1.0 / 200;
 
-/// Faces of each body.
-std::vector<std::vector<int>> bodies(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
+/// Faces of each body or shell.
+std::vector<std::vector<int>> faces_of(const TopTools_ListOfShape& some,
+                                       const TopTools_IndexedMapOfShape& faces) {
   std::vector<std::vector<int>> all;
-  for (const TopoDS_Shape& body : bodies_of(shape)) {
+  for (const TopoDS_Shape& one : some) {
     std::vector<int>& of = all.emplace_back();
-    const TopTools_IndexedMapOfShape own = parts(body, TopAbs_FACE);
+    const TopTools_IndexedMapOfShape own = parts(one, TopAbs_FACE);
     for (int f = 1; f <= own.Extent(); ++f) of.push_back(faces.FindIndex(own(f)) - 1);
   }
   return all;
+}
+
+TopTools_ListOfShape shells_of_solids(const TopoDS_Shape& shape) {
+  TopTools_ListOfShape shells;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
+    for (TopExp_Explorer shell(solid.Current(), TopAbs_SHELL); shell.More(); shell.Next())
+      shells.Append(shell.Current());
+  return shells;
 }
 
 int count_solids(const TopoDS_Shape& shape) {
@@ -87,7 +96,7 @@ void name_solids(const TopoDS_Shape& shape, const std::vector<std::vector<int>>&
 /// "face 2, edge on face 1 (lid) at (1, 0, 2)", of so many.
 std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints) {
   constexpr std::size_t kMostNamed = 20;
-  constexpr std::array kHow{"face on", "edge on", "corner on", "through"};  // by kind
+  constexpr std::array kHow{"face on", "edge on", "corner on", "through", "touching"};  // by kind
   const auto title = [&](int f) { return face_title(mesh.regions[f].tag, mesh.regions[f].names); };
   std::string text;
   for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
@@ -129,10 +138,10 @@ void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double di
 }
 
 /// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
-void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& solids, double deflection,
+void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& shells, double deflection,
                   double diagonal, const CadOptions& options) {
-  const std::vector<LooseJoint> joints = loose_joints(model, solids, deflection, kTouching * diagonal);
-  tell_near(model, near_contacts(model, solids, joints, deflection, kNear * diagonal), diagonal,
+  const std::vector<LooseJoint> joints = loose_joints(model, shells, deflection, kTouching * diagonal);
+  tell_near(model, near_contacts(model, shells, joints, deflection, kNear * diagonal), diagonal,
             options.size);
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
@@ -142,6 +151,16 @@ void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& soli
   model.warnings.push_back(
       fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {}",
                   counted(std::ssize(joints), "place"), list));
+}
+
+/// What was fragmented before has common points that no node can join.
+void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape& faces) {
+  const std::vector<LooseJoint> joints = joints_at_points(faces);
+  if (!joints.empty())
+    throw InputError(fmt::format(
+        "faces share single points inside of them at {}: {}: expected faces that share edges, or corners of "
+        "both (files of bodies that share nothing are meshed, bodies apart)",
+        counted(std::ssize(joints), "place"), list_joints(mesh, joints)));
 }
 
 /// A curve that stands in a face has a point inside, so that a patch can be opened between its ends.
@@ -216,7 +235,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (Entity& curve : model.fine.curves)
     if (curve.tag <= edges.Extent()) curve.names = cad.names.of(edges(curve.tag));
   model.embedded = std::move(welded.embedded);
-  const std::vector<std::vector<int>> groups = bodies(cad.shape, faces);
+  const std::vector<std::vector<int>> groups = faces_of(bodies_of(cad.shape), faces);
   name_solids(cad.shape, groups, model.fine);
   orient(model, groups);
   report_edges(model);
@@ -224,8 +243,9 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (const auto& [point, face] : welded.inside)
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
   if (!model.embedded.empty()) part_single_lines(model);
-  check_joints(model, {groups.begin(), groups.begin() + count_solids(cad.shape)},
-               options.deflection * cad.diagonal, cad.diagonal, options);
+  check_joints(model, faces_of(shells_of_solids(cad.shape), faces), options.deflection * cad.diagonal,
+               cad.diagonal, options);
+  refuse_joints_at_points(model.fine, faces);
   return model;
 }
 

@@ -5,9 +5,12 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepGProp.hxx>
-#include <BRep_Builder.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <GProp_GProps.hxx>
-#include <TopoDS_Compound.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
@@ -15,8 +18,6 @@
 #include <gp_Cylinder.hxx>
 #include <numbers>
 #include <utility>
-
-#include "delquad/mesh.h"
 
 namespace delquad::testing_support {
 
@@ -108,6 +109,53 @@ std::vector<ShellJoint> shell_joints() {
   return all;
 }
 
+std::vector<PointContact> point_contacts() {
+  const gp_Dir x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), aslant(1, 2, 3);
+  const auto ball = [&](const Vec3& at, double radius, const gp_Dir& axis) -> TopoDS_Shape {
+    return BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(at.x, at.y, at.z), axis), radius).Shape();
+  };
+  const auto pipe = [&](const Vec3& from, const gp_Dir& axis) -> TopoDS_Shape {
+    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(from.x, from.y, from.z), axis), 1, 9).Shape();
+  };
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(8, 8, 8).Shape();
+  const auto between = [](const Vec3& a, double radius, const Vec3& b) {
+    return a + radius / norm(b - a) * (b - a);
+  };
+  const Vec3 here{1, 2, 3}, there{3, 4, 4};
+  constexpr double kGap = 1e-8;
+  return {{"balls", {ball(here, 1, z), ball(there, 2, z)}, between(here, 1, there)},
+          {"ball_in_a_ball", {ball(here, 5, z), ball(there, 2, aslant)}, between(here, 5, there)},
+          {"poles", {ball({0, 0, 0}, 1, z), ball({0, 0, 3}, 2, z)}, {0, 0, 1}},
+          {"ball_on_a_plate", {plate(), ball({4, 3, 2}, 2, aslant)}, {4, 3, 0}},
+          {"pole_on_a_plate", {plate(), ball({4, 3, 2}, 2, z)}, {4, 3, 0}},
+          {"ball_off_a_plate", {plate(), ball({4, 3, 2 + kGap}, 2, z)}, {4, 3, 0}},
+          {"ball_on_a_floor", {box, ball({4, 4, 2}, 2, z)}, {4, 4, 0}},
+          {"ball_at_a_wall", {box, ball({2, 4, 4}, 2, z)}, {0, 4, 4}},
+          {"pipes", {pipe({-4, 0, 0}, x), pipe({0.5, -4, 2}, y)}, {0.5, 0, 1}},
+          {"rim_on_a_plate", {plate(), disc(gp_Ax2(gp_Pnt(4, 3, 2), aslant.Crossed(z)), 2)}, {4, 3, 0}},
+          {"rims",
+           {disc(gp_Ax2(gp_Pnt(1, 2, 0), z, x), 1), disc(gp_Ax2(gp_Pnt(4, 6, 0), z, x), 4)},
+           {1.6, 2.8, 0}}};
+}
+
+std::vector<DoubleFaces> double_faces() {
+  const auto reversed = [](const TopoDS_Face& face) { return TopoDS::Face(face.Reversed()); };
+  const auto ring = [] { return disc(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 3); };
+  const TopoDS_Face back = parallelogram({0, 6, 0}, {10, 0, 0}, {0, -6, 0});
+  std::vector<TopoDS_Face> box;
+  for (TopExp_Explorer at(BRepPrimAPI_MakeBox(10, 6, 2).Shape(), TopAbs_FACE); at.More(); at.Next())
+    box.push_back(TopoDS::Face(at.Current()));
+  box.push_back(plate());
+  return {{"plates", {plate(), plate()}, 1, 60},
+          {"plates_back_to_back", {plate(), back}, 1, 60},
+          {"plate_reversed", {plate(), reversed(plate())}, 1, 60},
+          {"three_plates", {plate(), back, plate()}, 1, 60},
+          {"four_plates", {plate(), plate(), plate(), plate()}, 1, 60},
+          {"discs", {ring(), ring()}, 1, 9 * pi},
+          {"pipes", {cylinder(gp_Ax3(), 3, 0, 2 * pi, 8), cylinder(gp_Ax3(), 3, 0, 2 * pi, 8)}, 1, 48 * pi},
+          {"box_with_two_lids", box, 6, 120 + 2 * 2 * 16}};
+}
+
 std::vector<TopoDS_Face> star_of_faces(int n) {
   std::vector<TopoDS_Face> faces;
   for (int i = 0; i < n; ++i)
@@ -126,14 +174,6 @@ std::vector<std::vector<TopoDS_Face>> faces_apart() {
           {plate(), parallelogram({10 + kGap, 0, 0}, {4, 0, 0}, {0, 6, 0})},
           {plate(), web({10 + kGap, 0, 0}, {10 + kGap, 6, 0})},
           {plate(), parallelogram({2, 2, kGap}, {4, 0, 0}, {0, 2, 0})}};
-}
-
-TopoDS_Shape compound_of(const std::vector<TopoDS_Face>& faces) {
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const TopoDS_Face& face : faces) builder.Add(all, face);
-  return all;
 }
 
 }  // namespace delquad::testing_support

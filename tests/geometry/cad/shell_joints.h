@@ -1,9 +1,13 @@
 #pragma once
 
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <string>
 #include <vector>
+
+#include "delquad/mesh.h"
 
 namespace delquad::testing_support {
 
@@ -18,6 +22,25 @@ struct ShellJoint {
 
 std::vector<ShellJoint> shell_joints();
 
+/// Bodies or faces that touch at one point alone.
+struct PointContact {
+  std::string name;
+  std::vector<TopoDS_Shape> bodies;
+  Vec3 at;
+};
+
+std::vector<PointContact> point_contacts();
+
+/// Faces some of which lie on others, up to their edges.
+struct DoubleFaces {
+  std::string name;
+  std::vector<TopoDS_Face> faces;
+  int n_others;  ///< faces without those that lie on others
+  double area;   ///< of these
+};
+
+std::vector<DoubleFaces> double_faces();
+
 /// n faces around one edge.
 std::vector<TopoDS_Face> star_of_faces(int n);
 
@@ -27,7 +50,14 @@ std::vector<TopoDS_Face> tip_on_a_plate();
 /// Pairs that are nearer to each other than their triangulations are to them, or lie in one plane.
 std::vector<std::vector<TopoDS_Face>> faces_apart();
 
-/// All faces of one beside each other.
-TopoDS_Shape compound_of(const std::vector<TopoDS_Face>& faces);
+/// All beside each other.
+template <class Shape>
+TopoDS_Shape compound_of(const std::vector<Shape>& some) {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const Shape& shape : some) builder.Add(all, shape);
+  return all;
+}
 
 }  // namespace delquad::testing_support

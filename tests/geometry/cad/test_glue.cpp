@@ -65,7 +65,7 @@ class Glue : public ::testing::Test {
     SurfaceModel glued = read_cad(file, {.glue = true});
     EXPECT_FALSE(says(glued, "share no nodes"));
     EXPECT_TRUE(says(glued, "glued: " + std::to_string(bodies.size()) + " bodies have " +
-                                std::to_string(n_common) + " faces and "));
+                                std::to_string(n_common) + " faces, "));
     EXPECT_EQ(coincident_points(glued.fine), 0);
     return glued;
   }
@@ -111,6 +111,12 @@ TEST_F(Glue, BodiesThatOverlapAreDivided) {
   const SurfaceModel model = read_cad(file, {.glue = true});
   EXPECT_TRUE(says(model, "2 solids became 3"));
   EXPECT_NEAR(count(model.fine).area, 2 * 24, 1e-9);
+}
+
+TEST_F(Glue, BodiesWithACornerInCommonAreCounted) {
+  const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1), box(1, 1, 1, 1, 1, 1)}), {.glue = true});
+  EXPECT_TRUE(says(model, "glued: 2 bodies have 0 faces, 0 edges and 1 vertices in common"));
+  EXPECT_EQ(coincident_points(model.fine), 0);
 }
 
 TEST_F(Glue, ThreeBodiesAtAnEdge) {

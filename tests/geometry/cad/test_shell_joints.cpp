@@ -2,12 +2,14 @@
 
 #include <BOPAlgo_Builder.hxx>
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <numeric>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "delquad/error.h"
 #include "delquad/mesher.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/mesh/half_edges.h"
@@ -148,6 +150,63 @@ TEST_P(ShellJoints, ManyFacesAtAnEdgeAreSewn) {
 INSTANTIATE_TEST_SUITE_P(Formats, ShellJoints, ::testing::ValuesIn(kFormats),
                          [](const auto& of) { return std::string(of.param.name); });
 
+/// Whether all nodes hang together.
+bool is_one_piece(const Mesh& mesh) {
+  Parts parts(mesh.points.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) parts.join(triangle[0], v);
+  return parts.count() == 1;
+}
+
+/// The place that a message names.
+Vec3 place_in(const std::string& text) {
+  Vec3 at{1e9, 1e9, 1e9};
+  const std::size_t from = text.rfind(" at (");
+  if (from != std::string::npos) std::sscanf(text.c_str() + from, " at (%lf, %lf, %lf)", &at.x, &at.y, &at.z);
+  return at;
+}
+
+TEST_P(ShellJoints, ContactsAtAPointAreNamedAndGluedOrRefused) {
+  constexpr double kNear = 0.02;  // so far around the ball in a ball is within the tolerance
+  for (const PointContact& contact : point_contacts()) {
+    SCOPED_TRACE(contact.name);
+    const auto file = write("contact", compound_of(contact.bodies));
+    const std::vector<std::string> told = loose_joints_of(read_cad(file));
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("at 1 place "), std::string::npos) << told[0];
+    EXPECT_LT(norm(place_in(told[0]) - contact.at), kNear) << told[0];
+    try {
+      const SurfaceModel model = read_cad(file, {.glue = true});
+      EXPECT_TRUE(is_one_piece(model.fine));
+      EXPECT_TRUE(loose_joints_of(model).empty());
+      EXPECT_EQ(contact.name, "rims") << "the only one with a node on both sides";
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("cannot be glued at 1 place"), std::string::npos) << text;
+      EXPECT_LT(norm(place_in(text) - contact.at), kNear) << text;
+    }
+  }
+}
+
+/// Never a closed body of two faces without anything between them.
+TEST_P(ShellJoints, FacesOnEachOtherAreNamedAndBecomeOne) {
+  for (const DoubleFaces& some : double_faces()) {
+    SCOPED_TRACE(some.name);
+    const auto file = write("double", compound_of(some.faces));
+    const SurfaceModel apart = read_cad(file);
+    const std::vector<std::string> told = loose_joints_of(apart);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find(", face on face "), std::string::npos) << told[0];
+    EXPECT_EQ(apart.fine.regions.size(), some.faces.size());
+    EXPECT_EQ(parts_of(apart.fine).count(), 1 + static_cast<int>(some.faces.size()) - some.n_others);
+    const SurfaceModel glued = read_cad(file, {.glue = true});
+    EXPECT_TRUE(loose_joints_of(glued).empty());
+    EXPECT_EQ(static_cast<int>(glued.fine.regions.size()), some.n_others);
+    EXPECT_EQ(count(glued.fine).free_sides > 0, some.n_others == 1);
+    EXPECT_NEAR(count(glued.fine).area / some.area, 1, 1e-3);
+  }
+}
+
 class JoinedShells : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& name) {
@@ -173,6 +232,19 @@ TEST_F(JoinedShells, FragmentedBefore) {
       EXPECT_TRUE(loose_joints_of(model).empty());
     }
     EXPECT_EQ(parts_of(mesh(problem_of(file, false), "DB").mesh).count(), 1);
+  }
+}
+
+/// A pole, or a point in a plate, is no node.
+TEST_F(JoinedShells, FragmentedContactsAtAPointAreRefused) {
+  for (const PointContact& contact : point_contacts()) {
+    if (!contact.name.starts_with("pole")) continue;
+    SCOPED_TRACE(contact.name);
+    BOPAlgo_Builder builder;
+    for (const TopoDS_Shape& body : contact.bodies) builder.AddArgument(body);
+    builder.Perform();
+    const auto file = write_brep(folder_ / "fragmented.brep", builder.Shape());
+    expect_input_error([&] { read_cad(file); }, {"share single points", "at 1 place", "touching face"});
   }
 }
 
