@@ -29,7 +29,7 @@ bool bounds(const TopoDS_Shape& edge) {
   return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
 }
 
-/// Edges that bound faces, or stand in several; others inside of faces are INTERNAL.
+/// Edges that bound faces, or stand in several, others inside of faces being INTERNAL; and ends of edges.
 TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
   TopTools_MapOfShape joining;
   TopTools_DataMapOfShapeInteger inside_of;
@@ -37,6 +37,7 @@ TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
   for (int f = 1; f <= faces.Extent(); ++f)
     for (TopExp_Explorer at(faces(f).Oriented(TopAbs_FORWARD), TopAbs_EDGE); at.More(); at.Next()) {
       const TopoDS_Shape& edge = at.Current();
+      for (TopExp_Explorer end(edge, TopAbs_VERTEX); end.More(); end.Next()) joining.Add(end.Current());
       const int* known = inside_of.Seek(edge);
       if (bounds(edge) || (known != nullptr && *known != f)) joining.Add(edge);
       if (known == nullptr) inside_of.Bind(edge, f);
@@ -86,8 +87,9 @@ TopoDS_Shape without_inner_edges(const TopoDS_Shape& face, const TopTools_MapOfS
   TopoDS_Shape other = outwards.EmptyCopied();
   bool changed = false;
   for (TopoDS_Iterator child(outwards); child.More(); child.Next()) {
-    const TopoDS_Shape part =
-        child.Value().ShapeType() == TopAbs_WIRE ? joining_part(child.Value(), joining) : TopoDS_Shape();
+    const TopoDS_Shape part = child.Value().ShapeType() == TopAbs_WIRE ? joining_part(child.Value(), joining)
+                              : joining.Contains(child.Value())        ? child.Value()
+                                                                       : TopoDS_Shape();
     changed = changed || part.IsNull() || !part.IsSame(child.Value());
     if (!part.IsNull()) BRep_Builder().Add(other, part);
   }
