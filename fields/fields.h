@@ -83,4 +83,7 @@ std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField>
 /// adaptive quadrature over the background mesh aims at.
 double expected_quads(const BackgroundMesh& background, const SizeField& size, double relative_error = 0.01);
 
+/// Throws InputError, beginning with `where`, for limits of a SizeSpec that contradict each other.
+void check_size_limits(double curvature, double min, double max, const std::string& where);
+
 }  // namespace delquad

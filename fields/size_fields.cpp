@@ -120,4 +120,11 @@ std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> bas
   return std::make_unique<CappedSize>(std::move(base), most);
 }
 
+void check_size_limits(double curvature, double min, double max, const std::string& where) {
+  if (min > 0 && !(curvature > 0))
+    throw InputError(where + ": a least size is for sizes that follow curvature: expected 'curvature' too");
+  if (min > 0 && max > 0 && min > max)
+    throw InputError(fmt::format("{}: the least size {} is larger than the largest, {}", where, min, max));
+}
+
 }  // namespace delquad

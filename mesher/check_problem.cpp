@@ -13,13 +13,12 @@
 #include "curves/compose_size.h"
 #include "features/given/given_surface.h"
 #include "features/layers/layer_heights.h"
+#include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 namespace {
-
-constexpr double kAnyAngle = 180;       // degrees
-constexpr double kMostTolerance = 0.1;  // of the diagonal: more would weld the model to itself
 
 /// Refuses a number that is neither 0, for "none", nor finite and positive.
 void check_length(double value, const std::string& what, const std::string& where) {
@@ -62,6 +61,10 @@ void check(const GivenMesh& model, const std::string&) {
 void check(const CadModel& model, const std::string& where) {
   if (model.file.empty() && model.bytes.empty())
     throw InputError(where + ": a CAD model needs a file or bytes, and has neither");
+}
+
+void check(const ModelFile& model, const std::string& where) {
+  throw InputError(where + ": '" + model.path.string() + "' was not read");
 }
 
 void check(const ExampleModel& model, const std::string& where) {
@@ -224,25 +227,6 @@ void check_kind(const MeshProblem& problem) {
 }
 
 }  // namespace
-
-void check_size_limits(double curvature, double min, double max, const std::string& where) {
-  if (min > 0 && !(curvature > 0))
-    throw InputError(where + ": a least size is for sizes that follow curvature: expected 'curvature' too");
-  if (min > 0 && max > 0 && min > max)
-    throw InputError(fmt::format("{}: the least size {} is larger than the largest, {}", where, min, max));
-}
-
-double checked_feature_angle(double degrees, const std::string& where) {
-  if (degrees > 0 && degrees <= kAnyAngle) return degrees;
-  throw InputError(fmt::format("{}: feature angle {}: expected above 0 and at most {} degrees", where,
-                               degrees, kAnyAngle));
-}
-
-double checked_weld_tolerance(double part, const std::string& where, const std::string& what) {
-  if (part >= 0 && part <= kMostTolerance) return part;
-  throw InputError(fmt::format("{}: {} {}: expected a part of the model's diagonal, from 0 to {}", where,
-                               what, part, kMostTolerance));
-}
 
 void check_problem(const MeshProblem& problem) {
   if (problem.seed < 0)

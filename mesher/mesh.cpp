@@ -1,7 +1,9 @@
 #include <utility>
 
 #include "base/context.h"
+#include "base/stopwatch.h"
 #include "delquad/mesher.h"
+#include "io/cases/read_problem.h"
 #include "mesher/prepare.h"
 #include "mesher/refine_unsound.h"
 #include "mesher/runner.h"
@@ -26,42 +28,126 @@ class Steps {
   int begun_ = 0;
 };
 
-MeshResult result_of(const PreparedProblem& prepared, RunResult run) {
-  MeshResult result;
-  result.mesh = std::move(run.mesh);
-  result.metrics = std::move(run.metrics);
-  result.soundness = std::move(run.soundness);
-  result.summaries = std::move(run.log.summaries);
-  result.warnings = prepared.warnings;
-  result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
-  if (!result.soundness.accepted()) result.warnings.emplace_back(result.soundness.complaint());
-  result.failures = std::move(run.failures);
-  result.surface = std::move(run.surface);
-  for (const StepTimes* times : {&prepared.times, &std::as_const(run.log.times)})
-    for (const auto& [step, time] : *times) result.seconds.emplace_back(step, time.work);
-  result.wall_seconds = run.seconds;
-  result.expected_quads = prepared.size.expected_quads;
-  return result;
+RunSettings settings_of(const Context& context) {
+  return {.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit};
+}
+
+Prepared prepare_now(MeshProblem problem, Steps& steps) {
+  steps.begin("boundary and fields");
+  const Stopwatch reading;
+  const auto read = std::make_shared<const MeshProblem>(read_files(std::move(problem)));
+  const TimeSpent time = reading.time();
+  PreparedProblem made = prepare_problem(*read);
+  StageLog log;
+  log.add_time("read", time);
+  for (const auto& [step, spent] : made.times) log.add_time(step, spent);
+  made.times = std::move(log.times);
+  return {read, std::make_shared<const PreparedProblem>(std::move(made))};
+}
+
+MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
+  const MeshProblem& problem = prepared.problem();
+  const std::string label = problem.name + " " + word.text;
+  const bool allow_unsound = problem.allow_unsound;
+  Meshing meshing(std::move(prepared));
+  for (const Stage* stage : word.stages) {
+    steps.begin(stage->name);
+    meshing.run(*stage);
+  }
+  steps.begin("metrics");
+  MeshResult result = meshing.finish();
+  if (result.soundness.accepted()) return result;
+  const std::string complaint = result.soundness.complaint();
+  result.warnings.emplace_back(complaint);
+  if (allow_unsound) return result;
+  const std::string why = label + ": " + complaint;
+  throw UnsoundError(why, std::make_shared<const MeshResult>(std::move(result)));
+}
+
+/// A mesh that is given is improved.
+Word ask_for(const Quality& quality, MeshProblem& problem) {
+  if (word_start(problem.model) == WordStart::kGivenMesh) {
+    problem = read_files(std::move(problem));
+    const Mesh& given = std::get<GivenMesh>(problem.model).mesh;
+    return parse_word(given.quads.empty() ? "BCO" : "CO", WordStart::kGivenMesh);
+  }
+  if (!problem.cross.kind && problem.cross.text.empty()) problem.cross.kind = quality.cross;
+  return parse_word(quality.word);
+}
+
+/// The preparation comes first.
+void add_preparation(MeshResult& result) {
+  const Preparation& made = *result.prepared;
+  StageLog log{made.times};
+  for (const auto& [step, spent] : result.log.times) log.add_time(step, spent);
+  result.log.times = std::move(log.times);
+  result.warnings.insert(result.warnings.begin(), made.warnings.begin(), made.warnings.end());
 }
 
 }  // namespace
 
-MeshResult mesh(const MeshProblem& problem, const std::string& word, const Context& context) {
-  const Word stages = parse_word(word, word_start(problem.model));
-  const RunScope running(
-      {.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit});
-  Steps steps(context, stages.stages.size() + 2);
-  steps.begin("boundary and fields");
-  PreparedProblem prepared = prepare(problem);
-  RunResult run = run_word(prepared, stages, [&](const std::string& stage) { steps.begin(stage); });
-  refine_unsound([&](const Refinement& r) { return prepare(problem, r); }, stages, prepared, run);
-  MeshResult result = result_of(prepared, std::move(run));
-  if (!result.soundness.accepted() && !problem.allow_unsound) {
-    const std::string why = result.soundness.complaint();
-    throw UnsoundError(problem.name + " " + word + ": " + why,
-                       std::make_shared<const MeshResult>(std::move(result)));
+const char* version() { return DELQUAD_VERSION; }
+
+struct Meshing::State {
+  Prepared prepared;
+  Word word = {};
+  MeshingState patches = begin_meshing(prepared.inside());
+};
+
+Meshing::Meshing(Prepared prepared) : state_(new State{std::move(prepared)}) {}
+Meshing::Meshing(Meshing&&) noexcept = default;
+Meshing& Meshing::operator=(Meshing&&) noexcept = default;
+Meshing::~Meshing() = default;
+
+void Meshing::run(const Stage& stage) {
+  run_stage(stage, state_->prepared.inside(), state_->patches);
+  state_->word.text += stage.letter;
+  state_->word.stages.push_back(&stage);
+  state_->word.result = stage.to;
+}
+
+Mesh Meshing::mesh() const {
+  const PreparedProblem& prepared = state_->prepared.inside();
+  return assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
+                  std::vector<char>(prepared.boundary.regions.size()));
+}
+
+MeshResult Meshing::finish() {
+  Prepared prepared = std::move(state_->prepared);
+  const Word word = std::move(state_->word);
+  MeshResult result = finish_meshing(prepared.inside(), prepared.problem().name + " " + word.text,
+                                     std::move(state_->patches));
+  if (!result.soundness.sound()) {
+    const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
+    PreparedProblem best = prepared.inside();
+    refine_unsound([&](const Refinement& r) { return prepare_problem(*problem, r); }, word, best, result);
+    prepared = {problem, std::make_shared<const PreparedProblem>(std::move(best))};
   }
+  result.prepared = std::move(prepared);
+  add_preparation(result);
   return result;
+}
+
+Prepared prepare(MeshProblem problem, const Context& context) {
+  const RunScope running(settings_of(context));
+  Steps steps(context, 1);
+  return prepare_now(std::move(problem), steps);
+}
+
+MeshResult mesh(const Prepared& prepared, const std::string& text, const Context& context) {
+  const Word word = parse_word(text, word_start(prepared.problem().model));
+  const RunScope running(settings_of(context));
+  Steps steps(context, word.stages.size() + 1);
+  return mesh_now(prepared, word, steps);
+}
+
+MeshResult mesh(MeshProblem problem, const std::string& text, const Context& context) {
+  const Quality* quality = find_quality(text);
+  const Word word =
+      quality != nullptr ? ask_for(*quality, problem) : parse_word(text, word_start(problem.model));
+  const RunScope running(settings_of(context));
+  Steps steps(context, word.stages.size() + 2);
+  return mesh_now(prepare_now(std::move(problem), steps), word, steps);
 }
 
 }  // namespace delquad

@@ -94,7 +94,7 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   return p;
 }
 
-PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement) {
+PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
   PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
   check_order(prepared);

@@ -14,9 +14,9 @@ struct Refinement {
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 
-/// Boundary, background mesh and fields of a problem. Throws InputError for models and fields that cannot be
-/// meshed, and for a size that would need more than problem.max_elements, with the estimate, before that work
-/// begins. `refinement`: of surfaces and of planar models of curves.
-PreparedProblem prepare(const MeshProblem& problem, const Refinement& refinement = {});
+/// Boundary, background mesh and fields of a problem whose files are read. Throws InputError for models and
+/// fields that cannot be meshed, and for a size that would need more than problem.max_elements, with the
+/// estimate, before that work begins. `refinement`: of surfaces and of planar models of curves.
+PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement = {});
 
 }  // namespace delquad

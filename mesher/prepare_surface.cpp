@@ -82,7 +82,7 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
 }
 
 void check_surface_cross(const CrossSpec& cross) {
-  if (cross.kind != CrossKind::kSizeAware && cross.kind != CrossKind::kBoundary)
+  if (cross.kind == CrossKind::kGradient || cross.kind == CrossKind::kField)
     throw InputError(cross.where +
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
 }

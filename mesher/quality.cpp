@@ -17,12 +17,15 @@ const std::vector<Quality>& quality_registry() {
   return registry;
 }
 
+const Quality* find_quality(const std::string& name) {
+  const auto at = std::ranges::find(quality_registry(), name, &Quality::name);
+  return at == quality_registry().end() ? nullptr : &*at;
+}
+
 const Quality& quality_named(const std::string& name) {
-  const auto& all = quality_registry();
-  const auto it = std::ranges::find(all, name, &Quality::name);
-  if (it != all.end()) return *it;
+  if (const Quality* quality = find_quality(name)) return *quality;
   std::vector<std::string> names;
-  for (const Quality& q : all) names.push_back(q.name);
+  for (const Quality& q : quality_registry()) names.push_back(q.name);
   throw InputError(fmt::format("quality '{}': expected one of {}{}", name.substr(0, 40),
                                fmt::join(names, ", "), suggestion(name, names)));
 }

@@ -22,7 +22,7 @@ struct Counters<RefinementSummary> {
   static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
 };
 
-/// prepare() of the same problem.
+/// prepare_problem() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 
 /// Where the mesh of a surface is not sound, the size is too large for what is there: halves it around these

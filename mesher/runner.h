@@ -12,21 +12,7 @@
 
 namespace delquad {
 
-/// What one pipeline made of one case.
-struct RunResult {
-  Mesh mesh;
-  MeshMetrics metrics;
-  Soundness soundness;
-  StageLog log;
-  std::vector<Warning> warnings;
-  /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
-  int bad_in_corners = 0, bad_elsewhere = 0;
-  std::vector<FaceFailure> failures;     ///< by face; empty unless problem.keep_going
-  std::optional<SurfaceReport> surface;  ///< of surfaces
-  double seconds = 0;                    ///< meshing: the stages of the word, and what finishes it
-  long long lifting_cost = 0;            ///< see LiftingSummary::cost
-  long long peak_memory = 0;             ///< bytes, the most that the process has held so far
-};
+using RunResult = MeshResult;
 
 /// A pipeline on its way: what the stages so far have made of each patch.
 struct MeshingState {
@@ -60,9 +46,6 @@ std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingSt
 /// Puts the patches together, measures the mesh and says whether it is sound, with all finish steps but
 /// refine_unsound(). `label` names the case and pipeline in warnings.
 RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
-
-/// Throws UnsoundError when the mesh is not accepted, naming the case and pipeline by `label`.
-void require_sound(const std::string& label, const RunResult& result);
 
 /// Meshes every patch stage by stage, puts the patches together, measures the mesh and says whether it is
 /// sound. `begins` is called with the name of each stage, and then of the measuring, before it. Throws

@@ -371,7 +371,9 @@ bool Word::quads_only() const {
 }
 
 WordStart word_start(const Model& model) {
-  return std::holds_alternative<GivenMesh>(model) ? WordStart::kGivenMesh : WordStart::kBoundary;
+  const auto* file = std::get_if<ModelFile>(&model);
+  const bool given = std::holds_alternative<GivenMesh>(model) || (file != nullptr && file->given);
+  return given ? WordStart::kGivenMesh : WordStart::kBoundary;
 }
 
 Word parse_word(const std::string& text, WordStart start) {

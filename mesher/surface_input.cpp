@@ -188,16 +188,6 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
 
 }  // namespace
 
-bool holds_surface(const Mesh& mesh) {
-  const auto in_space = [&](const auto& elements) {
-    return std::ranges::any_of(elements, [&](const auto& element) {
-      return std::ranges::any_of(element,
-                                 [&](int v) { return mesh.points[v].z != mesh.points[elements[0][0]].z; });
-    });
-  };
-  return in_space(mesh.triangles) || in_space(mesh.quads);
-}
-
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "delquad/metrics.h"
 #include "patches/patch_outline.h"
 
 namespace delquad {
@@ -30,15 +31,6 @@ std::vector<FaceCorner> face_corners(const Mesh& fine, const std::vector<CurveCh
 
 /// The best worst eta of the quads that share a corner of this angle (radians) evenly.
 double corner_eta_bound(double angle);
-
-/// A corner of a face that forbids its quad a good shape.
-struct SharpCorner {
-  int face;          ///< index into Mesh::regions
-  int node;          ///< of the boundary mesh
-  int curves[2];     ///< indices into Mesh::curves
-  double angle;      ///< between the mesh's edges; radians
-  double eta_bound;  ///< no quad in the corner has a larger eta
-};
 
 /// Those corners whose bound is below `eta`.
 std::vector<SharpCorner> find_sharp_corners(const std::vector<FaceCorner>& corners,

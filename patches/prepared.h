@@ -65,12 +65,6 @@ struct PreparedSurface {
 /// The maps of all patches.
 std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
 
-/// A singularity of the cross field, as in Singularity, in space.
-struct PlacedSingularity {
-  Vec3 at;
-  int index;
-};
-
 /// What the patches of a planar domain were made from.
 struct PreparedPlane {
   /// Of each curve those of the model that lie there; empty where the lines are kept.
@@ -88,40 +82,13 @@ struct ProblemSettings {
   int order = 1;
 };
 
-/// The size that is meshed by.
-struct PreparedSize {
-  std::shared_ptr<const SizeField> field;
-  std::shared_ptr<const SizeField> asked;  ///< as it was asked for, where `field` is less; else null
-  std::vector<std::string> adapted_to;     ///< what made it less: "short curves", ...
-  double expected_quads = 0;               ///< integral of dA/delta^2
-};
-
-/// What is known of the cross field.
-struct PreparedCrosses {
-  std::vector<PlacedSingularity> singularities;  ///< of a boundary-aligned or size-aware field
-  /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
-  /// it, in quarters.
-  std::optional<std::pair<int, int>> index_sum_and_expected;
-  /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
-  /// of it.
-  std::optional<std::pair<double, double>> dislocations;
-};
-
 /// What every pipeline on a case starts from.
-struct PreparedProblem {
+struct PreparedProblem : Preparation {
   ProblemSettings settings;
-  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
   std::vector<PreparedPatch> patches;
-  PreparedSize size;
-  PreparedCrosses crosses;
   PreparedPlane plane;
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
   std::shared_ptr<const LayerReport> layers;       ///< null: none
-  std::vector<SymmetryPlane> symmetry;             ///< planes that were given or found
-  std::vector<FaceFailure> failures;               ///< by face; empty unless problem.keep_going
-  std::vector<Warning> warnings;
-  /// By step ("read", "maps", "curves", "fields"), as in StageLog.
-  StepTimes times;
 
   /// Whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "delquad/metrics.h"
 #include "fields/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/surface/flatten.h"
@@ -14,9 +15,6 @@
 #include "patches/patch_outline.h"
 
 namespace delquad {
-
-/// A quad below this eta, with an angle below 10 or above 170 degrees, is bad.
-inline constexpr double kBadEta = 1.0 / 9;
 
 /// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
 struct SurfacePatch {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "cases/case.h"
 #include "delquad/mesher.h"
 #include "experiments/sweep/run_experiment.h"
+#include "io/cases/case.h"
 #include "io/mesh_io.h"
 
 namespace delquad {

@@ -15,13 +15,12 @@
 
 #include "base/context.h"
 #include "base/text.h"
-#include "cases/case.h"
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/console/activities.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
-#include "metrics/judgement/soundness.h"
+#include "io/cases/case.h"
+#include "io/cases/read_problem.h"
 #include "metrics/solve/solver_metrics.h"
 #include "program/commands.h"
 #include "program/extrude_options.h"
@@ -306,8 +305,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
   add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
-    qualities +=
-        (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " + text_of(q.cross) + ")";
+    qualities += (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " +
+                 text_of(CrossSpec{.kind = q.cross}) + ")";
   CLI::Option* quality =
       mesh->add_option("--quality", arguments.quality, "time against quality: " + qualities)
           ->capture_default_str();

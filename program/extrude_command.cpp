@@ -10,7 +10,6 @@
 #include "base/context.h"
 #include "base/located.h"
 #include "base/text.h"
-#include "cases/case.h"
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"
 #include "io/mesh_io.h"

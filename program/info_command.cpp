@@ -5,14 +5,14 @@
 #include <ostream>
 
 #include "base/text.h"
-#include "cases/case_file.h"
-#include "cases/model_info.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
-#include "features/sizes/size_warnings.h"
+#include "geometry/surface/model_report.h"
+#include "io/cases/case_file.h"
 #include "io/mesh_io.h"
 #include "program/check_files.h"
 #include "program/commands.h"
+#include "program/info_record.h"
 
 namespace delquad {
 namespace {
@@ -52,8 +52,8 @@ std::vector<int> curves_that(const ModelReport& report, Wanted wanted) {
 
 void print_overview(const ModelInfo& info) {
   const ModelReport& r = info.report;
-  const Mesh& mesh = info.model.fine;
-  fmt::print("{}\n", info.model.source);
+  const Mesh& mesh = info.fine;
+  fmt::print("{}\n", info.source);
   fmt::print("  lengths in   {}\n", mesh.unit.empty() ? "the file's own unit" : mesh.unit);
   fmt::print("  box          {} to {}\n  diagonal     {:.6g}\n", show_point(r.low), show_point(r.high),
              r.diagonal);
@@ -73,7 +73,7 @@ void print_overview(const ModelInfo& info) {
 
 void print_parts(const ModelInfo& info) {
   const ModelReport& r = info.report;
-  const Mesh& mesh = info.model.fine;
+  const Mesh& mesh = info.fine;
   fmt::print("\nshells{:>9} {:>12} {:>8} {:>6}\n", "faces", "area", "closed", "Euler");
   print_rows(r.shells.size(), [&](std::size_t s) {
     const ShellReport& shell = r.shells[s];
@@ -104,7 +104,7 @@ void print_parts(const ModelInfo& info) {
 }
 
 void print_difficulties(const ModelInfo& info, double size) {
-  const Mesh& mesh = info.model.fine;
+  const Mesh& mesh = info.fine;
   if (size > 0) {
     const SmallFeatures small = smaller_than(info.report, size);
     fmt::print("\nsmaller than the size {:.6g}\n", size);
@@ -119,7 +119,7 @@ void print_difficulties(const ModelInfo& info, double size) {
                mesh.regions[corner.face].tag, mesh.curves[corner.curves[0]].tag,
                mesh.curves[corner.curves[1]].tag, show_point(corner.at));
   });
-  const std::vector<std::string> lines = lines_of(info.model.warnings);
+  const std::vector<std::string> lines = lines_of(info.warnings);
   if (!lines.empty()) fmt::print("\nrepaired or suspicious\n");
   for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
@@ -137,11 +137,10 @@ int info_command(const InfoArguments& arguments) {
     check_mesh_format(arguments.output);
     check_output(arguments.output);
   }
-  ModelInfo info = model_info(c);
-  if (size > 0) warn_of_large_size(*make_constant_size(size), info.model.fine, info.model.warnings);
+  const ModelInfo info = model_info(c, size);
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, [&](std::ostream& out) { out << info_record(info, size); });
-  if (!arguments.output.empty()) write_mesh(arguments.output, info.model.fine);
+  if (!arguments.output.empty()) write_mesh(arguments.output, info.fine);
   print_overview(info);
   print_parts(info);
   print_difficulties(info, size);

@@ -12,18 +12,17 @@
 #include "base/located.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "cases/case_file.h"
-#include "cases/problem.h"
-#include "cases/size_file.h"
-#include "cases/surface_spec.h"
 #include "delquad/error.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/record.h"
-#include "features/layers/add_layers.h"
+#include "fields/fields.h"
+#include "geometry/surface/triangulated_model.h"
+#include "io/cases/case_file.h"
+#include "io/cases/read_problem.h"
+#include "io/cases/size_file.h"
+#include "io/cases/surface_spec.h"
 #include "io/mesh_io.h"
-#include "mesher/check_problem.h"
-#include "mesher/runner.h"
 #include "program/check_files.h"
 #include "program/commands.h"
 #include "program/print_metrics.h"
@@ -77,13 +76,11 @@ void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
 }
 
 /// The model's sizes, with what the command line says in their place.
-SizeText with_arguments(SizeText size, const MeshArguments& arguments) {
+SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
   if (arguments.size) {
     if (arguments.size->empty())
       throw InputError("--size: the size is empty: expected a number, an expression, a file or 'boundary'");
-    size = {};
-    size.base = *arguments.size;
-    size.where = "--size";
+    size = {.text = *arguments.size, .where = "--size"};
   }
   const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
                                               {arguments.min, &size.min},
@@ -105,15 +102,16 @@ void tell_left_out(const std::vector<FaceFailure>& failures) {
 }
 
 /// Meshes; of what is left out is told, too, when that fails.
-RunResult run_or_tell(const MeshArguments& arguments, const Case& c, const Word& word,
-                      PreparedProblem& prepared, Progress& progress) {
-  std::vector<FaceFailure> left_out = prepared.failures;
+MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared, const Word& word,
+                        const Context& context, Progress& progress) {
+  std::vector<FaceFailure> left_out = prepared->failures;
   try {
-    RunResult result = run_case(c, word, prepared, [&](const std::string& stage) {
-      progress.step(c.name + " " + word.text + ": " + stage);
-    });
+    MeshResult result = mesh(prepared, word.text, context);
     left_out = result.failures;
-    progress.warn(result.warnings);
+    std::vector<Warning> warnings = result.warnings_on_mesh();
+    // The last one is the error then.
+    if (!result.soundness.accepted() && !arguments.allow_unsound) warnings.pop_back();
+    progress.warn(warnings);
     if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
     return result;
   } catch (...) {
@@ -123,8 +121,16 @@ RunResult run_or_tell(const MeshArguments& arguments, const Case& c, const Word&
   }
 }
 
+void warn_of_renamed(const std::filesystem::path& output, MeshResult& result, Progress& progress) {
+  const auto renamed = renamed_in_file(output, result.mesh);
+  if (renamed.empty()) return;
+  result.warnings.push_back(
+      fmt::format("{} cannot hold all names as they are: {}", output.string(), fmt::join(renamed, "; ")));
+  progress.warn({result.warnings.back()});
+}
+
 /// Returns the exit code.
-int tell_what_is_missing(const RunResult& result, const Word& word, bool quads_wanted) {
+int tell_what_is_missing(const MeshResult& result, const Word& word, bool quads_wanted) {
   tell_left_out(result.failures);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
@@ -176,33 +182,31 @@ Case read_case(const MeshArguments& arguments) {
   if (arguments.improve) {
     Case c;
     c.name = arguments.model.stem().string();
-    c.where = c.mesh_file = arguments.model;
-    c.start = true;
+    c.where = arguments.model;
+    c.model = ModelFile{arguments.model, true};
     return c;
   }
   Case c = read_model_case(arguments.model);
-  if (!arguments.pipeline && c.cross.where.empty())
-    c.cross.text = text_of(quality_named(arguments.quality).cross);
+  if (!arguments.pipeline && c.cross.text.empty()) c.cross.kind = quality_named(arguments.quality).cross;
   return c;
 }
 
-void print_before(const std::string& file, const Mesh& mesh, const PreparedProblem& prepared) {
+void print_before(const std::string& file, const Mesh& mesh, const Prepared& prepared) {
   fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
              mesh.points.size());
-  print_metrics(evaluate_metrics(mesh, prepared.size.field.get(), prepared.size.asked.get(),
-                                 prepared.settings.options));
+  print_metrics(prepared.metrics(mesh));
 }
 
 /// `seconds`: on the clock, of the whole command.
-void print_after(const std::string& file, const PreparedProblem& prepared, const RunResult& result,
-                 double seconds) {
+void print_after(const std::string& file, const MeshResult& result, double seconds) {
+  const Preparation& prepared = *result.prepared;
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
              result.mesh.triangles.size(), result.mesh.points.size(), seconds);
   print_metrics(result.metrics);
-  if (prepared.layers)
-    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n",
-               prepared.layers->count.quads, prepared.layers->count.columns);
   const Summaries& log = result.log.summaries;
+  if (log.has("layers"))
+    fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n",
+               log.number("layers", "quads"), log.number("layers", "columns"));
   if (log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
     fmt::print("  across cuts: {} irregular vertices before{}\n",
                log.number("across_cuts", "irregular_before"),
@@ -217,8 +221,8 @@ void print_after(const std::string& file, const PreparedProblem& prepared, const
                fmt::join(prepared.size.adapted_to, " and "));
   for (const auto& [at, n] : prepared.symmetry)
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
-  print_seconds(prepared, result.log);
-  if (result.surface) print_surface_report(prepared, *result.surface);
+  print_seconds(result.log.times);
+  if (result.surface) print_surface_report(result.prepared, *result.surface);
 }
 
 }  // namespace
@@ -232,20 +236,22 @@ int mesh_command(const MeshArguments& arguments) {
   const std::string text = word_of(arguments, given);
   parse_word(text, WordStart::kGivenMesh);  // before anything is read
   Case c = read_case(arguments);
-  const Word word = parse_word(text, word_start(c));
+  const Word word = parse_word(text, word_start(c.model));
   c.max_elements = arguments.max_elements;
+  c.allow_unsound = true;  // see below
   c.size = with_arguments(std::move(c.size), arguments);
   if (arguments.order) c.order = *arguments.order;
   check_mesh_format(arguments.output, arguments.msh, c.order);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);
   set_options(arguments, c.options);
-  const auto size_file = size_file_of(c.size.base, c.size.folder);
+  const auto size_file = size_file_of(c.size.text, c.size.folder);
   set_surface(arguments, c);
-  if (!arguments.cross.empty()) c.cross = {arguments.cross, "--cross"};
+  if (!arguments.cross.empty()) c.cross = {.text = arguments.cross, .where = "--cross"};
+  const std::filesystem::path file = model_path(c);
   check_distinct(
       {{"the model", arguments.model},
-       {"the model's mesh", c.mesh_file == arguments.model ? "" : c.mesh_file},
+       {"the model's mesh", file == arguments.model ? "" : file},
        {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
        {"-o", arguments.output},
        {"--json", arguments.json}});
@@ -253,17 +259,15 @@ int mesh_command(const MeshArguments& arguments) {
   if (!arguments.json.empty()) check_output(arguments.json);
 
   Progress progress(2 + static_cast<int>(word.stages.size()));
-  progress.step(c.name + ": boundary and fields");
-  PreparedProblem prepared = prepare_case(c);
-  progress.warn(prepared.warnings);
-  RunResult result = run_or_tell(arguments, c, word, prepared, progress);
-  std::vector<Warning> warnings;
-  if (!result.soundness.accepted()) warnings.emplace_back(result.soundness.complaint());
-  if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
-    warnings.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
-                                   fmt::join(renamed, "; ")));
-  progress.warn(warnings);
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  const auto told = [&](const std::string& head) {
+    return Context{.progress = [&progress, head](const ProgressReport& report) {
+      progress.step(head + ": " + report.stage);
+    }};
+  };
+  const Prepared prepared = prepare(c, told(c.name));
+  progress.warn(prepared->warnings);
+  MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
+  warn_of_renamed(arguments.output, result, progress);
   {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
@@ -272,12 +276,11 @@ int mesh_command(const MeshArguments& arguments) {
     (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
     if (!arguments.json.empty())
-      write_file_atomically(arguments.json,
-                            [&](std::ostream& out) { out << run_record(c, prepared, word, result); });
+      write_file_atomically(arguments.json, [&](std::ostream& out) { out << run_record(c, word, result); });
   }
   progress.finish();
-  if (given) print_before(arguments.model.string(), *given, prepared);
-  print_after(arguments.output.string(), prepared, result, command.seconds());
+  if (given) print_before(arguments.model.string(), *given, result.prepared);
+  print_after(arguments.output.string(), result, command.seconds());
   return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
 }
 

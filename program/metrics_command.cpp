@@ -3,11 +3,10 @@
 #include <ostream>
 #include <tuple>
 
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/record.h"
-#include "features/curved/untangle_curved.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 #include "metrics/solve/solver_metrics.h"
 #include "program/check_files.h"
@@ -29,7 +28,7 @@ constexpr const char *kOrder = "order", *kLeastProven = "proven_jacobian_min",
                      *kMeanProven = "proven_jacobian_mean", *kUnproven = "n_unproven";
 
 void add_curved(const Mesh& mesh, MeshMetrics& metrics) {
-  const ProvenJacobians proven = proven_jacobians(jacobian_bounds(mesh));
+  const ProvenJacobians proven = proven_jacobians(mesh);
   metrics.values[kOrder] = mesh.order;
   metrics.values[kLeastProven] = proven.least;
   metrics.values[kMeanProven] = proven.mean;

@@ -20,9 +20,7 @@ void print_metrics(const MeshMetrics& metrics) {
   for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
 }
 
-void print_seconds(const PreparedProblem& prepared, const StageLog& log) {
-  StepTimes times = prepared.times;
-  times.insert(times.end(), log.times.begin(), log.times.end());
+void print_seconds(const StepTimes& times) {
   std::string work, clock;
   TimeSpent all;
   for (const auto& [step, time] : times) {

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "mesher/stages.h"
+#include "delquad/options.h"
 #include "metrics/metrics.h"
-#include "patches/prepared.h"
-
 namespace delquad {
 
 /// A measure on a line of its own, to stdout; "-" where it is not defined.
@@ -12,6 +10,6 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics);
 void print_metrics(const MeshMetrics& metrics);
 
 /// How long each step took, the times of all threads added up.
-void print_seconds(const PreparedProblem& prepared, const StageLog& log);
+void print_seconds(const StepTimes& times);
 
 }  // namespace delquad

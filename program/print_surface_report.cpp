@@ -13,17 +13,17 @@ std::string show(const Topology& t) {
 
 }  // namespace
 
-void print_surface_report(const PreparedProblem& prepared, const SurfaceReport& report) {
-  const MapReport maps = report_maps(maps_of(*prepared.surface));
+void print_surface_report(const Prepared& prepared, const SurfaceReport& report) {
+  const MapReport maps = prepared.maps();
   fmt::print(
       "maps: {} patches, ratio of singular values {:.4g} (mean), {:.4g} (95 %), {:.4g} (max), area scale "
       "{:.3g}",
-      maps.patches, maps.sigma_mean, maps.sigma_95, maps.sigma_max, maps.area_ratio);
+      maps.patches.size(), maps.sigma_mean, maps.sigma_95, maps.sigma_max, maps.area_ratio);
   if (maps.worst_face >= 0 && maps.sigma_95 > 1.001)
-    fmt::print("; worst: face {}", prepared.boundary.regions[maps.worst_face].tag);
+    fmt::print("; worst: face {}", prepared->boundary.regions[maps.worst_face].tag);
   double length = 0;
-  for (const SurfaceCut& cut : prepared.surface->cuts) length += cut.length;
-  fmt::print("\ncuts: {}, together {:.4g} long", prepared.surface->cuts.size(), length);
+  for (const SurfaceCut& cut : prepared.cuts()) length += cut.length;
+  fmt::print("\ncuts: {}, together {:.4g} long", prepared.cuts().size(), length);
   const QuadShare &near = report.near_cuts, &off = report.off_cuts;
   if (near.quads > 0 && off.quads > 0)
     fmt::print("; eta {:.3f} and d4 {:.1f} near them, {:.3f} and {:.1f} elsewhere", near.eta, near.d4,

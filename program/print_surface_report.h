@@ -1,10 +1,10 @@
 #pragma once
 
-#include "mesher/runner.h"
+#include "delquad/mesher.h"
 
 namespace delquad {
 
 /// How good the maps of a surface are, how it was cut and how the mesh fits it, to stdout.
-void print_surface_report(const PreparedProblem& prepared, const SurfaceReport& report);
+void print_surface_report(const Prepared& prepared, const SurfaceReport& report);
 
 }  // namespace delquad

@@ -6,9 +6,9 @@
 #include "base/context.h"
 #include "base/located.h"
 #include "base/parallel.h"
-#include "cases/option_table_text.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/schema.h"
+#include "io/cases/option_table_text.h"
 #include "program/commands.h"
 
 namespace delquad {

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include "delquad/extend.h"
 #include "experiments/sweep/experiment.h"
 #include "io/svg.h"
-#include "mesher/stages.h"
 #include "metrics/metrics.h"
 #include "metrics/tables/statistics.h"
 #include "report/packed_text.h"

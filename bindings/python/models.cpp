@@ -7,8 +7,6 @@
 
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
-#include "cases/case_file.h"
-#include "cases/problem.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/planar/sampled_curve.h"
@@ -179,9 +177,7 @@ void define_curves(py::module_& m) {
 
 ModelHandle read_model(const std::string& path) {
   const py::gil_scoped_release released;
-  Case c = read_model_case(path);
-  ModelHandle handle{make_problem(c), !c.cross.where.empty()};
-  return handle;
+  return {read_model_file(path)};
 }
 
 void define_models(py::module_& m) {

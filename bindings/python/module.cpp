@@ -6,8 +6,6 @@
 #include "bindings/python/arrays.h"
 #include "bindings/python/hexahedra.h"
 #include "bindings/python/problem.h"
-#include "cases/formulas.h"
-#include "cases/size_file.h"
 #include "geometry/mesh/check_mesh.h"
 
 namespace delquad::python {
@@ -124,9 +122,9 @@ py::dict dict_of(const Summaries& summaries) {
   return all;
 }
 
-py::dict dict_of(const std::vector<std::pair<std::string, double>>& seconds) {
+py::dict dict_of(const StepTimes& times) {
   py::dict all;
-  for (const auto& [step, s] : seconds) all[py::str(step)] = s;
+  for (const auto& [step, time] : times) all[py::str(step)] = time.work;
   return all;
 }
 
@@ -136,12 +134,12 @@ void define_result(py::module_& m) {
       .def_property_readonly(
           "valences", [](const Result& r) { return r.rest.metrics.valences; },
           "interior points by number of elements around them")
-      .def_property_readonly("summaries", [](const Result& r) { return dict_of(r.rest.summaries); })
+      .def_property_readonly("summaries", [](const Result& r) { return dict_of(r.rest.log.summaries); })
       .def_property_readonly(
-          "seconds", [](const Result& r) { return dict_of(r.rest.seconds); },
+          "seconds", [](const Result& r) { return dict_of(r.rest.log.times); },
           "by step, of all threads added up")
-      .def_property_readonly("wall_seconds", [](const Result& r) { return r.rest.wall_seconds; })
-      .def_property_readonly("expected_quads", [](const Result& r) { return r.rest.expected_quads; })
+      .def_property_readonly("wall_seconds", [](const Result& r) { return r.rest.seconds; })
+      .def_property_readonly("expected_quads", [](const Result& r) { return r.expected_quads; })
       .def_property_readonly("warnings",
                              [](const Result& r) {
                                std::vector<std::string> texts;
@@ -187,7 +185,6 @@ struct Problem : ModelHandle {
   /// What the model's file says of its size does not count any more.
   SizeSpec& new_size() { return problem.size = {}; }
   CrossSpec& new_cross(CrossKind kind) {
-    has_cross = true;
     problem.cross = {};
     problem.cross.kind = kind;
     return problem.cross;
@@ -201,12 +198,8 @@ void define_size(py::class_<Problem>& c) {
         })
       .def("size_text",
            [](Problem& p, const std::string& text) {
-             SizeSpec& size = p.new_size();
-             size.from_boundary = text == "boundary";
-             if (size.from_boundary) return;
-             const auto file = size_file_of(text, "");
-             size.field =
-                 located("size", [&] { return file ? make_file_size(*file) : make_expression_size(text); });
+             if (text.empty()) throw InputError("size: an empty text: expected a number or an expression");
+             p.new_size().text = text;
            })
       .def("size_function",
            [](Problem& p, py::object function) {
@@ -291,31 +284,17 @@ void define_size(py::class_<Problem>& c) {
 void define_cross(py::class_<Problem>& c) {
   c.def("cross_text",
         [](Problem& p, const std::string& text) {
-          if (text == "boundary") {
-            p.new_cross(CrossKind::kBoundary);
-          } else if (text == "size-aware") {
-            p.new_cross(CrossKind::kSizeAware);
-          } else if (text == "gradient") {
-            p.new_cross(CrossKind::kGradient);
-          } else {
-            p.new_cross(CrossKind::kField).field =
-                located("cross", [&] { return make_expression_cross(text); });
-          }
+          if (text.empty()) throw InputError("cross: an empty text: expected 'boundary' or an angle");
+          p.problem.cross = {.text = text};
         })
       .def("cross_function",
            [](Problem& p, py::object function) {
              p.new_cross(CrossKind::kField);
              p.callbacks.cross = std::move(function);
            })
-      .def("cross_nodal",
-           [](Problem& p, const Mesh& mesh, const py::object& values) {
-             p.new_cross(CrossKind::kField).field =
-                 located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
-           })
-      .def("quality", [](Problem& p, const std::string& name) {
-        const Quality& quality = quality_named(name);
-        if (!p.has_cross) p.new_cross(quality.cross);
-        return quality.word;
+      .def("cross_nodal", [](Problem& p, const Mesh& mesh, const py::object& values) {
+        p.new_cross(CrossKind::kField).field =
+            located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
       });
 }
 
@@ -391,6 +370,8 @@ PYBIND11_MODULE(_core, m) {
   define_models(m);
   define_problem(m);
   define_hexahedra(m);
+  m.attr("__version__") = version();
+  m.def("check_quality", [](const std::string& name) { quality_named(name); });
   m.def("qualities", [] {
     py::dict all;
     for (const Quality& quality : quality_registry()) all[py::str(quality.name)] = quality.word;

@@ -49,7 +49,9 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
   auto result = std::make_shared<Result>();
   python.run([&](std::stop_token cancel) {
     context.cancel = std::move(cancel);
-    result->rest = delquad::mesh(problem, word, context);
+    result->rest = delquad::mesh(std::move(problem), word, context);
+    result->size.expected_quads = result->rest.prepared->size.expected_quads;
+    result->rest.prepared = {};
     static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
   });
   return result;

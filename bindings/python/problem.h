@@ -16,7 +16,6 @@ namespace py = pybind11;
 /// What Python calls a model: a problem that may yet lack a size.
 struct ModelHandle {
   MeshProblem problem;
-  bool has_cross = false;  ///< its file says which
 };
 
 /// A model file of any kind that the command line knows.
@@ -32,7 +31,8 @@ struct Callbacks {
 
 /// A mesh and all that is known of it.
 struct Result : Mesh {
-  MeshResult rest;  ///< its mesh is empty
+  MeshResult rest;  ///< its mesh is empty, and what it was made of
+  double expected_quads = 0;
 };
 
 /// Meshes a problem, with the GIL released.

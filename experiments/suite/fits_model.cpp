@@ -73,13 +73,13 @@ void check_near(const Shape& from, const Shape& to, const SizeField& size, const
 }
 
 /// The boundary's lines that bound one region (outer) or two (interfaces).
-Mesh lines_at(const PreparedProblem& prepared, int n_regions) {
+Mesh lines_at(const Prepared& prepared, int n_regions) {
   const auto edge = [](int a, int b) { return std::array{std::min(a, b), std::max(a, b)}; };
   std::map<std::array<int, 2>, int> regions;
-  for (const PreparedPatch& patch : prepared.patches)
-    for (const auto& [i, j] : patch.boundary.edges)
-      ++regions[edge(patch.boundary.point_node[i], patch.boundary.point_node[j])];
-  Mesh lines = prepared.boundary;
+  for (std::size_t p = 0; p < prepared.n_patches(); ++p)
+    for (const auto& [i, j] : prepared.patch(p).edges)
+      ++regions[edge(prepared.patch(p).point_node[i], prepared.patch(p).point_node[j])];
+  Mesh lines = prepared->boundary;
   std::erase_if(lines.lines, [&](const auto& line) { return regions[edge(line[0], line[1])] != n_regions; });
   return lines;
 }
@@ -94,7 +94,7 @@ Shape edges_of(const Mesh& mesh) {
 
 /// Edges follow the curves between regions: places there are much nearer to edges, on average, than the sixth
 /// of a size that they are in a grid which does not know of them.
-void check_interfaces(const PreparedProblem& prepared, const Mesh& mesh) {
+void check_interfaces(const Prepared& prepared, const Mesh& mesh) {
   constexpr double kMean = 0.08;  // sizes
   const Shape interfaces = lines_of(lines_at(prepared, 2)), edges = edges_of(mesh);
   if (interfaces.places.empty()) return;
@@ -104,7 +104,7 @@ void check_interfaces(const PreparedProblem& prepared, const Mesh& mesh) {
   for (const Vec3& p : interfaces.places) {
     const auto found = nearest.find_from(guess, p);
     guess = found.triangle;
-    sum += found.distance / prepared.size.field->at(p, hint);
+    sum += found.distance / prepared->size.field->at(p, hint);
   }
   const double mean = sum / static_cast<double>(interfaces.places.size());
   if (mean > kMean)
@@ -116,15 +116,15 @@ void check_interfaces(const PreparedProblem& prepared, const Mesh& mesh) {
 
 }  // namespace
 
-void check_is_of_model(const PreparedProblem& prepared, Mesh& mesh) {
+void check_is_of_model(const Prepared& prepared, Mesh& mesh) {
   Peer peer;
   peer.keeps_boundary = false;
   check_peer_mesh(peer, prepared, mesh);
-  const bool planar = !prepared.surface;
-  const Shape model = planar ? lines_of(lines_at(prepared, 1)) : surface_of(prepared.surface->model.fine);
+  const bool planar = !prepared.is_surface();
+  const Shape model = planar ? lines_of(lines_at(prepared, 1)) : surface_of(prepared.fine());
   const Shape made = planar ? outline_of(mesh) : surface_of(mesh);
-  check_near(made, model, *prepared.size.field, "it lies off the model");
-  check_near(model, made, *prepared.size.field, "the model is not covered");
+  check_near(made, model, *prepared->size.field, "it lies off the model");
+  check_near(model, made, *prepared->size.field, "the model is not covered");
   if (planar) check_interfaces(prepared, mesh);
 }
 

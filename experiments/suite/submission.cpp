@@ -6,8 +6,6 @@
 #include <ostream>
 
 #include "base/located.h"
-#include "cases/problem.h"
-#include "cases/toml_reader.h"
 #include "experiments/console/progress.h"
 #include "experiments/suite/suite_list.h"
 #include "experiments/suite/write_suite.h"
@@ -16,11 +14,11 @@
 #include "experiments/sweep/folder_lock.h"
 #include "experiments/sweep/machine.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/cases/toml_reader.h"
 #include "io/digest.h"
 #include "io/library_file.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "mesher/runner.h"
 #include "metrics/shape.h"
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
@@ -41,17 +39,12 @@ fs::path find_mesh(const fs::path& folder, const std::string& name) {
 }
 
 /// As a peer's mesh is measured.
-RunResult measure(const PreparedProblem& prepared, const fs::path& file) {
-  RunResult result;
-  result.mesh = read_mesh(file);
-  require_straight(result.mesh, file.string());
-  check_is_of_model(prepared, result.mesh);
-  result.metrics = evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
-                                    prepared.settings.options);
-  result.soundness = check_elements(prepared, result.mesh);
-  const std::vector<double> etas = quad_etas(result.mesh);
-  result.bad_elsewhere =
-      static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
+MeshResult measure(const Prepared& prepared, const fs::path& file) {
+  Mesh mesh = read_mesh(file);
+  require_straight(mesh, file.string());
+  check_is_of_model(prepared, mesh);
+  MeshResult result = prepared.measure(std::move(mesh));
+  result.warnings = prepared->warnings;
   return result;
 }
 
@@ -106,15 +99,13 @@ class Adding {
   }
 
   void write(const Case& c, CellIdentity& identity, const fs::path& file) {
-    const PreparedProblem prepared = prepare_case(c);
-    const RunResult result = measure(prepared, file);
+    const MeshResult result = measure(prepare(c), file);
     const Word& word = experiment_.words[0];
     write_cell(cell_folder(folder_, c, word), [&](const fs::path& at) {
       write_mesh(at / "mesh.msh", result.mesh);
       identity.files = marks_of(at);
-      write_file_atomically(at / "record.json", [&](std::ostream& out) {
-        out << run_record(c, prepared, word, result, &identity);
-      });
+      write_file_atomically(at / "record.json",
+                            [&](std::ostream& out) { out << run_record(c, word, result, &identity); });
     });
   }
 

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "delquad/mesh.h"
-#include "patches/prepared.h"
+#include "delquad/mesher.h"
 
 namespace delquad {
 
@@ -34,6 +33,6 @@ SubmissionCount add_submission(const Submission& submission, const std::filesyst
 /// Throws PeerError unless the mesh is conforming, has the model's area and lies on it: no place of the model
 /// is further from the mesh, and none of the mesh further from the model, than 1.25 times the size there. Of
 /// planar domains that is asked of the boundaries. Makes planar meshes run counterclockwise.
-void check_is_of_model(const PreparedProblem& prepared, Mesh& mesh);
+void check_is_of_model(const Prepared& prepared, Mesh& mesh);
 
 }  // namespace delquad

@@ -7,10 +7,10 @@
 #include <ostream>
 
 #include "base/text.h"
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/suite/suite_list.h"
 #include "experiments/sweep/cell_folder.h"
+#include "io/cases/case.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -73,7 +73,7 @@ void write_suite(const fs::path& folder) {
   const Experiment experiment = write_suite_experiment(folder);
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
-    if (c.model) write_mesh(folder / (c.name + ".msh"), prepare_case(c).boundary);
+    if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), prepare(c)->boundary);
   }
   write_text(folder / "cases.json", cases_text());
 }

@@ -61,16 +61,17 @@ std::string version_of(const Peer& peer, std::string& why) {
 }  // namespace
 
 std::string model_digest(const Case& c) {
-  if (c.model) {
-    std::string text = describe(*c.model);
-    for (const ModelLoop& loop : c.model->loops) {
+  if (const PlanarModel* model = planar_model(c)) {
+    std::string text = describe(*model);
+    for (const ModelLoop& loop : model->loops) {
       if (!loop.is_hole) continue;
-      const Vec2 first = c.model->curves[loop.curves.front()].shape->point(0);
+      const Vec2 first = model->curves[loop.curves.front()].shape->point(0);
       text += fmt::format("hole {:a} {:a}\n", first.x, first.y);
     }
     return digest(text);
   }
-  return c.example.empty() ? file_digest(model_path(c)) : digest("example " + c.example);
+  const std::string example = example_of(c);
+  return example.empty() ? file_digest(model_path(c)) : digest("example " + example);
 }
 
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model,

@@ -9,13 +9,13 @@
 #include <set>
 
 #include "base/located.h"
-#include "cases/case_file.h"
-#include "cases/problem.h"
-#include "cases/size_file.h"
-#include "cases/toml_reader.h"
 #include "experiments/sweep/command_files.h"
 #include "experiments/sweep/experiment_keys.h"
 #include "experiments/sweep/schema.h"
+#include "io/cases/case_file.h"
+#include "io/cases/read_problem.h"
+#include "io/cases/size_file.h"
+#include "io/cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/tables.h"
@@ -144,7 +144,7 @@ std::vector<std::filesystem::path> Experiment::files() const {
   for (std::size_t i = 0; i < n_cases(); ++i) {
     const Case c = read_variant(i);
     add(c.model_file);
-    if (const auto size = size_file_of(c.size.base, c.size.folder)) add(size->path);
+    if (const auto size = size_file_of(c.size.text, c.size.folder)) add(size->path);
     if (!c.may_be_absent) add(model_path(c));
   }
   // Programs of the system stay where they are.
@@ -203,6 +203,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
   c.max_elements = max_elements;
+  c.allow_unsound = true;  // who runs it decides
   for (std::size_t k = 0; k < axes.size(); ++k) {
     c.variant.emplace_back(axes[k].title, axes[k].values[choice[k]]);
     c.folder += (k == 0 ? "@" : ",") + axes[k].title + "=" + folder_text(axes[k].values, choice[k]);
@@ -299,7 +300,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
       const Case c = experiment.read_variant(i, v);
       check_case(c);
       for (const Word& word : experiment.words)
-        if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c)); });
+        if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c.model)); });
     }
   }
   return experiment;

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
-#include "cases/toml_reader.h"
+#include "delquad/extend.h"
 #include "experiments/sweep/metric_command.h"
 #include "experiments/sweep/peer.h"
-#include "mesher/stages.h"
+#include "io/cases/case.h"
+#include "io/cases/toml_reader.h"
 #include "metrics/tables/study_file.h"
 
 namespace delquad {

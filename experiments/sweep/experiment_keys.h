@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/toml_reader.h"
+#include "io/cases/toml_reader.h"
 
 /// Keys that several tables of an experiment have.
 namespace delquad {

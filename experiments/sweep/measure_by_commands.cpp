@@ -11,7 +11,7 @@ namespace delquad {
 
 std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Case& c,
                                              const std::string& pipeline,
-                                             const std::filesystem::path& scratch, RunResult& result) {
+                                             const std::filesystem::path& scratch, MeshResult& result) {
   if (cell.metrics.empty()) return {};
   const DoingStage measuring("metrics by command");
   const Stopwatch watch;
@@ -29,7 +29,7 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
   return failures;
 }
 
-std::vector<std::string> measure_by_solvers(const CellIdentity& cell, RunResult& result) {
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, MeshResult& result) {
   if (cell.solvers.empty()) return {};
   const DoingStage measuring("solvers");
   const Stopwatch watch;

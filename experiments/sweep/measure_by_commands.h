@@ -13,10 +13,10 @@ namespace delquad {
 /// failed, a line each.
 std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Case& c,
                                              const std::string& pipeline,
-                                             const std::filesystem::path& scratch, RunResult& result);
+                                             const std::filesystem::path& scratch, MeshResult& result);
 
 /// Solves on the mesh of a cell, as its experiment asks. Adds values, failures and the time to the result.
 /// Returns what failed, a line each.
-std::vector<std::string> measure_by_solvers(const CellIdentity& cell, RunResult& result);
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, MeshResult& result);
 
 }  // namespace delquad

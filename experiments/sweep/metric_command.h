@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
 #include "delquad/metrics.h"
+#include "io/cases/case.h"
 
 namespace delquad {
 

@@ -124,28 +124,28 @@ int missing_edges(const Mesh& boundary, const Mesh& mesh) {
   return missing;
 }
 
-void check_planar(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh) {
-  for (Vec3& p : mesh.points) p.z = prepared.boundary.points[0].z;
+void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
+  for (Vec3& p : mesh.points) p.z = prepared->boundary.points[0].z;
   if (area_in_plane(mesh) < 0) {
     for (auto& v : mesh.triangles) std::ranges::reverse(v);
     for (auto& v : mesh.quads) std::ranges::reverse(v);
   }
   double area = 0;
-  for (const PreparedPatch& patch : prepared.patches)
-    for (const auto& [a, b] : patch.boundary.edges)
-      area += 0.5 * cross(patch.boundary.points[a], patch.boundary.points[b]);
+  for (std::size_t i = 0; i < prepared.n_patches(); ++i)
+    for (const auto& [a, b] : prepared.patch(i).edges)
+      area += 0.5 * cross(prepared.patch(i).points[a], prepared.patch(i).points[b]);
   const double tolerance = peer.keeps_boundary ? 1e-6 : 0.02;  // chords of another boundary
   const double covered = area_in_plane(mesh) / area;
   if (!(std::abs(covered - 1) <= tolerance))
     throw PeerError(fmt::format("its mesh covers {:.6g} % of the domain's area", 100 * covered));
-  if (const int missing = peer.keeps_boundary ? missing_edges(prepared.boundary, mesh) : 0; missing > 0)
+  if (const int missing = peer.keeps_boundary ? missing_edges(prepared->boundary, mesh) : 0; missing > 0)
     throw PeerError(
-        fmt::format("{} of {} boundary edges are not in its mesh", missing, prepared.boundary.lines.size()));
+        fmt::format("{} of {} boundary edges are not in its mesh", missing, prepared->boundary.lines.size()));
 }
 
-void check_surface(const PreparedProblem& prepared, const Mesh& mesh) {
+void check_surface(const Prepared& prepared, const Mesh& mesh) {
   constexpr double kCovered = 0.1;  // chords of curved faces take some of the area
-  const Mesh& model = prepared.surface->whole().fine;
+  const Mesh& model = prepared.fine();
   const double covered = area_in_space(mesh) / area_in_space(model);
   if (!(std::abs(covered - 1) <= kCovered))
     throw PeerError(fmt::format("its mesh covers {:.4g} % of the model's area", 100 * covered));
@@ -207,9 +207,9 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
 
 /// At another scale of its sizes. The boundary of a planar model is made anew at it: our own edges would ask
 /// for our own size. Lines that are given, and surfaces, stay.
-PeerRun run_scaled(const Peer& peer, const Case& c, const PreparedProblem& prepared, double scale,
+PeerRun run_scaled(const Peer& peer, const Case& c, const Prepared& prepared, double scale,
                    const fs::path& folder) {
-  if (!c.model || scale == 1) return run_once({peer, c, prepared, scale, scale}, folder);
+  if (planar_model(c) == nullptr || scale == 1) return run_once({peer, c, prepared, scale, scale}, folder);
   return run_once({peer, c, prepare_scaled(c, scale), scale, 1}, folder);
 }
 
@@ -231,8 +231,7 @@ void remove_files(const fs::path& folder) {
 /// The runs of a calibration, of which the closest is kept, with its files.
 class Calibrated {
  public:
-  Calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared, const fs::path& folder,
-             double wanted)
+  Calibrated(const Peer& peer, const Case& c, const Prepared& prepared, const fs::path& folder, double wanted)
       : peer_(peer), c_(c), prepared_(prepared), folder_(folder), wanted_(wanted) {}
 
   PeerRun run() {
@@ -272,7 +271,7 @@ class Calibrated {
 
   const Peer& peer_;
   const Case& c_;
-  const PreparedProblem& prepared_;
+  const Prepared& prepared_;
   const fs::path& folder_;
   double wanted_;
   std::optional<PeerRun> best_;
@@ -280,8 +279,8 @@ class Calibrated {
 };
 
 /// As close as it gets to the reference's number of quads; `log` receives how close.
-PeerRun run_calibrated(const Peer& peer, const Case& c, const PreparedProblem& prepared,
-                       const fs::path& folder, const ReferenceCell& reference, StageLog& log) {
+PeerRun run_calibrated(const Peer& peer, const Case& c, const Prepared& prepared, const fs::path& folder,
+                       const ReferenceCell& reference, StageLog& log) {
   const auto wanted = reference_quads(prepared, peer.calibrate_to, reference);
   if (!wanted || !(*wanted > 0)) {
     PeerRun run = run_once({peer, c, prepared}, folder);
@@ -312,7 +311,7 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
     if (word.find("{quads}") != std::string::npos)
       word = replace_all(
           word, "{quads}",
-          fmt::format("{:.0f}", task.prepared.size.expected_quads / (task.field_scale * task.field_scale)));
+          fmt::format("{:.0f}", task.prepared->size.expected_quads / (task.field_scale * task.field_scale)));
     word = replace_all(word, "{size_field}", size_field.string());
     word = replace_all(word, "{input}", input.string());
     word = replace_all(word, "{output}", output);
@@ -338,41 +337,43 @@ std::string peer_version(const Peer& peer) {
   throw PeerError(fmt::format("{}: prints no version", fmt::join(words, " ")));
 }
 
-void check_peer_mesh(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh) {
+void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   if (mesh.triangles.empty() && mesh.quads.empty()) throw PeerError("its mesh has no triangles and no quads");
   for (const Vec3& p : mesh.points)
     if (!std::isfinite(p.x + p.y + p.z)) throw PeerError("its mesh has a point that is not finite");
   // On surfaces faces may be turned against each other, and any number of them meet in a curve.
-  const std::vector<char> branching(prepared.surface ? mesh.curves.size() : 0, 1);
+  const std::vector<char> branching(prepared.is_surface() ? mesh.curves.size() : 0, 1);
   const std::vector<std::string> violations = check_invariants(mesh, branching);
   if (!violations.empty())
     throw PeerError(
         fmt::format("its mesh is not sound ({} violations): {}", violations.size(), violations[0]));
-  prepared.surface ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
+  prepared.is_surface() ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
 }
 
-RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
-                   const fs::path& scratch, const ReferenceCell& reference) {
+MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
+                    const fs::path& scratch, const ReferenceCell& reference) {
   fs::remove_all(scratch);
   fs::create_directories(scratch);
   const fs::path folder = fs::absolute(scratch);
-  RunResult result;
+  StageLog log;
   PeerRun run = peer.calibrate_to.empty() ? run_once({peer, c, prepared}, folder)
-                                          : run_calibrated(peer, c, prepared, folder, reference, result.log);
-  result.mesh = std::move(run.mesh);
+                                          : run_calibrated(peer, c, prepared, folder, reference, log);
+  MeshResult result = prepared.measure(std::move(run.mesh));
+  result.log = std::move(log);
+  result.warnings = prepared->warnings;
   if (const int code = WEXITSTATUS(run.program.status); code != 0)
     result.warnings.push_back(
         fmt::format("{}: ended with exit code {}{}", label, code, complaint(folder / "peer.log")));
   result.log.add_seconds("peer", run.program.cpu_seconds);
   result.seconds = run.program.seconds;
   result.peak_memory = run.program.peak_memory;
-  result.metrics = evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
-                                    prepared.settings.options);
-  result.soundness = check_elements(prepared, result.mesh);
-  const std::vector<double> etas = quad_etas(result.mesh);
-  result.bad_elsewhere =
-      static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
   return result;
+}
+
+MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const fs::path& scratch) {
+  const Prepared prepared = prepare(c);
+  return peer != nullptr ? run_peer(*peer, c, prepared, c.name + " " + word.text, scratch)
+                         : mesh(prepared, word.text);
 }
 
 }  // namespace delquad

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
-#include "mesher/runner.h"
+#include "delquad/extend.h"
+#include "io/cases/case.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {
@@ -69,9 +69,9 @@ std::string peer_version(const Peer& peer);
 struct PeerTask {
   const Peer& peer;
   const Case& c;
-  const PreparedProblem& prepared;  ///< with the boundary that it gets
-  double scale = 1;                 ///< the sizes that it is told, over those of the case
-  double field_scale = 1;           ///< the same, over prepared.size
+  const Prepared& prepared;  ///< with the boundary that it gets
+  double scale = 1;          ///< the sizes that it is told, over those of the case
+  double field_scale = 1;    ///< the same, over the size of `prepared`
 };
 
 /// Where the record of the word that a peer is calibrated to will be, and the key that makes it valid; empty:
@@ -84,12 +84,14 @@ struct ReferenceCell {
 /// Lets the peer mesh a case. Planar cases: with the same boundary edges. Surfaces: with the model. Sizes: a
 /// number, or what they are at the nodes of F. Where the peer is calibrated its size is changed, and with it
 /// the boundary that it gets, until it has the reference's number of quads; see calibrate_scale(). Works in
-/// the folder `scratch`, made anew, where peer.log has what it printed. `label` as in finish_meshing().
-/// Throws NotApplicable, PeerError, and JobFailed where the word that it is calibrated to fails: then it is
-/// not run. A mesh whose elements are not sound, see check_elements(), is a result
-/// that says so.
-RunResult run_peer(const Peer& peer, const Case& c, const PreparedProblem& prepared, const std::string& label,
-                   const std::filesystem::path& scratch, const ReferenceCell& reference = {});
+/// the folder `scratch`, made anew, where peer.log has what it printed. `label` names the case and the peer
+/// in warnings. Throws NotApplicable, PeerError, and JobFailed where the word that it is calibrated to fails:
+/// then it is not run. A mesh whose elements are not sound, see Prepared::measure(), is a result that says
+/// so.
+MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
+                    const std::filesystem::path& scratch, const ReferenceCell& reference = {});
+/// The mesh of a cell, by the word or, unless it is null, by the peer.
+MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const std::filesystem::path& scratch);
 
 /// delta where it is the same everywhere, as it was written.
 std::optional<double> uniform_size(const Case& c);
@@ -104,6 +106,6 @@ std::filesystem::path write_peer_input(const PeerTask& task, const std::filesyst
 
 /// Makes `mesh` run counterclockwise on planar domains. Throws PeerError when it is not sound, does not cover
 /// the domain or, where the peer keeps it, has other edges on the boundary.
-void check_peer_mesh(const Peer& peer, const PreparedProblem& prepared, Mesh& mesh);
+void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh);
 
 }  // namespace delquad

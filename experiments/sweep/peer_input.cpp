@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "base/text.h"
-#include "cases/problem.h"
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/peer_sizes.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 
@@ -43,8 +43,8 @@ std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
 }
 
 /// Every edge of the boundary is a straight curve with one element.
-void write_boundary(TextWriter& out, const PreparedProblem& prepared) {
-  const Mesh& boundary = prepared.boundary;
+void write_boundary(TextWriter& out, const Prepared& prepared) {
+  const Mesh& boundary = prepared->boundary;
   for (std::size_t i = 0; i < boundary.points.size(); ++i) {
     const Vec3& p = boundary.points[i];
     out << "Point(" << i + 1 << ") = {" << p.x << ", " << p.y << ", " << p.z << "};\n";
@@ -57,13 +57,14 @@ void write_boundary(TextWriter& out, const PreparedProblem& prepared) {
   }
   out << "Transfinite Curve {1:" << curve_of.size() << "} = 2;\n";
   int n_loops = 0, n_surfaces = 0;
-  for (const PreparedPatch& patch : prepared.patches) {
+  for (std::size_t i = 0; i < prepared.n_patches(); ++i) {
+    const PatchBoundary& patch = prepared.patch(i);
     std::string surface;
-    for (const std::vector<int>& loop : loops_of(patch.boundary)) {
+    for (const std::vector<int>& loop : loops_of(patch)) {
       out << "Curve Loop(" << ++n_loops << ") = {";
       for (std::size_t k = 0; k < loop.size(); ++k) {
-        const int a = patch.boundary.point_node[loop[k]];
-        const int b = patch.boundary.point_node[loop[(k + 1) % loop.size()]];
+        const int a = patch.point_node[loop[k]];
+        const int b = patch.point_node[loop[(k + 1) % loop.size()]];
         const int curve = curve_of.at({std::min(a, b), std::max(a, b)});
         out << (k == 0 ? "" : ", ") << (a < b ? curve : -curve);
       }
@@ -81,10 +82,10 @@ fs::path surface_file(const PeerTask& task, const fs::path& folder) {
       s.weld_tolerance || !s.unit.empty())
     throw NotApplicable("'" + task.peer.name +
                         "' gets the model's file as it is, but the case changes its faces");
-  if (task.c.example.empty()) return fs::absolute(model_path(task.c));
+  const std::string example = example_of(task.c);
+  if (example.empty()) return fs::absolute(model_path(task.c));
   const fs::path file = folder / "model.step";
-  write_file_atomically(file,
-                        [&](std::ostream& out) { write_example(task.c.example, CadFormat::kStep, out); });
+  write_file_atomically(file, [&](std::ostream& out) { write_example(example, CadFormat::kStep, out); });
   return file;
 }
 
@@ -126,14 +127,15 @@ void write_surface(TextWriter& out, const Case& c, const fs::path& file) {
 }
 
 void write_script(const PeerTask& task, const fs::path& script) {
-  const PreparedProblem& prepared = task.prepared;
+  const Prepared& prepared = task.prepared;
   const auto size = uniform_size(task.c);
   const fs::path folder = script.parent_path();
-  const fs::path model = prepared.surface ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
+  const fs::path model =
+      prepared.is_surface() ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
   if (!size) write_size_field(sample_sizes(task), "pos", folder);
   write_file_atomically(script, [&](std::ostream& stream) {
     TextWriter out(stream);
-    prepared.surface ? write_surface(out, task.c, model) : write_boundary(out, prepared);
+    prepared.is_surface() ? write_surface(out, task.c, model) : write_boundary(out, prepared);
     if (size)
       out << "Mesh.MeshSizeMin = " << task.scale * *size << ";\nMesh.MeshSizeMax = " << task.scale * *size
           << ";\n";
@@ -149,29 +151,29 @@ void write_script(const PeerTask& task, const fs::path& script) {
 }  // namespace
 
 std::optional<double> uniform_size(const Case& c) {
-  const SizeText& s = c.size;
-  auto size = as_number(s.base);
-  if (s.base.empty() && s.max > 0) size = s.max;
+  const SizeSpec& s = c.size;
+  auto size = as_number(s.text);
+  if (s.text.empty() && s.max > 0) size = s.max;
   if (!size || !s.sources.empty() || !s.named.empty() || s.curvature > 0) return std::nullopt;
   return s.max > 0 ? std::min(*size, s.max) : *size;
 }
 
 fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
   const Peer& peer = task.peer;
-  const bool on_surface = task.prepared.surface != nullptr;
+  const bool on_surface = task.prepared.is_surface();
   const HandOver given = on_surface ? peer.surfaces : peer.planar;
   if (given == HandOver::kNothing)
     throw NotApplicable(
         fmt::format("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains"));
   if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
-  if (task.prepared.layers)
+  if (!task.c.layers.empty())
     throw NotApplicable("layers along curves are made by this program's meshes alone");
   const fs::path file = folder / ("input" + peer.input);
   if (peer.input == kGmshScript)
     write_script(task, file);
   else
     write_mesh(file,
-               given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared.boundary);
+               given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared->boundary);
   return file;
 }
 

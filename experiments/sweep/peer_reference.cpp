@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "base/activity.h"
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/calibration.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/scratch_folder.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
+#include "io/cases/read_problem.h"
 
 namespace delquad {
 namespace {
@@ -29,15 +27,13 @@ std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
 }
 
 /// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
-std::optional<double> quads_of_word(const PreparedProblem& prepared, const std::string& word) {
+std::optional<double> quads_of_word(const Prepared& prepared, const std::string& word) {
   const DoingStage counting("our word that the peer is calibrated to");
   const ScratchFolder scratch;
   const std::filesystem::path file = scratch.path() / "quads";
   std::optional<ProcessFailure> failure;
   std::optional<Job> job(std::in_place);
-  job->work = [&] {
-    std::ofstream(file) << fmt::format("{}", count_of_quads(run_word(prepared, parse_word(word)).mesh));
-  };
+  job->work = [&] { std::ofstream(file) << fmt::format("{}", count_of_quads(mesh(prepared, word).mesh)); };
   job->failed = [&](const ProcessFailure& why) { failure = why; };
   run_jobs([&] { return std::exchange(job, std::nullopt); }, {});
   if (failure && failure->kind == "bad input") return std::nullopt;
@@ -63,7 +59,7 @@ class ScaledSize final : public SizeField {
 
 }  // namespace
 
-std::optional<double> reference_quads(const PreparedProblem& prepared, const std::string& word,
+std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
                                       const ReferenceCell& cell) {
   if (const auto record = valid_record(cell)) {
     if (record->value("status", "") != "ok") return std::nullopt;
@@ -73,8 +69,8 @@ std::optional<double> reference_quads(const PreparedProblem& prepared, const std
   return quads_of_word(prepared, word);
 }
 
-PreparedProblem prepare_scaled(const Case& c, double scale) {
-  MeshProblem problem = make_problem(c);
+Prepared prepare_scaled(const Case& c, double scale) {
+  MeshProblem problem = read_files(c);
   SizeSpec& size = problem.size;
   if (size.field) size.field = std::make_shared<ScaledSize>(size.field, scale);
   for (SizeSource& source : size.sources) {
@@ -88,7 +84,7 @@ PreparedProblem prepare_scaled(const Case& c, double scale) {
   size.gradation *= scale;  // of the scaled field, |grad| is
   size.min *= scale;
   size.max *= scale;
-  return prepare(problem);
+  return prepare(std::move(problem));
 }
 
 }  // namespace delquad

@@ -3,7 +3,6 @@
 #include "experiments/sweep/peer_sizes.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
-#include "mesher/runner.h"
 
 namespace delquad {
 namespace {
@@ -38,18 +37,17 @@ void write_points(TextWriter& out, const SampledSize& size) {
 
 }  // namespace
 
-Mesh triangles_of_domain(const PreparedProblem& prepared) {
-  MeshingState state = begin_meshing(prepared);
-  for (const Stage* stage : parse_word("F").stages) run_stage(*stage, prepared, state);
-  return assemble(prepared, state.nodes.points, state.patches,
-                  std::vector<char>(prepared.boundary.regions.size()));
+Mesh triangles_of_domain(const Prepared& prepared) {
+  Meshing meshing(prepared);
+  for (const Stage* stage : parse_word("F").stages) meshing.run(*stage);
+  return meshing.mesh();
 }
 
 SampledSize sample_sizes(const PeerTask& task) {
   SampledSize size{triangles_of_domain(task.prepared), {}};
   int hint = -1;
   for (const Vec3& p : size.mesh.points)
-    size.delta.push_back(task.field_scale * task.prepared.size.field->at(p, hint));
+    size.delta.push_back(task.field_scale * task.prepared->size.field->at(p, hint));
   return size;
 }
 

@@ -9,7 +9,7 @@
 namespace delquad {
 
 /// The triangles of F, of the wanted size: in the plane, or on the surface.
-Mesh triangles_of_domain(const PreparedProblem& prepared);
+Mesh triangles_of_domain(const Prepared& prepared);
 
 /// A size field by its values at the nodes of triangles that are as large as it says.
 struct SampledSize {

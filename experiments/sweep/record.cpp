@@ -5,10 +5,11 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "cases/size_file.h"
+#include "base/warning.h"
 #include "delquad/error.h"
 #include "experiments/sweep/versions.h"
-#include "features/crosses/size_aware.h"
+#include "io/cases/read_problem.h"
+#include "io/cases/size_file.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 
@@ -37,9 +38,9 @@ void add_times(Json& json, const StepTimes& times) {
   json["alone_seconds"] = alone;
 }
 
-Json size_json(const SizeText& size) {
-  Json json = {{"base", size.base.empty() ? Json() : Json(size.base)}, {"sources", Json::array()}};
-  if (const auto file = size_file_of(size.base, size.folder)) json["digest"] = file_digest(file->path);
+Json size_json(const SizeSpec& size) {
+  Json json = {{"base", size.text.empty() ? Json() : Json(size.text)}, {"sources", Json::array()}};
+  if (const auto file = size_file_of(size.text, size.folder)) json["digest"] = file_digest(file->path);
   for (const SizeSource& s : size.sources)
     json["sources"].push_back({{"at", point_json(s.a)},
                                {"to", point_json(s.b)},
@@ -128,7 +129,7 @@ Json layer_json(const LayerSpec& layer) {
 Json options_json(const Case& c) {
   Json json = {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
                {"size", size_json(c.size)},
-               {"cross", c.cross.text},
+               {"cross", text_of(c.cross)},
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
   for (const CurveDivision& d : c.divisions)
@@ -148,35 +149,35 @@ Json options_json(const Case& c) {
     json["mapped_corners"].push_back({{"name", grid.region}, {"corners", corners}});
   }
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
-  if (c.start) json["start"] = true;
+  if (word_start(c.model) == WordStart::kGivenMesh) json["start"] = true;
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }
 
-Json domain_json(const PreparedProblem& p) {
+Json domain_json(const Prepared& p) {
   std::size_t edges = 0;
-  for (const PreparedPatch& patch : p.patches) edges += patch.boundary.edges.size();
+  for (std::size_t i = 0; i < p.n_patches(); ++i) edges += p.patch(i).edges.size();
   Json json = {
-      {"patches", p.patches.size()}, {"boundary_edges", edges}, {"expected_quads", p.size.expected_quads}};
-  json["size_adapted_to"] = p.size.adapted_to;
-  for (const SymmetryPlane& plane : p.symmetry)
+      {"patches", p.n_patches()}, {"boundary_edges", edges}, {"expected_quads", p->size.expected_quads}};
+  json["size_adapted_to"] = p->size.adapted_to;
+  for (const SymmetryPlane& plane : p->symmetry)
     json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
-  if (p.plane.background) json["background_triangles"] = p.plane.background->triangles().triangles.size();
+  if (!p.is_surface()) json["background_triangles"] = p.background()->triangles.size();
   return json;
 }
 
-Json cross_json(const PreparedProblem& p) {
+Json cross_json(const Prepared& p) {
   Json json = {{"singularities", Json::array()}};
-  for (const PlacedSingularity& s : p.crosses.singularities)
+  for (const PlacedSingularity& s : p->crosses.singularities)
     json["singularities"].push_back({{"at", point_json(s.at)}, {"index_quarters", s.index}});
-  if (p.crosses.index_sum_and_expected) {
-    json["index_sum_quarters"] = p.crosses.index_sum_and_expected->first;
-    json["euler_characteristic_quarters"] = p.crosses.index_sum_and_expected->second;
+  if (p->crosses.index_sum_and_expected) {
+    json["index_sum_quarters"] = p->crosses.index_sum_and_expected->first;
+    json["euler_characteristic_quarters"] = p->crosses.index_sum_and_expected->second;
   }
-  json["row_ends"] = expected_row_ends(p);
-  if (p.crosses.dislocations)
-    json["expected_dislocations"] = {{"boundary", p.crosses.dislocations->first},
-                                     {"size_aware", p.crosses.dislocations->second}};
+  json["row_ends"] = p.row_ends();
+  if (p->crosses.dislocations)
+    json["expected_dislocations"] = {{"boundary", p->crosses.dislocations->first},
+                                     {"size_aware", p->crosses.dislocations->second}};
   return json;
 }
 
@@ -261,9 +262,10 @@ void add_summaries(Json& json, const Summaries& summaries) {
 }
 
 /// Quads below kBadEta, and the corners of the model that forbid more.
-Json bad_quads_json(const PreparedProblem& p, const RunResult& result) {
+Json bad_quads_json(const MeshResult& result) {
+  const Preparation& p = *result.prepared;
   Json corners = Json::array();
-  for (const SharpCorner& c : p.sharp_corners())
+  for (const SharpCorner& c : result.prepared.sharp_corners())
     corners.push_back({{"face", p.boundary.regions[c.face].tag},
                        {"curves", {p.boundary.curves[c.curves[0]].tag, p.boundary.curves[c.curves[1]].tag}},
                        {"at", point_json(p.boundary.points[c.node])},
@@ -287,19 +289,19 @@ Json distances_json(const Distances& d) {
   return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}, {"max_in_sizes", d.max_in_sizes}};
 }
 
-Json maps_json(const PreparedProblem& p) {
-  const MapReport maps = report_maps(maps_of(*p.surface));
-  Json json = {{"patches", maps.patches},
+Json maps_json(const Prepared& p) {
+  const MapReport maps = p.maps();
+  const std::vector<Entity>& faces = p->boundary.regions;
+  Json json = {{"patches", maps.patches.size()},
                {"sigma_mean", maps.sigma_mean},
                {"sigma_95", maps.sigma_95},
                {"sigma_max", maps.sigma_max},
                {"area_ratio", maps.area_ratio},
-               {"worst_face", maps.worst_face < 0 ? Json() : Json(p.boundary.regions[maps.worst_face].tag)},
+               {"worst_face", maps.worst_face < 0 ? Json() : Json(faces[maps.worst_face].tag)},
                {"by_patch", Json::array()}};
-  for (const SurfacePatch& patch : p.surface->domain.patches) {
-    const FlatQuality& q = patch.map.quality;
-    json["by_patch"].push_back({{"face", p.boundary.regions[patch.map.face].tag},
-                                {"method", patch.map.method},
+  for (const auto& [face, method, q] : maps.patches) {
+    json["by_patch"].push_back({{"face", faces[face].tag},
+                                {"method", method},
                                 {"sigma_mean", q.sigma_mean},
                                 {"sigma_95", q.sigma_95},
                                 {"sigma_max", q.sigma_max},
@@ -312,11 +314,11 @@ Json share_json(const QuadShare& share) {
   return {{"quads", share.quads}, {"vertices", share.vertices}, {"eta_mean", share.eta}, {"d4", share.d4}};
 }
 
-Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
+Json surface_json(const Prepared& p, const SurfaceReport& report) {
   Json cuts = Json::array();
-  for (const SurfaceCut& cut : p.surface->cuts)
-    cuts.push_back({{"curve", p.boundary.curves[cut.curve].tag},
-                    {"face", p.boundary.regions[cut.face].tag},
+  for (const SurfaceCut& cut : p.cuts())
+    cuts.push_back({{"curve", p->boundary.curves[cut.curve].tag},
+                    {"face", p->boundary.regions[cut.face].tag},
                     {"length", cut.length},
                     {"divides", cut.divides}});
   return {{"maps", maps_json(p)},
@@ -335,7 +337,8 @@ Json surface_json(const PreparedProblem& p, const SurfaceReport& report) {
             {"nodes_at_corners", distances_json(report.nodes_at_corners)}}}};
 }
 
-Json failures_json(const PreparedProblem& p, const RunResult& result) {
+Json failures_json(const MeshResult& result) {
+  const Preparation& p = *result.prepared;
   Json json = Json::array();
   for (const FaceFailure& failure : result.failures)
     json.push_back({{"face", failure.face < 0 ? Json() : Json(p.boundary.regions[failure.face].tag)},
@@ -364,8 +367,8 @@ void add_origin(Json& json, const MachineState* start = nullptr) {
 
 /// The file of the model, or the name of the example.
 std::string source_of(const Case& c) {
-  if (c.model) return c.model->source;
-  if (!c.example.empty()) return "example " + c.example;
+  if (const PlanarModel* model = planar_model(c)) return model->source;
+  if (const std::string example = example_of(c); !example.empty()) return "example " + example;
   return model_path(c).string();
 }
 
@@ -435,27 +438,23 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 
 }  // namespace
 
-std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
-                       const RunResult& result, const CellIdentity* cell) {
+std::string run_record(const Case& c, const Word& word, const MeshResult& result, const CellIdentity* cell) {
   Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
   if (const Json own = own_metrics_json(cell); !own.empty()) json["own_metrics"] = own;
   json["sound"] = result.soundness.accepted();
   if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
   for (const std::string& beyond : result.soundness.beyond) json["unsound"].push_back(beyond);
   json["options"] = options_json(c);
-  json["domain"] = domain_json(prepared);
-  json["cross_field"] = cross_json(prepared);
-  json["warnings"] = texts(prepared.warnings);
-  for (const Warning& warning : result.warnings) json["warnings"].push_back(warning.text);
-  if (result.surface) json["surface"] = surface_json(prepared, *result.surface);
-  if (!result.failures.empty()) json["left_out"] = failures_json(prepared, result);
+  json["domain"] = domain_json(result.prepared);
+  json["cross_field"] = cross_json(result.prepared);
+  json["warnings"] = texts(result.warnings);
+  if (result.surface) json["surface"] = surface_json(result.prepared, *result.surface);
+  if (!result.failures.empty()) json["left_out"] = failures_json(result);
   const StageLog& log = result.log;
-  json["bad_quads"] = bad_quads_json(prepared, result);
+  json["bad_quads"] = bad_quads_json(result);
   const bool is_peer = cell != nullptr && cell->peer != nullptr;
-  StepTimes times = is_peer ? StepTimes{} : prepared.times;
-  times.insert(times.end(), log.times.begin(), log.times.end());
   json["threads"] = thread_count();
-  add_times(json, times);
+  add_times(json, log.times);
   // A peer's time has reading and writing in it: not to be set beside this.
   json["meshing_seconds"] = is_peer ? Json() : Json(result.seconds);
   if (is_peer) json["peer_seconds"] = result.seconds;

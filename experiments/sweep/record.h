@@ -34,8 +34,8 @@ struct CellIdentity {
 
 /// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
 /// Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
-std::string run_record(const Case& c, const PreparedProblem& prepared, const Word& word,
-                       const RunResult& result, const CellIdentity* cell = nullptr);
+std::string run_record(const Case& c, const Word& word, const MeshResult& result,
+                       const CellIdentity* cell = nullptr);
 /// The record of one that was not run, "failed" or "skipped" by its status, and of what kind the reason is:
 /// as in ProcessFailure, or "data not found".
 std::string failure_record(const Case& c, const Word& word, const std::string& status,

@@ -70,10 +70,8 @@ Case recorded_case(const Json& record, const Experiment& experiment, const fs::p
     throw InputError(fmt::format("{}: has no case '{}' with {}", experiment.file.string(), name,
                                  record.at("variant").dump()));
   Case c = experiment.read_variant((*place)[0], (*place)[1]);
-  if (!model_path(c).empty()) {
-    fs::path& file = c.surface_file.empty() ? c.mesh_file : c.surface_file;
-    file = find_model(file, record.at("digests").at("model"), data);
-  }
+  if (auto* file = std::get_if<ModelFile>(&c.model))
+    file->path = find_model(file->path, record.at("digests").at("model"), data);
   return c;
 }
 

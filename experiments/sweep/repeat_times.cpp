@@ -11,11 +11,9 @@
 #include <ostream>
 #include <string_view>
 
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
 #include "io/mesh_io.h"
-#include "mesher/runner.h"
 #include "metrics/tables/random_index.h"
 #include "metrics/tables/times.h"
 
@@ -116,13 +114,8 @@ class RepeatedVariant {
   void time(std::size_t cell, int round) const {
     const Word& word = *words_[cell];
     const Peer* peer = experiment_.peer_of(word);
-    PreparedProblem prepared = prepare_case(case_);
-    const RunResult result =
-        peer != nullptr ? run_peer(*peer, case_, prepared, case_.name + " " + word.text, scratch() / "peer")
-                        : run_case(case_, word, prepared);
-    StepTimes times = result.log.times;
-    if (peer == nullptr) times.insert(times.end(), prepared.times.begin(), prepared.times.end());
-    Json json = {{"seconds_total", total_seconds(times)}};
+    const MeshResult result = mesh_cell(case_, word, peer, scratch() / "peer");
+    Json json = {{"seconds_total", total_seconds(result.log.times)}};
     if (peer == nullptr) json["seconds"] = result.seconds;
     write_file_atomically(file_of(cell, round), [&](std::ostream& out) { out << json.dump(); });
   }

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/measure_by_commands.h"
@@ -16,7 +15,6 @@
 #include "io/digest.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"
-#include "mesher/runner.h"
 #include "metrics/tables/json_problem.h"
 
 namespace delquad {
@@ -121,15 +119,12 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
 
   const ScratchFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
-  const std::string label = c.name + " " + word.text;
-  PreparedProblem prepared = prepare_case(c);
-  RunResult result =
-      cell.peer != nullptr ? run_peer(*cell.peer, c, prepared, label, work) : run_case(c, word, prepared);
+  MeshResult result = mesh_cell(c, word, cell.peer, work);
   measure_by_solvers(cell, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);
-  const Json now = Json::parse(run_record(c, prepared, word, result, &cell));
+  const Json now = Json::parse(run_record(c, word, result, &cell));
   return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
           compare_values(record, now)};
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
+#include "io/cases/case.h"
 
 namespace delquad {
 

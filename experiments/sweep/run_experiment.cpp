@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/cell_folder.h"
@@ -17,7 +16,6 @@
 #include "experiments/sweep/repeat_times.h"
 #include "experiments/sweep/sweep_progress.h"
 #include "experiments/sweep/variant_work.h"
-#include "mesher/runner.h"
 #include "metrics/tables/study_file.h"
 
 namespace delquad {
@@ -89,7 +87,7 @@ Job job_of(const std::shared_ptr<VariantWork>& work, const Branch& branch) {
       if (at->stage == nullptr && at->cell == nullptr)
         work->prepare();
       else if (at->stage != nullptr)
-        run_stage(*at->stage, *work->prepared, work->state);
+        work->meshing->run(*at->stage);
       if (at == &end) break;
     }
     if (is_leaf) work->finish(*end.cell);

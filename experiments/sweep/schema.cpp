@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cases/case_keys.h"
 #include "experiments/sweep/peer.h"
+#include "io/cases/case_keys.h"
 
 namespace delquad {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cases/toml_keys.h"
+#include "io/cases/toml_keys.h"
 
 namespace delquad {
 

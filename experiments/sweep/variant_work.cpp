@@ -11,17 +11,15 @@
 
 #include "base/activity.h"
 #include "base/stopwatch.h"
-#include "cases/case_pictures.h"
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
+#include "experiments/sweep/case_pictures.h"
 #include "experiments/sweep/cell_folder.h"
 #include "experiments/sweep/measure_by_commands.h"
 #include "io/digest.h"
 #include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "mesher/refine_unsound.h"
 #include "metrics/solve/solver_metrics.h"
 
 namespace delquad {
@@ -59,13 +57,13 @@ bool is_done(const Cell& cell) {
 
 void VariantWork::prepare() {
   const DoingStage preparing("fields");
-  prepared = prepare_case(c);
+  prepared = delquad::prepare(c);
   for (const std::string& line : lines_of(prepared->warnings)) say("warning: " + line);
-  state = begin_meshing(*prepared);
+  meshing.emplace(prepared);
   if (!pictures) return;
   try {
     prepare_folder(folder / c.folder);
-    draw_case(*prepared, c.folder, folder / c.folder);
+    draw_case(prepared, c.folder, folder / c.folder);
   } catch (const InputError& error) {
     say(fmt::format("error: {}: no pictures of its fields: {}", c.folder, error.what()));
   }
@@ -76,14 +74,12 @@ void VariantWork::finish(const Cell& cell) {
   const std::string label = c.folder + " " + cell.word->text;
   const fs::path scratch = scratch_of(cell.folder);
   const std::string name = c.name + " " + cell.word->text;
-  RunResult result = cell.identity.peer != nullptr
-                         ? run_peer(*cell.identity.peer, c, *prepared, name, scratch, cell.reference)
-                         : finish_meshing(*prepared, name, std::move(state));
-  if (cell.identity.peer == nullptr)
-    refine_unsound([&](const Refinement& r) { return prepare_case(c, r); }, *cell.word, *prepared, result);
+  MeshResult result = cell.identity.peer != nullptr
+                          ? run_peer(*cell.identity.peer, c, prepared, name, scratch, cell.reference)
+                          : meshing->finish();
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
-  for (const std::string& line : lines_of(result.warnings)) say("warning: " + line);
+  for (const std::string& line : lines_of(result.warnings_on_mesh())) say("warning: " + line);
   // What others make is shown as it is.
   if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
   if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
@@ -102,17 +98,16 @@ void VariantWork::finish(const Cell& cell) {
     result.log.add_time("write", writing.time());
     CellIdentity identity = cell.identity;
     identity.files = marks_of(at);
-    write_file_atomically(at / "record.json", [&](std::ostream& out) {
-      out << run_record(c, *prepared, *cell.word, result, &identity);
-    });
+    write_file_atomically(at / "record.json",
+                          [&](std::ostream& out) { out << run_record(c, *cell.word, result, &identity); });
   });
   remove_scratch(cell);
   progress->done();
 }
 
 void VariantWork::draw(const fs::path& folder_of_cell, const std::string& label,
-                       const RunResult& result) const {
-  (prepared->plane.background ? draw_mesh : draw_surface)(folder_of_cell / "picture.svg", result.mesh, label);
+                       const MeshResult& result) const {
+  (prepared.is_surface() ? draw_surface : draw_mesh)(folder_of_cell / "picture.svg", result.mesh, label);
   if (result.log.summaries.has("smoothing"))
     draw_convergence(folder_of_cell / "convergence.svg", result.log.summaries, label + ": smoothing");
 }

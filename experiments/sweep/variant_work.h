@@ -5,12 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/sweep_progress.h"
-#include "mesher/runner.h"
 
 namespace delquad {
 
@@ -35,8 +33,8 @@ struct VariantWork {
   SweepProgress* progress;
   bool allow_unsound;
   bool pictures;
-  std::optional<PreparedProblem> prepared;
-  MeshingState state;
+  Prepared prepared;
+  std::optional<Meshing> meshing;  ///< of a word
 
   /// Before the first stage.
   void prepare();
@@ -50,7 +48,7 @@ struct VariantWork {
 
  private:
   void draw(const std::filesystem::path& folder_of_cell, const std::string& label,
-            const RunResult& result) const;
+            const MeshResult& result) const;
 };
 
 }  // namespace delquad

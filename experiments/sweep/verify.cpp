@@ -10,12 +10,10 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "cases/problem.h"
 #include "delquad/error.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/recorded_case.h"
 #include "experiments/sweep/scratch_folder.h"
-#include "features/layers/planar_layers.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/digest.h"
 #include "io/mesh_io.h"
@@ -83,13 +81,9 @@ bool is_close(double a, double b) {
 }
 
 /// Measures of the mesh that are not those of the record.
-Lines check_measures(const VerifiedCell& cell, const PreparedProblem* prepared) {
+Lines check_measures(const VerifiedCell& cell, const Prepared* prepared) {
   const Mesh mesh = read_mesh(cell.file.parent_path() / "mesh.msh");
-  const MeshMetrics now = prepared != nullptr
-                              ? evaluate_metrics(mesh, prepared->size.field.get(), prepared->size.asked.get(),
-                                                 prepared->settings.options, sorted_half_edges(mesh),
-                                                 quads_in_layers(*prepared, mesh))
-                              : evaluate_metrics(mesh, nullptr);
+  const MeshMetrics now = prepared != nullptr ? prepared->metrics(mesh) : evaluate_metrics(mesh, nullptr);
   Lines wrong;
   for (const auto& [key, value] : cell.record.at("metrics").items()) {
     const auto at = now.values.find(key);
@@ -116,10 +110,10 @@ std::map<std::string, Variant> by_variant(const std::vector<VerifiedCell>& cells
 }
 
 /// Nothing where the model is not at hand.
-std::optional<PreparedProblem> prepare_variant(const VerifiedCell& cell, const fs::path& data) {
+std::optional<Prepared> prepare_variant(const VerifiedCell& cell, const fs::path& data) {
   try {
     const Experiment experiment = recorded_experiment(cell.record, results_of(cell.file), data);
-    return prepare_case(recorded_case(cell.record, experiment, data));
+    return prepare(recorded_case(cell.record, experiment, data));
   } catch (const InputError&) {
     return std::nullopt;
   }

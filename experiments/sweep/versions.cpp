@@ -31,7 +31,7 @@ std::string ask_kernel_version() {
 
 std::vector<std::pair<std::string, std::string>> versions() {
   static const std::string kernel = ask_kernel_version();
-  return {{"delquad", kVersion},          {"commit", kCommit},      {"build", kBuildType},
+  return {{"delquad", version()},         {"commit", kCommit},      {"build", kBuildType},
           {"compiler", kCompiler},        {"cgal", kCgalVersion},   {"eigen", kEigenVersion},
           {"lemon", kLemonVersion},       {"fmt", kFmtVersion},     {"nlohmann_json", kJsonVersion},
           {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}, {"opencascade", kernel}};

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "delquad/mesh.h"
+#include "delquad/metrics.h"
 
 namespace delquad {
 
@@ -16,11 +17,6 @@ struct JacobianBounds {
   bool positive() const { return proven > 0; }
 };
 
-/// What is proven of the elements of a mesh; 1, 1 and 0 of none.
-struct ProvenJacobians {
-  double least = 1, mean = 1;
-  int unproven = 0;  ///< elements that are not proven to be positive
-};
 ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds);
 
 /// Bounds by Bernstein coefficients of numerator and squared denominators, halved until they are close to

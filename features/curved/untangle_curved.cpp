@@ -359,6 +359,8 @@ std::vector<JacobianBounds> jacobian_bounds(const Mesh& mesh) {
   return bounds;
 }
 
+ProvenJacobians proven_jacobians(const Mesh& mesh) { return proven_jacobians(jacobian_bounds(mesh)); }
+
 UntanglingSummary untangle_curved(Mesh& mesh, const ModelGeometry& geometry, const UntanglingLimits& limits,
                                   std::vector<JacobianBounds>& bounds) {
   return CurvedUntangler(mesh, geometry, limits, bounds).run();

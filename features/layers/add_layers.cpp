@@ -10,9 +10,9 @@
 
 #include "base/box.h"
 #include "delquad/error.h"
+#include "delquad/model.h"
 #include "features/layers/fit_layers.h"
 #include "features/layers/layer_builder.h"
-#include "features/layers/layer_heights.h"
 #include "features/layers/mirror_layers.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/planar/domain_builder.h"

@@ -1,4 +1,4 @@
-#include "features/layers/layer_heights.h"
+#include "delquad/model.h"
 
 #include <fmt/format.h>
 

@@ -14,7 +14,4 @@ std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
 /// All edges of the patches' boundaries as lines of one curve, with the points of the domain.
 Mesh edges_of_patches(const PlanarDomain& domain);
 
-/// The boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has none.
-Mesh outline(const Mesh& mesh);
-
 }  // namespace delquad

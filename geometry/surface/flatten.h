@@ -24,14 +24,6 @@ struct FlatPatch {
   std::string method;  ///< "plane", "boundary-first" or "spectral"
 };
 
-/// A curve that was added so that faces could be flattened.
-struct SurfaceCut {
-  int curve = -1;  ///< index into Mesh::curves
-  int face = -1;
-  double length = 0;
-  bool divides = false;  ///< made to divide a patch, else to open it
-};
-
 struct Flattening {
   std::vector<FlatPatch> patches;  ///< by face, then by first triangle; a face may have several
   std::vector<SurfaceCut> cuts;

@@ -13,6 +13,7 @@
 #include "delquad/matching.h"
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
+#include "delquad/model.h"
 #include "delquad/options.h"
 
 // What can be added from outside: strategies of insertion and stages of any kind here; see add_options() for
@@ -113,17 +114,6 @@ struct StageInput {
   long long max_points;  ///< the most that insertion may make
 };
 
-/// What the stages did: on one patch, or on all of them.
-struct StageLog {
-  StepTimes times = {};
-  Summaries summaries = {};
-  void add_time(const std::string& step, const TimeSpent& time);
-  /// Where only the clock was read, by one thread.
-  void add_seconds(const std::string& step, double s) { add_time(step, {.work = s}); }
-  /// Adds what was done on another patch.
-  void add(const StageLog& other);
-};
-
 struct AllPatches;
 
 /// One letter of a pipeline word: takes a patch from one form to another.
@@ -148,6 +138,24 @@ void add_stage(Stage stage);
 /// Frontal insertion of points where `make_placement` says.
 Stage insertion_stage(char letter, const std::string& name,
                       std::function<std::unique_ptr<PointPlacement>(const Options&)> make_placement);
+
+/// A pipeline: stages read from left to right, each starting from what the one before leaves.
+struct Word {
+  std::string text;  ///< "DB"
+  std::vector<const Stage*> stages;
+  PatchForm result = PatchForm::kBoundary;
+  /// Triangles that are left in its mesh are an error.
+  bool quads_only() const;
+};
+
+/// Where a word may begin.
+enum class WordStart { kBoundary, kGivenMesh };
+/// Where words of a model may begin.
+WordStart word_start(const Model& model);
+
+/// Throws InputError for an empty word, an unknown letter (naming it and those known) and for letters that do
+/// not follow each other. `start`: with a given mesh a word may begin with any letter.
+Word parse_word(const std::string& text, WordStart start = WordStart::kBoundary);
 
 /// The `delquad` program with what was added: what its arguments ask for. Returns its exit code; errors are
 /// printed.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -47,6 +49,14 @@ std::unique_ptr<SizeField> make_constant_size(double delta);
 
 /// delta as a function, which may be called from several threads. Messages call it by `name`.
 std::unique_ptr<SizeField> make_function_size(std::function<double(const Vec3&)> delta, std::string name);
+
+/// delta = a formula in x, y, z: + - * / ^ (power), comparisons, && || ?:, sin, sqrt, exp, abs, min, max,
+/// atan2 and the like, pi and e. Throws InputError with the position where it does not parse.
+std::unique_ptr<SizeField> make_expression_size(const std::string& formula);
+
+/// What an MSH or VTU file (also packed: .gz) has at the points of its mesh, as make_nodal_size(). `field`:
+/// empty for the only one. Throws InputError for what cannot be read.
+std::unique_ptr<SizeField> make_file_size(const std::filesystem::path& file, const std::string& field = {});
 
 /// A function of a batch of points: writes delta of each. It is called from the thread that calls mesh(), for
 /// thousands of points at a time, before anything is meshed; between its samples delta is interpolated, see
@@ -110,6 +120,9 @@ class CrossField {
 /// theta (radians) as a function, which may be called from several threads. Messages call it by `name`.
 std::unique_ptr<CrossField> make_function_cross(std::function<double(Vec2)> theta, std::string name);
 
+/// theta (radians) = a formula in x, y, z, as make_expression_size().
+std::unique_ptr<CrossField> make_expression_cross(const std::string& formula);
+
 /// theta (radians) of a batch of points of the plane, called as SizeFunction is.
 using CrossFunction = std::function<void(std::span<const Vec2> points, std::span<double> theta)>;
 
@@ -117,8 +130,18 @@ using CrossFunction = std::function<void(std::span<const Vec2> points, std::span
 /// them.
 std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<double> theta);
 
+/// A singularity of the directions of a problem.
+struct PlacedSingularity {
+  Vec3 at;
+  int index;  ///< in quarters of a turn
+};
+
 /// The wanted size of a problem. Of `field`, `function` and `from_boundary` one at most.
 struct SizeSpec {
+  /// As people write it: a number, a formula (see make_expression_size()), "boundary", or a file that counts
+  /// from `folder`, FILE or FILE:FIELD (see make_file_size()). It is read where none of the three is given.
+  std::string text = {};
+  std::filesystem::path folder = {};
   std::shared_ptr<const SizeField> field = nullptr;
   SizeFunction function = nullptr;
   /// The lengths of the lines that a LineModel gives, extended smoothly; so, too, where nothing is said.
@@ -148,7 +171,10 @@ enum class CrossKind {
 
 /// The wanted directions of a problem.
 struct CrossSpec {
-  CrossKind kind = CrossKind::kBoundary;
+  /// As people write it: "boundary", "size-aware", "gradient" or an angle, see make_expression_cross(). It is
+  /// read where no kind is given.
+  std::string text = {};
+  std::optional<CrossKind> kind = {};  ///< absent, and no text: that of the quality, of a word kBoundary
   std::shared_ptr<const CrossField> field = nullptr;
   CrossFunction function = nullptr;
   std::string where = "cross";  ///< who asked for it, for messages

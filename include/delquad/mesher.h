@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,16 +18,24 @@
 #include "delquad/options.h"
 
 // The door: a problem and a word go in, a mesh and all that is known of it come out.
+//
+//   mesh(problem, word)  =  mesh(prepare(problem), word)  =  Meshing, stage by stage, and its finish()
 
 namespace delquad {
+
+/// Of this library: "0.1.0".
+const char* version();
 
 /// A trade of time against quality: "fast", "good" or "best".
 struct Quality {
   std::string name, word;
   CrossKind cross;
 };
-/// From fast to best; docs/experiments.md has what each is worth. Throws InputError, naming those known.
+/// Throws InputError, naming those known.
 const Quality& quality_named(const std::string& name);
+/// Null: there is none of that name.
+const Quality* find_quality(const std::string& name);
+/// From fast to best; docs/experiments.md has what each is worth.
 const std::vector<Quality>& quality_registry();
 inline constexpr const char* kDefaultQuality = "good";
 
@@ -57,6 +66,15 @@ struct ProgressReport {
   double part = 0;    ///< steps that are done, of all steps; 0 to 1
 };
 
+/// What a model file (.toml, see docs/experiments.md) asks for, or a file of lines, triangles or CAD; all
+/// files that it names are read. Throws InputError with file and line.
+MeshProblem read_model_file(const std::filesystem::path& file);
+
+/// Reads and measures the model of a problem. A planar model is measured between points on its curves, at
+/// most a 2000th of its diagonal apart; a mesh of lines as it is. `size`: above 0, a warning tells where that
+/// is larger than the model. Throws InputError for models that cannot be read.
+ModelInfo model_info(MeshProblem problem, double size = 0);
+
 /// How a mesh is made, as opposed to what: nothing of it changes the result.
 struct Context {
   int threads = 0;  ///< 0: as many as there are cores
@@ -74,20 +92,103 @@ struct FaceFailure {
   std::string reason;  ///< names the face
 };
 
+/// The size that is meshed by.
+struct PreparedSize {
+  std::shared_ptr<const SizeField> field;
+  std::shared_ptr<const SizeField> asked;  ///< as it was asked for, where `field` is less; else null
+  std::vector<std::string> adapted_to;     ///< what made it less: "short curves", ...
+  double expected_quads = 0;               ///< integral of dA/delta^2
+};
+
+/// What is known of the cross field.
+struct PreparedCrosses {
+  std::vector<PlacedSingularity> singularities;  ///< of a boundary-aligned or size-aware field
+  /// Sum of the indices of such a field, and what the domain's Euler characteristic makes of
+  /// it, in quarters.
+  std::optional<std::pair<int, int>> index_sum_and_expected;
+  /// Rows of quads that have to end, expected of the boundary-aligned field and of the size-aware one instead
+  /// of it.
+  std::optional<std::pair<double, double>> dislocations;
+};
+
+/// What is known of a problem once its curves are meshed and its fields are made.
+struct Preparation {
+  Mesh boundary;  ///< nodes on curves, lines, curves and regions; of elements the layers
+  PreparedSize size;
+  PreparedCrosses crosses;
+  std::vector<SymmetryPlane> symmetry;  ///< planes that were given or found
+  std::vector<FaceFailure> failures;    ///< by face; empty unless problem.keep_going
+  std::vector<Warning> warnings;
+  StepTimes times;  ///< "read", "maps", "curves", "fields", in order of first use
+};
+
+struct PreparedProblem;
+struct Stage;
+struct MeshResult;
+
+/// A problem that is ready for the stages. A value: copies share what was made.
+class Prepared {
+ public:
+  /// Of nothing yet.
+  Prepared() = default;
+  /// For the library itself.
+  Prepared(std::shared_ptr<const MeshProblem> problem, std::shared_ptr<const PreparedProblem> made)
+      : problem_(std::move(problem)), made_(std::move(made)) {}
+
+  const Preparation* operator->() const;
+  const Preparation& operator*() const { return *operator->(); }
+  const MeshProblem& problem() const { return *problem_; }  ///< with all files read
+  bool is_surface() const;
+
+  std::size_t n_patches() const;
+  const PatchBoundary& patch(std::size_t i) const;  ///< in its parameter plane
+  /// The triangulation that stands behind a surface. Not of planar domains, as the next two.
+  const Mesh& fine() const;
+  const std::vector<SurfaceCut>& cuts() const;
+  std::vector<SharpCorner> sharp_corners()
+      const;  ///< those that forbid a quad an eta of kBadEta; of all models
+  MapReport maps() const;
+  /// The triangles that carry the fields of a planar domain; null on surfaces.
+  const TriPatch* background() const;
+  /// The cross of a planar domain at a place; nothing outside. `hint`: as in SizeField::at.
+  std::optional<Cross> cross_at(Vec2 u, int& hint) const;
+  /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean.
+  /// Takes about as long as D unless the fields are size-aware.
+  double row_ends() const;
+
+  /// Measures of a mesh that was made of it.
+  MeshMetrics metrics(const Mesh& made) const;
+  /// A mesh of the same model by others: its measures, bad quads, and whether its elements are sound.
+  MeshResult measure(Mesh of_others) const;
+
+  const PreparedProblem& inside() const { return *made_; }  ///< for the library itself
+
+ private:
+  std::shared_ptr<const MeshProblem> problem_;
+  std::shared_ptr<const PreparedProblem> made_;
+};
+
 /// A mesh, and what is known of it.
 struct MeshResult {
   Mesh mesh;
   MeshMetrics metrics;
   Soundness soundness;
-  Summaries summaries;                   ///< what the stages did, added up over patches
-  std::vector<Warning> warnings;         ///< on the model, the sizes and the mesh
+  /// What the steps did, added up over patches, and how long each took, preparation included: TimeSpent::work
+  /// can be compared whatever the number of threads.
+  StageLog log;
+  std::vector<Warning> warnings;  ///< those of the preparation, then those on the mesh
+  /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
+  int bad_in_corners = 0, bad_elsewhere = 0;
   std::vector<FaceFailure> failures;     ///< by face; empty unless problem.keep_going
   std::optional<SurfaceReport> surface;  ///< of surfaces
-  /// Seconds by step, in order of first use: those of all threads added up, so that they can be compared
-  /// whatever the number of threads.
-  std::vector<std::pair<std::string, double>> seconds;
-  double wall_seconds = 0;    ///< of the stages of the word, on the clock
-  double expected_quads = 0;  ///< integral of dA/delta^2
+  double seconds = 0;                    ///< of the stages of the word, on the clock
+  long long lifting_cost = 0;            ///< of the library's own budget
+  long long peak_memory = 0;             ///< bytes, the most that the process has held so far
+  Prepared prepared;  ///< what it was made of: with smaller sizes where it would not have been sound
+
+  std::vector<Warning> warnings_on_mesh() const {
+    return {warnings.begin() + static_cast<std::ptrdiff_t>(prepared->warnings.size()), warnings.end()};
+  }
 };
 
 /// A mesh is not sound, or beyond the limits of its elements: see Soundness. The message has the reasons.
@@ -98,12 +199,45 @@ class UnsoundError : public std::runtime_error {
   std::shared_ptr<const MeshResult> result;  ///< with the mesh; null where it was not made by mesh()
 };
 
-/// Meshes a problem by a word of stages, such as "DB" or "DBCO" (see stage_registry()); of a GivenMesh also
-/// by words that begin from its elements, such as "CO". The same problem and word give the same mesh, to the
-/// last bit, whatever the context. May be called in several threads at once.
-///
-/// Throws InputError for models, sizes, options and words that cannot be used, naming file, entity or place;
-/// UnsoundError; Cancelled and TimeIsUp, which say at what it was.
-MeshResult mesh(const MeshProblem& problem, const std::string& word = "DBCO", const Context& context = {});
+/// Boundary and fields of a problem: what every word starts from. Throws InputError for models, sizes and
+/// options that cannot be used, naming file, entity or place; Cancelled and TimeIsUp, which say at what it
+/// was.
+Prepared prepare(MeshProblem problem, const Context& context = {});
+
+/// A word on its way. What several words begin with is made once where copies of the process go on from
+/// there.
+class Meshing {
+ public:
+  explicit Meshing(Prepared prepared);
+  Meshing(Meshing&&) noexcept;
+  Meshing& operator=(Meshing&&) noexcept;
+  ~Meshing();
+
+  /// Takes every patch through one more stage. Throws InputError when the mesher had to stop.
+  void run(const Stage& stage);
+  /// The mesh as the stages have left it.
+  Mesh mesh() const;
+  /// Puts the patches together, mends, measures and judges the mesh. Where it is not sound, meshes anew with
+  /// smaller sizes there. Does not throw for a mesh that is not sound. To be called once, last.
+  MeshResult finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Meshes by a word of stages, such as "DB" or "DBCO" (see stage_registry()); of a GivenMesh also by words
+/// that begin from its elements, such as "CO". Throws as prepare(), for words that cannot be used, and
+/// UnsoundError unless the problem allows that.
+MeshResult mesh(const Prepared& prepared, const std::string& word, const Context& context = {});
+
+/// Both in one. `word`: of stages, or the name of a quality, which stands for a word and for the directions
+/// where the problem does not say them; a GivenMesh it improves, by CO or, without quads, BCO. The same
+/// problem and word give the same mesh, to the last bit, whatever the context. May be called in several
+/// threads at once.
+MeshResult mesh(MeshProblem problem, const std::string& word = kDefaultQuality, const Context& context = {});
+
+/// Throws UnsoundError when the mesh is not accepted; `label` begins the message.
+void require_sound(const std::string& label, const MeshResult& result);
 
 }  // namespace delquad

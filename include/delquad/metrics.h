@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "delquad/error.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 #include "delquad/options.h"
@@ -82,6 +83,9 @@ struct MeshMetrics {
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given = nullptr,
                              const Options& options = {});
 
+/// A quad below this eta, with an angle below 10 or above 170 degrees, is bad.
+inline constexpr double kBadEta = 1.0 / 9;
+
 /// eta of one quad in space, equation (4): 1 for a square, 0 with an angle <= 0 or >= 180 degrees. `normal`
 /// is the side from which the quad must run counterclockwise; a reflex or inverted corner gives 0.
 double quad_eta(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal);
@@ -89,6 +93,14 @@ double quad_eta(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, cons
 std::vector<double> quad_etas(const Mesh& mesh);
 /// eta of a quad of the plane.
 double quad_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+
+/// What is proven of the scaled Jacobians of curved quads; 1, 1 and 0 of none.
+struct ProvenJacobians {
+  double least = 1, mean = 1;
+  int unproven = 0;  ///< elements that are not proven to be positive
+};
+/// Of those of a mesh whose order is above 1.
+ProvenJacobians proven_jacobians(const Mesh& mesh);
 
 /// A place on a model or a mesh.
 struct Place {
@@ -138,6 +150,98 @@ struct QuadShare {
   int quads = 0, vertices = 0;
   double eta = 0;  ///< mean
   double d4 = 0;   ///< percent of the vertices that have four quads
+};
+
+/// A curve as it lies between faces.
+struct CurveReport {
+  double length = 0;
+  bool closed = false;
+  std::vector<int> faces;  ///< that it bounds, ascending indices; one that lies on both sides stands twice
+};
+
+/// Where two curves of a face's boundary meet at a corner.
+struct CornerReport {
+  int face = -1;
+  std::array<int, 2> curves{};  ///< that run into the corner and out of it, the face on their left
+  Vec3 at;
+  double angle = 0;  ///< inside the face, degrees
+};
+
+struct FaceReport {
+  double area = 0;
+  int pieces = 0;  ///< that lines divide it into
+  int loops = 0;   ///< of its boundary
+  int handles = 0;
+  std::vector<int> curves;  ///< ascending
+  /// How narrow the face is: the least distance between boundary sides that look at each other, or four times
+  /// its area by its perimeter (a circle's diameter) where that is less, least of all pieces. Curves that
+  /// meet at less than 60 degrees count as a corner, not as a narrow place. Infinite without boundary.
+  double width = 0;
+};
+
+/// Faces that hang together along curves.
+struct ShellReport {
+  std::vector<int> faces;  ///< ascending
+  double area = 0;
+  int euler_characteristic = 0;  ///< vertices - edges + triangles
+  bool closed = false;           ///< no side has less than two triangles
+};
+
+/// What a model consists of, measured on its fine triangulation. Indices are those of its curves and regions.
+struct ModelReport {
+  Vec3 low, high;
+  double diagonal = 0, area = 0;
+  double free_length = 0;  ///< of the curves that bound one face only, once
+  int vertices = 0;        ///< corners
+  std::vector<CurveReport> curves;
+  std::vector<FaceReport> faces;
+  std::vector<ShellReport> shells;    ///< by their first face
+  std::vector<CornerReport> corners;  ///< by face, in the order of its loops
+};
+
+/// A model as it is read.
+struct ModelInfo {
+  std::string source;
+  Mesh fine;  ///< a triangulation of all of it
+  std::vector<Warning> warnings;
+  ModelReport report;
+};
+
+/// How far a flat chart is from a conformal one and from an isometry, weighted by area on the surface.
+struct FlatQuality {
+  double sigma_mean = 1, sigma_95 = 1, sigma_max = 1;  ///< ratio of singular values of triangles, >= 1
+  double area_ratio = 1;                               ///< 99th over 1st percentile of the area scale
+  double extreme_ratio = 1;  ///< the same of the 99.9th and .1th: small tips count, too
+};
+
+/// How far the maps of all patches of a surface are from conformal ones.
+struct MapReport {
+  struct Patch {
+    int face;  ///< index into Mesh::regions, as below
+    std::string method;
+    FlatQuality quality;
+  };
+  std::vector<Patch> patches;
+  double sigma_mean = 1;                               ///< by area over all patches
+  double sigma_95 = 1, sigma_max = 1, area_ratio = 1;  ///< the worst patch's
+  int worst_face = -1;                                 ///< that of the patch with the worst sigma_95
+};
+
+/// A curve along which a face of a surface was cut, so that it can be laid flat.
+struct SurfaceCut {
+  int curve = -1;  ///< index into Mesh::curves
+  int face = -1;
+  double length = 0;
+  bool divides = false;  ///< made to divide a patch, else to open it
+};
+
+/// A corner of a face between two curves.
+struct SharpCorner {
+  int face;          ///< index into Mesh::regions
+  int node;          ///< of the boundary mesh
+  int curves[2];     ///< indices into Mesh::curves
+  double angle;      ///< between the mesh's edges; radians
+  double eta_bound;  ///< no quad in the corner has a larger eta
 };
 
 /// How a mesh fits the surface that it was made for.

@@ -43,6 +43,10 @@ std::shared_ptr<const Curve> make_circle(Vec2 centre, double radius);
 /// point(t) for t from t0 to t1, either direction. Safe to call from several threads.
 std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> point, double t0, double t1);
 
+/// (x(t), y(t)) for t from t0 to t1, either direction: formulas in t, as those of make_expression_size().
+std::shared_ptr<const Curve> make_expression_curve(const std::string& x, const std::string& y, double t0,
+                                                   double t1);
+
 struct ModelCurve {
   std::shared_ptr<const Curve> shape;
   std::string name;       ///< physical group of the boundary; may be empty
@@ -156,6 +160,10 @@ struct LayerSpec {
   std::string where = "layer";         ///< who asked for it, for messages
 };
 
+/// How far the layers of a column reach from their curve: the first, the second, ..., the whole. Throws
+/// InputError for numbers that make no layers.
+std::vector<double> layer_heights(const LayerSpec& layer);
+
 /// A planar domain bounded by lines, which are kept: each becomes an edge of the mesh.
 ///
 /// Regions get their names where that is plain: from the elements of the mesh just inside of a loop; else
@@ -202,7 +210,15 @@ struct ExampleModel {
   std::string name;
 };
 
-using Model = std::variant<PlanarModel, LineModel, TriangleModel, GivenMesh, CadModel, ExampleModel>;
+/// A mesh or CAD in a file of any format that the program reads, by its extension: a LineModel, TriangleModel
+/// or CadModel, which is read when it is meshed.
+struct ModelFile {
+  std::filesystem::path path;
+  bool given = false;  ///< a GivenMesh
+};
+
+using Model =
+    std::variant<PlanarModel, LineModel, TriangleModel, GivenMesh, CadModel, ExampleModel, ModelFile>;
 
 /// The examples' names and what they are.
 struct Example {

@@ -144,4 +144,15 @@ inline TimeSpent operator-(const TimeSpent& a, const TimeSpent& b) {
 /// By step, in order of first use.
 using StepTimes = std::vector<std::pair<std::string, TimeSpent>>;
 
+/// What the stages did: on one patch, or on all of them.
+struct StageLog {
+  StepTimes times = {};
+  Summaries summaries = {};
+  void add_time(const std::string& step, const TimeSpent& time);
+  /// Where only the clock was read, by one thread.
+  void add_seconds(const std::string& step, double s) { add_time(step, TimeSpent{s, 0, 0, 0}); }
+  /// Adds what was done on another patch.
+  void add(const StageLog& other);
+};
+
 }  // namespace delquad

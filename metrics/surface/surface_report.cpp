@@ -350,9 +350,9 @@ std::vector<char> irregular_curves(const Mesh& fine) {
 
 MapReport report_maps(std::span<const FlatPatch* const> maps) {
   MapReport report;
-  report.patches = static_cast<int>(maps.size());
   double area = 0, sum = 0;
   for (const FlatPatch* patch : maps) {
+    report.patches.push_back({patch->face, patch->method, patch->quality});
     double own = 0;
     for (const auto& [a, b, c] : patch->flat.triangles) {
       const auto& p = patch->flat.points;

@@ -20,14 +20,6 @@ Topology topology_of(const Mesh& mesh, std::span<const HalfEdge> sides);
 /// other.
 std::vector<char> irregular_curves(const Mesh& fine);
 
-/// How far the maps of all patches are from conformal ones, see FlatQuality.
-struct MapReport {
-  int patches = 0;
-  double sigma_mean = 1;                               ///< by area over all patches
-  double sigma_95 = 1, sigma_max = 1, area_ratio = 1;  ///< the worst patch's
-  int worst_face = -1;  ///< index of the face of the patch with the worst sigma_95
-};
-
 MapReport report_maps(std::span<const FlatPatch* const> maps);
 
 /// Compares a mesh with its model; the mesh has the model's curves and regions.

@@ -4,8 +4,8 @@
 #include <complex>
 #include <numbers>
 
-#include "cases/formulas.h"
 #include "delquad/error.h"
+#include "delquad/fields.h"
 #include "fields/fields.h"
 #include "tests/fields/backgrounds.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/formulas.h"
 #include "delquad/error.h"
+#include "delquad/fields.h"
 #include "fields/fields.h"
 #include "tests/fields/backgrounds.h"
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "cases/formulas.h"
 #include "delquad/error.h"
+#include "delquad/fields.h"
 #include "fields/fields.h"
 #include "tests/fields/backgrounds.h"
 #include "tests/support/expect_input_error.h"

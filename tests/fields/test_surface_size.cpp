@@ -1,4 +1,4 @@
-#include "cases/formulas.h"
+#include "delquad/fields.h"
 #include "fields/surface/surface_size.h"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cases/case_file.h"
-#include "cases/expression.h"
-#include "cases/problem.h"
+#include "io/cases/case_file.h"
+#include "io/cases/expression.h"
+#include "io/cases/read_problem.h"
 #include "mesher/prepare.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
@@ -20,8 +20,8 @@ bool try_model(std::string_view bytes) {
   return result_or_input_error(path.string(), [&] {
     Case c = read_model_case(path);
     c.max_elements = 200;
-    const MeshProblem problem = make_problem(c);
-    if (c.model) prepare(problem);
+    const MeshProblem problem = read_files(c);
+    if (planar_model(c) != nullptr) prepare_problem(problem);
   });
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cases/case_file.h"
-#include "cases/problem.h"
 #include "delquad/mesher.h"
+#include "io/cases/case_file.h"
+#include "io/cases/read_problem.h"
 #include "tests/fuzz/reader_seeds.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/temporary_folder.h"
@@ -91,8 +91,8 @@ TEST(Pipeline, TakesOrRefusesWhatIsInFiles) {
       const auto path = testing_support::write_text(folder / whole.name, mutated(whole.bytes, seed));
       try {
         Case c = read_model_case(path);
-        c.size.base = std::to_string(whole.size);
-        MeshProblem problem = make_problem(c);
+        c.size.text = std::to_string(whole.size);
+        MeshProblem problem = read_files(c);
         problem.max_elements = 2000;
         const MeshResult result = mesh(problem, "DB", {.threads = 1, .time_limit = kSeconds});
         ++meshed;

@@ -17,6 +17,10 @@ NOT_IN_LIBRARY = [
     r"std::(cerr|cout|clog)\b",
     r"\b(signal|sigaction|fork|setlocale|setenv)\(",
 ]
+# But for the room that reads what people write.
+READS_TEXTS = "io/cases"
+# What is above the library, and that room, goes through include/delquad: never into these.
+INSIDE = ("mesher/", "curves/", "patches/", "features/")
 # But for this: HDF5 crashes at the end of a process in which it could not write, so its writers get one of their own.
 FORKS = "io/library_file.cpp"
 # What is written once: its shape, the function to use, and the header of that.
@@ -83,6 +87,8 @@ def check_links(root, links):
 def check_library(root, links):
     order = list(links)
     for room in order[: order.index(LAST_OF_LIBRARY) + 1]:
+        if room == READS_TEXTS:
+            continue
         for path in sources(root, room, links):
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 code = line.split("//")[0]
@@ -99,6 +105,16 @@ def check_primitives(root, links):
                 for shape, name, header in PRIMITIVES:
                     if re.search(shape, line) and path.with_suffix(".h") != root / header:
                         yield f"{path.relative_to(root)}:{number}: expected {name} of {header}"
+
+
+def check_door(root, links):
+    order = list(links)
+    above = order[order.index(LAST_OF_LIBRARY) + 1 :]
+    for room in [READS_TEXTS, *above, "bindings", "examples"]:
+        for path in sources(root, room, links):
+            for header in re.findall(r'#include "([^"]+)"', path.read_text()):
+                if header.startswith(INSIDE):
+                    yield f"{path.relative_to(root)}: includes {header}: expected a header of include/delquad"
 
 
 def check_public(root):
@@ -132,7 +148,7 @@ def check_lengths(root, links):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     links = rooms(root)
-    checks = (check_links, check_library, check_primitives, check_lengths)
+    checks = (check_links, check_library, check_door, check_primitives, check_lengths)
     wrong = [*check_public(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)

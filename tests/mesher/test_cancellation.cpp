@@ -86,7 +86,7 @@ const Row kTable[] = {
     {"boxGood", "DBCO", box_problem},        {"lensBest", "DLBCO", lens_problem},
 };
 
-Mesh mesh_of(const Row& row) { return run_word(prepare(row.problem()), parse_word(row.word)).mesh; }
+Mesh mesh_of(const Row& row) { return run_word(prepare_problem(row.problem()), parse_word(row.word)).mesh; }
 
 bool same(const Mesh& a, const Mesh& b) {
   return a.points == b.points && a.quads == b.quads && a.triangles == b.triangles && a.lines == b.lines;
@@ -193,7 +193,7 @@ TEST(CancellationBySize, IsHeardBeforeTheSizeIsAskedOftenAgain) {
     problem.size.field = size;
     const RunScope scope({.threads = 1, .cancel = stop.get_token()});
     try {
-      run_word(prepare(problem), parse_word("DLBCO"));
+      run_word(prepare_problem(problem), parse_word("DLBCO"));
     } catch (const Cancelled&) {
     }
     return size->evaluations();
@@ -242,7 +242,7 @@ TEST(ManyMeshes, DoNotFillTheMemory) {
     problem.model = square();
     problem.size.field = make_constant_size(0.25);
     const RunScope run({.threads = 2});
-    return run_word(prepare(problem), parse_word("DLBCO")).mesh.quads.size();
+    return run_word(prepare_problem(problem), parse_word("DLBCO")).mesh.quads.size();
   };
   for (int i = 0; i < kFirst; ++i) ASSERT_GT(mesh_once(), 0u);
   malloc_trim(0);
@@ -270,7 +270,7 @@ TEST(ManyMeshes, ThatAreCancelledDoNotFillTheMemory) {
                           if (++checks == at) stop.request_stop();
                         }});
     try {
-      run_word(prepare(problem), parse_word("DLBCO"));
+      run_word(prepare_problem(problem), parse_word("DLBCO"));
     } catch (const Cancelled&) {
     }
   };

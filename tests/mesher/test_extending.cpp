@@ -26,7 +26,7 @@ MeshProblem disc() {
 }
 
 RunResult run(const MeshProblem& problem, const char* word) {
-  return run_word(prepare(problem), parse_word(word));
+  return run_word(prepare_problem(problem), parse_word(word));
 }
 
 std::string complaint(const MeshProblem& problem, const char* word) {

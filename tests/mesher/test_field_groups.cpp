@@ -19,7 +19,7 @@ PreparedProblem with_size_aware_crosses(const Mesh& model, double size) {
   problem.model = TriangleModel{model};
   problem.size.field = make_constant_size(size);
   problem.cross.kind = CrossKind::kSizeAware;
-  return prepare(problem);
+  return prepare_problem(problem);
 }
 
 void expect_indices(const PreparedProblem& prepared, int sum) {

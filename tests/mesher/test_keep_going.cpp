@@ -2,10 +2,10 @@
 
 #include <fstream>
 
-#include "cases/problem.h"
 #include "mesher/runner.h"
 #include "patches/prepared.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/prepare_case.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -24,8 +24,8 @@ class KeepGoing : public ::testing::Test {
     out.close();
     case_.name = "cube";
     case_.where = "cube.off";
-    case_.surface_file = folder_ / "cube.off";
-    case_.size.base = "0.25";
+    case_.model = ModelFile{folder_ / "cube.off"};
+    case_.size.text = "0.25";
     prepared_ = prepare_case(case_);
   }
   /// Makes the boundary of a patch cross itself.

@@ -41,7 +41,7 @@ TEST(RefineUnsound, MakesSizesSmallerWhereQuadsCannotBeSound) {
   problem.options.set("repair.refine_unsound", true);
   const MeshResult result = mesh(problem, "DB");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
-  EXPECT_GT(result.summaries.number("refine_unsound", "rounds"), 0);
+  EXPECT_GT(result.log.summaries.number("refine_unsound", "rounds"), 0);
   EXPECT_TRUE(says(result, "the size is smaller"));
 }
 
@@ -58,7 +58,7 @@ TEST(RefineUnsound, StaysAwayFromTheRest) {
 
 TEST(RefineUnsound, LeavesSoundMeshesAlone) {
   const MeshResult result = mesh(ridge(0.05), "DB");
-  EXPECT_FALSE(result.summaries.has("refine_unsound"));
+  EXPECT_FALSE(result.log.summaries.has("refine_unsound"));
 }
 
 TEST(RefineUnsound, KeepGoingLeavesOutWhatIsNotSound) {
@@ -106,7 +106,7 @@ TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
   const MeshResult after = mesh(problem, "DB");
   EXPECT_LE(after.soundness.places.size(), before.soundness.places.size());
   EXPECT_TRUE(after.soundness.sound() || says(after, "smaller sizes around places"));
-  EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.summaries.has("refine_unsound"));
+  EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.log.summaries.has("refine_unsound"));
 }
 
 }  // namespace

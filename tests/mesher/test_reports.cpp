@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "geometry/mesh/outline.h"
 #include "geometry/planar/boundary_report.h"
 #include "tests/support/expect_input_error.h"
 

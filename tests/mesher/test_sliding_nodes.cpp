@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "cases/case_file.h"
-#include "cases/problem.h"
+#include "io/cases/case_file.h"
 #include "io/mesh_io.h"
 #include "mesher/runner.h"
 #include "patches/prepared.h"
+#include "tests/support/prepare_case.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

@@ -1,5 +1,5 @@
-#include "cases/problem.h"
 #include "metrics/judgement/soundness.h"
+#include "tests/support/prepare_case.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "cases/case_file.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/surface/triangulated_model.h"
+#include "io/cases/case_file.h"
 #include "io/mesh_io.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/runner.h"
@@ -33,12 +33,12 @@ TEST(Margin, FlatCornersAreCured) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   Case c = read_model_case(file);
   const Mesh model = read_mesh(file);
-  c.size.base = std::to_string(diagonal(model) / 60);
+  c.size.text = std::to_string(diagonal(model) / 60);
   c.size.where = "test";
   c.cross.text = "size-aware";
+  c.allow_unsound = true;
   for (const char* text : {"DB", "DBCO", "DBCQO"}) {
-    PreparedProblem prepared = prepare_case(c);
-    const RunResult result = run_case(c, parse_word(text), prepared);
+    const MeshResult result = mesh(prepare(c), text);
     EXPECT_TRUE(result.soundness.sound()) << text << result.soundness.text();
     EXPECT_GT(result.metrics.values.at("scaled_jacobian_min"), 1e-4) << text;
   }

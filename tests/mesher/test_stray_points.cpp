@@ -48,9 +48,9 @@ TEST(StrayPoints, FewThatLieFarBeyondTheOthers) {
 TEST(StrayPoints, AreRefusedOrLeftOut) {
   for (const double far : {1e30, 1e300, -6e4}) {
     MeshProblem problem = spiked_problem(box_with_spike(far));
-    expect_input_error([&] { mesh(problem); }, {"case.stl: the point (0, ", "times as far out"});
+    expect_input_error([&] { mesh(problem, "DBCO"); }, {"case.stl: the point (0, ", "times as far out"});
     problem.keep_going = true;
-    const MeshResult result = mesh(problem);
+    const MeshResult result = mesh(problem, "DBCO");
     ASSERT_EQ(result.failures.size(), 1u);
     EXPECT_NE(result.failures[0].reason.find("case.stl: 1 element is missing: the point (0, "),
               std::string::npos)

@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "cases/problem.h"
 #include "mesher/runner.h"
 #include "patches/prepared.h"
+#include "tests/support/prepare_case.h"
 #include "tests/support/surfaces.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,8 +26,8 @@ TEST(ThinCone, AtLeastThreeQuadsStayAround) {
     for (const char* size : {"1/43", "1/60"}) {
       Case c;
       c.name = c.where = "cone.off";
-      c.surface_file = folder / "cone.off";
-      c.size.base = size;
+      c.model = ModelFile{folder / "cone.off"};
+      c.size.text = size;
       const PreparedProblem prepared = prepare_case(c);
       for (const char* word : {"DB", "DBC"}) {
         const RunResult result = run_word(prepared, parse_word(word));

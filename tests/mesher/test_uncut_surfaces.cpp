@@ -46,7 +46,7 @@ MeshResult mesh_scan(const Mesh& scan, double size, int threads = 1) {
 /// Fewer irregular vertices than before; no line is left of a cut, and all else is as it should be.
 void expect_fewer(const Mesh& scan, double size, const std::function<double(const Vec3&)>& off) {
   const MeshResult result = mesh_scan(scan, size);
-  const auto count = [&](const char* key) { return result.summaries.get<long long>("across_cuts", key); };
+  const auto count = [&](const char* key) { return result.log.summaries.get<long long>("across_cuts", key); };
   EXPECT_EQ(count("faces"), 1);
   EXPECT_EQ(count("taken"), 1);
   EXPECT_LT(count("irregular_after"), count("irregular_before"));
@@ -80,7 +80,7 @@ TEST(AcrossCuts, NothingHappensToAnOpenScanWithoutCuts) {
     return Vec3{x, y, x * x + y * y};
   });
   const MeshResult result = mesh_scan(bowl, 0.04);
-  EXPECT_FALSE(result.summaries.has("across_cuts"));
+  EXPECT_FALSE(result.log.summaries.has("across_cuts"));
   EXPECT_FALSE(result.mesh.lines.empty());
 }
 
@@ -91,8 +91,8 @@ TEST(AcrossCuts, NothingHappensToSymmetricSurfaces) {
   problem.size.field = make_constant_size(0.1);
   problem.symmetry.planes = {{{0, 0, 0}, {0, 0, 1}}};
   const MeshResult result = mesh(problem, "DBCQO");
-  EXPECT_EQ(result.summaries.get<long long>("across_cuts", "faces"), 0);
-  EXPECT_EQ(result.summaries.get<long long>("across_cuts", "taken"), 0);
+  EXPECT_EQ(result.log.summaries.get<long long>("across_cuts", "faces"), 0);
+  EXPECT_EQ(result.log.summaries.get<long long>("across_cuts", "taken"), 0);
   EXPECT_EQ(result.mesh.periodic.size(), 0u);
 }
 
@@ -104,7 +104,7 @@ TEST(AcrossCuts, LinesAndPointsInsideStay) {
   const std::vector<Vec3> rib{{1.4, 0, 0}, {1.4 * std::cos(0.5), 1.4 * std::sin(0.5), 0}};
   problem.surface.embed = {{rib, "rib", "test"}, {{point}, "sensor", "test"}};
   const MeshResult result = mesh(problem, "DBCQO", {.threads = 1});
-  EXPECT_EQ(result.summaries.get<long long>("across_cuts", "taken"), 1);
+  EXPECT_EQ(result.log.summaries.get<long long>("across_cuts", "taken"), 1);
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   const Mesh& mesh = result.mesh;
   std::map<int, int> uses;

@@ -158,7 +158,7 @@ TEST(MapReports, TheWorstFaceIsNamed) {
   bad.quality = {1.4, 1.5, 1.6, 1};
   const std::vector<const FlatPatch*> maps = {&good, &bad};
   const MapReport report = report_maps(maps);
-  EXPECT_EQ(report.patches, 2);
+  EXPECT_EQ(report.patches.size(), 2u);
   EXPECT_EQ(report.worst_face, 7);
   EXPECT_NEAR(report.sigma_mean, (2 * 1.1 + 1.4) / 3, 1e-15);
   EXPECT_EQ(report.sigma_95, 1.5);

@@ -18,6 +18,7 @@ from ._core import (
     Model,
     Result,
     TimeIsUp,
+    __version__,
     arc,
     circle,
     crack,

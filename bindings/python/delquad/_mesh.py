@@ -246,8 +246,8 @@ def mesh(
         _set_cross(problem, cross)
     _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit)
     _embed(problem, embed)
-    if word is None:
-        word = problem.quality(quality or "good")
+    if quality is not None:
+        _core.check_quality(quality)
     for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):
         if value is not None:
             problem.option(limit, float(value))
@@ -262,7 +262,7 @@ def mesh(
     problem.keep_going(keep_going)
     if progress:
         problem.progress(_bar if progress is True else progress)
-    result = problem.mesh(word, threads, time_limit)
+    result = problem.mesh(quality or "good" if word is None else word, threads, time_limit)
     if progress is True:
         _bar("done", 1)
     if result._complaint() and not allow_unsound:
@@ -285,6 +285,4 @@ def improve(given, size=None, *, word=None, **settings):
         given = _core.read_mesh(os.fspath(given))
     elif not isinstance(given, _core.Mesh):
         raise TypeError(f"given: expected a delquad.Mesh or the path of a file, got {type(given).__name__}")
-    if word is None:
-        word = "CO" if len(given.quads) else "BCO"
     return mesh(_core.given_mesh(given), size, word=word, **settings)

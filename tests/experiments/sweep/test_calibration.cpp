@@ -79,7 +79,7 @@ TEST(Calibration, CountsATriangleAsHalfAQuad) {
   EXPECT_EQ(count_of_quads(mesh), 5.5);
 }
 
-PreparedProblem square() {
+Prepared square() {
   MeshProblem problem;
   problem.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
   problem.size.field = make_constant_size(0.25);
@@ -89,7 +89,7 @@ PreparedProblem square() {
 /// A record counts when it is of the same cell; else the word is run.
 TEST(ReferenceQuads, AreThoseOfAValidRecord) {
   const testing_support::TemporaryFolder folder;
-  const PreparedProblem prepared = square();
+  const Prepared prepared = square();
   const auto quads = [&](const std::string& record) {
     testing_support::write_text(folder / "record.json", record);
     return reference_quads(prepared, "DB", {folder.path(), "abc"});

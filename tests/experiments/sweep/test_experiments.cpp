@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "cases/case_file.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/run_experiment.h"
+#include "io/cases/case_file.h"
 #include "metrics/metrics.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -122,7 +122,7 @@ TEST(Experiments, DataExcludesOtherModels) {
         testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys), "there");
   };
   const Experiment e = experiment("data = \"cad/part.step\"\n");
-  EXPECT_EQ(e.read_variant(0).surface_file, std::filesystem::path("there") / "cad/part.step");
+  EXPECT_EQ(model_path(e.read_variant(0)), std::filesystem::path("there") / "cad/part.step");
   EXPECT_TRUE(e.read_variant(0).may_be_absent);
   testing_support::write_text(folder / "part.step", "");
   EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "cases/problem.h"
 #include "experiments/sweep/experiment.h"
 #include "patches/prepared.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/prepare_case.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -25,10 +25,10 @@ TEST_F(Matrix, EveryCombinationIsAVariant) {
   EXPECT_EQ(e.n_cells(), 24u);
   const Case first = e.read_variant(0, 0), last = e.read_variant(0, 5);
   EXPECT_EQ(first.options.number("insertion.h_max"), 1.3);
-  EXPECT_EQ(first.size.base, "0.1");
+  EXPECT_EQ(first.size.text, "0.1");
   EXPECT_EQ(first.folder, "a@h_max=1.3,size=0.1");
   EXPECT_EQ(last.options.number("insertion.h_max"), 1.5);
-  EXPECT_EQ(last.size.base, "0.1 + x");
+  EXPECT_EQ(last.size.text, "0.1 + x");
   EXPECT_EQ(last.folder, "a@h_max=1.5,size=0.1_+_x");
   EXPECT_EQ(last.name, "a");
   EXPECT_EQ(e.read_variant(0, 1).folder, "a@h_max=1.3,size=0.1_+_x");

@@ -5,10 +5,10 @@
 #include <set>
 #include <sstream>
 
-#include "cases/case_keys.h"
 #include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
+#include "io/cases/case_keys.h"
 #include "tests/support/run_program.h"
 
 namespace delquad {

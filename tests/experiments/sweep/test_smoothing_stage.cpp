@@ -3,8 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cases/case_file.h"
 #include "experiments/sweep/run_experiment.h"
+#include "io/cases/case_file.h"
 #include "smoothing/cvt/cvt_options.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"

@@ -134,13 +134,15 @@ TEST(StageCounters, DocumentationHasEveryOne) {
 }
 
 Json record_of(const MeshProblem& problem, const PreparedProblem& prepared, const char* word,
-               RunResult* result = nullptr) {
-  const RunResult made = run_word(prepared, parse_word(word));
+               MeshResult* result = nullptr) {
+  const Prepared shared(std::make_shared<const MeshProblem>(problem),
+                        std::make_shared<const PreparedProblem>(prepared));
+  MeshResult made = mesh(shared, word);
   Case c;
   c.name = problem.name;
   c.options = problem.options;
   if (result != nullptr) *result = made;
-  return Json::parse(run_record(c, prepared, parse_word(word), made));
+  return Json::parse(run_record(c, parse_word(word), made));
 }
 
 MeshProblem case_of(const char* name) {

@@ -49,21 +49,21 @@ TEST(CurvedElements, QuadsWithFlatCornersOnACircleGetRings) {
   for (const double size : {1.0, 1.4})
     for (const int order : {2, 3}) {
       const MeshResult result = mesh(curved_problem(coarse_disc(), order, size), "DBCO");
-      EXPECT_GT(result.summaries.get<long long>("flat_corners", "rings"), 0) << size << ", " << order;
+      EXPECT_GT(result.log.summaries.get<long long>("flat_corners", "rings"), 0) << size << ", " << order;
       EXPECT_GT(least_proven_of(result.mesh), 0.2) << size << ", " << order;
       EXPECT_TRUE(check_invariants(result.mesh).empty());
-      EXPECT_EQ(result.summaries.get<double>("curving", "least_elsewhere"), least_proven_of(result.mesh));
+      EXPECT_EQ(result.log.summaries.get<double>("curving", "least_elsewhere"), least_proven_of(result.mesh));
     }
 }
 
 TEST(CurvedElements, ACuspIsProvenAndToldApart) {
   for (const int order : {2, 3}) {
     const MeshResult result = mesh(curved_problem(cusp_of_arcs(), order, 0.1), "DBCO");
-    EXPECT_EQ(result.summaries.find("refine_unsound"), nullptr) << order;
+    EXPECT_EQ(result.log.summaries.find("refine_unsound"), nullptr) << order;
     EXPECT_GT(least_proven_of(result.mesh), 0) << order;
-    EXPECT_EQ(result.summaries.get<long long>("curving", "below"), 1) << order;
-    EXPECT_EQ(result.summaries.get<long long>("curving", "in_corners"), 1) << order;
-    EXPECT_GT(result.summaries.get<double>("curving", "least_elsewhere"), kLowJacobian) << order;
+    EXPECT_EQ(result.log.summaries.get<long long>("curving", "below"), 1) << order;
+    EXPECT_EQ(result.log.summaries.get<long long>("curving", "in_corners"), 1) << order;
+    EXPECT_GT(result.log.summaries.get<double>("curving", "least_elsewhere"), kLowJacobian) << order;
     const bool is_told = std::ranges::any_of(texts(result.warnings), [](const std::string& text) {
       return text.find("corners of the model that allow no more") != std::string::npos;
     });

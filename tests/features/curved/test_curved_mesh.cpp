@@ -63,7 +63,7 @@ TEST(CurvedMesh, ThinLayersOnCirclesStayPositive) {
   problem.layers.push_back({.on = {"inner"}, .first = 1e-4, .growth = 1.3, .thickness = 0.05});
   const MeshResult result = mesh(problem, "DBCO");
   EXPECT_EQ(result.mesh.order, 2);
-  EXPECT_EQ(result.summaries.get<long long>("curving", "unproven"), 0);
+  EXPECT_EQ(result.log.summaries.get<long long>("curving", "unproven"), 0);
   for (const JacobianBounds& bounds : jacobian_bounds(result.mesh)) EXPECT_GT(bounds.proven, 0.1);
 }
 

@@ -54,7 +54,8 @@ std::map<int, std::vector<double>> edges_by_tag(const Mesh& mesh) {
 }
 
 TEST(DividedCurves, OfSurfacesKeepTheirEdges) {
-  const MeshResult r = mesh(problem_of(tube_wall(), 0.2, {{"curve_1", 20, 1, 1}, {"curve_2", 44, 1, 1}}));
+  const MeshResult r =
+      mesh(problem_of(tube_wall(), 0.2, {{"curve_1", 20, 1, 1}, {"curve_2", 44, 1, 1}}), "DBCO");
   const auto lengths = edges_by_tag(r.mesh);
   ASSERT_EQ(lengths.at(1).size(), 20u);
   ASSERT_EQ(lengths.at(2).size(), 44u);
@@ -71,7 +72,7 @@ TEST(DividedCurves, StayAsTheyAreInSpace) {
   box.quads = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   box.quad_region.assign(6, 0);
   box.regions.push_back({1, {}});
-  const MeshResult r = mesh(problem_of(TriangleModel{box}, 0.11, {{"curve_3", 12, 1.2, 1}}));
+  const MeshResult r = mesh(problem_of(TriangleModel{box}, 0.11, {{"curve_3", 12, 1.2, 1}}), "DBCO");
   const std::vector<double> lengths = edges_by_tag(r.mesh).at(3);
   ASSERT_EQ(lengths.size(), 12u);
   for (std::size_t k = 1; k < lengths.size(); ++k) EXPECT_NEAR(lengths[k] / lengths[k - 1], 1.2, 1e-6);
@@ -81,12 +82,13 @@ TEST(DividedCurves, StayAsTheyAreInSpace) {
 TEST(DividedCurves, ThatMakeAnOddBoundaryAreRefused) {
   expect_input_error(
       [] {
-        mesh(problem_of(tube_wall(), 0.2, {{"curve_1", 21, 1, 1, "d 1"}, {"curve_2", 44, 1, 1, "d 2"}}));
+        mesh(problem_of(tube_wall(), 0.2, {{"curve_1", 21, 1, 1, "d 1"}, {"curve_2", 44, 1, 1, "d 2"}}),
+             "DBCO");
       },
       {"face 1 with an odd number", "curve"});
   expect_input_error(
       [] {
-        mesh(problem_of(tube_wall(), 0.2, {{"rim", 20, 1, 1, "d 1"}}));
+        mesh(problem_of(tube_wall(), 0.2, {{"rim", 20, 1, 1, "d 1"}}), "DBCO");
       },
       {"d 1: no curve is called 'rim'"});
 }
@@ -99,7 +101,7 @@ TEST(DividedCurves, OfGivenLinesAreRefused) {
   square.mesh.curves = {{1, {"rim"}}};
   expect_input_error(
       [&] {
-        mesh(problem_of(square, 0.2, {{"rim", 8, 1, 1, "d 1"}}));
+        mesh(problem_of(square, 0.2, {{"rim", 8, 1, 1, "d 1"}}), "DBCO");
       },
       {"d 1: 'rim' cannot be divided"});
 }

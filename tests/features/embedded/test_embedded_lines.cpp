@@ -80,7 +80,7 @@ TEST(EmbeddedLines, RandomSetsOnASphereBecomeEdgesAndNodes) {
       if (k % 3 != 0) line.points.push_back(on_sphere(a, 0.5));
       problem.surface.embed.push_back(line);
     }
-    expect_embedded(problem, mesh(problem));
+    expect_embedded(problem, mesh(problem, "DBCO"));
   }
 }
 
@@ -104,16 +104,16 @@ TEST(EmbeddedLines, GetSizesByName) {
           longest = std::max(longest, norm(mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]));
     return longest;
   };
-  const Mesh plain = mesh(problem).mesh;
+  const Mesh plain = mesh(problem, "DBCO").mesh;
   EXPECT_GT(longest_at_rib(plain), 0.1);
   EXPECT_GT(longest_at_point(plain), 0.08);
   problem.size.named = {{.name = "rib", .size = 0.03}, {.name = "point", .size = 0.02}};
-  const MeshResult fine = mesh(problem);
+  const MeshResult fine = mesh(problem, "DBCO");
   EXPECT_TRUE(fine.soundness.sound());
   EXPECT_LT(longest_at_rib(fine.mesh), 1.4 * 0.03);
   EXPECT_LT(longest_at_point(fine.mesh), 2 * 0.02);
   problem.size.named[0].name = "rip";
-  expect_input_error([&] { mesh(problem); }, {"nothing is called 'rip'", "'rib'"});
+  expect_input_error([&] { mesh(problem, "DBCO"); }, {"nothing is called 'rip'", "'rib'"});
 }
 
 TEST(EmbeddedLines, NamedPointsAndLinesOfATriangulationStay) {
@@ -138,7 +138,7 @@ TEST(EmbeddedLines, NamedPointsAndLinesOfATriangulationStay) {
   const Vec3 from = plate.points[inside], to = plate.points[next], sensor = plate.points[other];
   problem.model = TriangleModel{plate};
   problem.size.field = make_constant_size(0.125);
-  const MeshResult result = mesh(problem);
+  const MeshResult result = mesh(problem, "DBCO");
   EXPECT_TRUE(result.soundness.sound());
   const std::vector<Vec3> ends = ends_of_way(result.mesh, "scratch");
   ASSERT_EQ(ends.size(), 2u);
@@ -162,7 +162,7 @@ TEST(EmbeddedLines, PlanarModelsRefuseThem) {
   problem.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
   problem.size.field = make_constant_size(0.5);
   problem.surface.embed = {{{{0.5, 0.5, 0}}, "p", "test"}};
-  expect_input_error([&] { mesh(problem); }, {"the model is planar", "embedded in space"});
+  expect_input_error([&] { mesh(problem, "DBCO"); }, {"the model is planar", "embedded in space"});
 }
 
 }  // namespace

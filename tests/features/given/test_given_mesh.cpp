@@ -107,7 +107,7 @@ TEST(GivenMeshes, AGridStaysWhatItIs) {
   const MeshResult result = improve_given(grid, "CO");
   expect_kept(grid, result);
   EXPECT_EQ(result.mesh.quads.size(), 100u);
-  EXPECT_NEAR(result.expected_quads, 100, 1);
+  EXPECT_NEAR(result.prepared->size.expected_quads, 100, 1);
   for (const Vec3& p : result.mesh.points) {
     EXPECT_NEAR(10 * p.x, std::round(10 * p.x), 1e-6);
     EXPECT_NEAR(10 * p.y, std::round(10 * p.y), 1e-6);
@@ -225,7 +225,8 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
   problem.size = {};
   const MeshResult alone = mesh(problem, "CO");
   EXPECT_NEAR(alone.metrics.values.at("d4"), whole.at("d4"), 2);
-  EXPECT_NEAR(alone.expected_quads, double(start.quads.size()), 0.05 * double(start.quads.size()));
+  EXPECT_NEAR(alone.prepared->size.expected_quads, double(start.quads.size()),
+              0.05 * double(start.quads.size()));
 }
 
 /// Stages from outside may do anything.

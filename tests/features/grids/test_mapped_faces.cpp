@@ -134,12 +134,12 @@ TEST(MappedFaces, ARingIsAGrid) {
       }
     }
   }
-  const MeshResult plain = mesh(mapped_problem(quarter_ring(), 0.1, {}));
+  const MeshResult plain = mesh(mapped_problem(quarter_ring(), 0.1, {}), "DBCO");
   EXPECT_GT(irregular_inside(plain.mesh, "ring"), 0);
 }
 
 TEST(MappedFaces, ChainsAgreeOnTheirEdges) {
-  const MeshResult r = mesh(mapped_problem(row_of_blocks(10), 0.13, {{"block"}}));
+  const MeshResult r = mesh(mapped_problem(row_of_blocks(10), 0.13, {{"block"}}), "DBCO");
   EXPECT_EQ(irregular_inside(r.mesh, "block"), 0);
   EXPECT_TRUE(r.mesh.triangles.empty());
   std::vector<int> edges(r.mesh.curves.size(), 0);
@@ -175,15 +175,15 @@ TEST(MappedFaces, NeighboursDoNotMakeAGridFiner) {
 }
 
 TEST(MappedFaces, AroundAHole) {
-  const MeshResult r = mesh(mapped_problem(plate_of_blocks(), 0.05, {{"block"}}));
+  const MeshResult r = mesh(mapped_problem(plate_of_blocks(), 0.05, {{"block"}}), "DBCO");
   EXPECT_EQ(r.metrics.values.at("d4"), 100);
   EXPECT_GT(r.metrics.values.at("eta_worst"), 0.4);
   MeshProblem divided = mapped_problem(plate_of_blocks(), 0.05, {{"block"}});
   divided.divisions = {{"hole", 9, 1, 1, "d 1"}, {"curve_3", 12, 1.2, 1, "d 2"}};
-  const MeshResult d = mesh(divided);
+  const MeshResult d = mesh(divided, "DBCO");
   EXPECT_EQ(d.mesh.quads.size(), 4u * 9 * 12);
   divided.divisions.push_back({"curve_2", 10, 1, 1, "d 3"});
-  expect_input_error([&] { mesh(divided); },
+  expect_input_error([&] { mesh(divided, "DBCO"); },
                      {"'block' with sides that do not match", "'hole' (9 edges)", "'side' (10 edges)"});
 }
 
@@ -211,7 +211,7 @@ std::map<int, int> valences_inside(const Mesh& mesh) {
 }
 
 TEST(MappedFaces, APlateWith16HolesAsBlocks) {
-  const MeshResult r = mesh(mapped_problem(plate_with_16_holes(), 0.06, {{"block"}}));
+  const MeshResult r = mesh(mapped_problem(plate_with_16_holes(), 0.06, {{"block"}}), "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
   EXPECT_TRUE(all_convex(r.mesh));
   EXPECT_EQ(irregular_inside(r.mesh, "block"), 0);
@@ -246,7 +246,8 @@ TEST(MappedFaces, ThreeSidesMeetInAMiddle) {
   }
   MeshProblem divided = mapped_problem(model, 0.1, {{"wedge", "sector"}});
   divided.divisions = {{"rim", 40, 1, 1, "d 1"}, {"down", 6, 1, 1, "d 2"}, {"axis", 6, 1, 1, "d 3"}};
-  expect_input_error([&] { mesh(divided); }, {"'sector'", "40", "6", "less than the two others together"});
+  expect_input_error([&] { mesh(divided, "DBCO"); },
+                     {"'sector'", "40", "6", "less than the two others together"});
 }
 
 TEST(MappedFaces, CornersAreTold) {
@@ -258,7 +259,7 @@ TEST(MappedFaces, CornersAreTold) {
   model.points = {{octagon[1], "p1", {}}, {octagon[3], "p3", {}}};
   MappedSpec spec;
   spec.corners = {{"nut", {{"p1"}, {"p3"}, {{}, {-0.7071, -0.7071, 0}}, {{}, {0.7071, -0.7071, 0}}}, "m 7"}};
-  const MeshResult r = mesh(mapped_problem(model, 0.1, spec));
+  const MeshResult r = mesh(mapped_problem(model, 0.1, spec), "DBCO");
   EXPECT_EQ(irregular_inside(r.mesh, "nut"), 0);
   EXPECT_TRUE(all_convex(r.mesh));
   // The corners have one quad each, all other nodes on the outline two.
@@ -275,7 +276,7 @@ TEST(MappedFaces, CornersAreTold) {
   const auto refused = [&](std::vector<GridCorner> corners, std::initializer_list<const char*> says) {
     MappedSpec wrong;
     wrong.corners = {{"nut", std::move(corners), "m 7"}};
-    expect_input_error([&] { mesh(mapped_problem(model, 0.1, wrong)); }, says);
+    expect_input_error([&] { mesh(mapped_problem(model, 0.1, wrong), "DBCO"); }, says);
   };
   refused({{"p1"}, {"p3"}, {"p5"}}, {"m 7: no point is called 'p5'; did you mean"});
   refused({{"p1"}, {"p3"}}, {"m 7: 'nut' is given 2 corner(s): expected 3 or 4"});
@@ -283,7 +284,7 @@ TEST(MappedFaces, CornersAreTold) {
   refused({{"p1"}, {"p3"}, {"p3"}}, {"is a corner of 'nut' twice"});
   MappedSpec unknown;
   unknown.corners = {{"not", {{"p1"}, {"p3"}, {"p1"}}, "m 8"}};
-  expect_input_error([&] { mesh(mapped_problem(model, 0.1, unknown)); },
+  expect_input_error([&] { mesh(mapped_problem(model, 0.1, unknown), "DBCO"); },
                      {"m 8: no region is called 'not'; did you mean 'nut'?"});
 }
 
@@ -304,7 +305,7 @@ TEST(MappedFaces, RingsCloseAround) {
 TEST(MappedFaces, WhatWouldFoldIsSmoothed) {
   PlanarModel model = polygons({{{0, 0}, {2, 0}, {2, 1}, {1.1, 1}, {1, 0.15}, {0.9, 1}, {0, 1}}});
   model.loops[0].region = "notch";
-  const MeshResult r = mesh(mapped_problem(model, 0.08, {{"notch"}}));
+  const MeshResult r = mesh(mapped_problem(model, 0.08, {{"notch"}}), "DBCO");
   EXPECT_TRUE(all_convex(r.mesh));
   EXPECT_EQ(irregular_inside(r.mesh, "notch"), 0);
 }
@@ -312,7 +313,7 @@ TEST(MappedFaces, WhatWouldFoldIsSmoothed) {
 TEST(MappedFaces, WhatCannotBeAGridIsRefused) {
   const auto refused = [](PlanarModel model, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
-    expect_input_error([&] { mesh(mapped_problem(std::move(model), 0.2, spec)); }, says);
+    expect_input_error([&] { mesh(mapped_problem(std::move(model), 0.2, spec), "DBCO"); }, says);
   };
   refused(quarter_ring(), {{"rong"}}, {"m 1: no region is called 'rong'; did you mean 'ring'?"});
   PlanarModel disk;
@@ -323,7 +324,7 @@ TEST(MappedFaces, WhatCannotBeAGridIsRefused) {
   holed.curves.push_back({make_circle({1, 1}, 0.2), "hole", {}});
   holed.loops.push_back({{4}, {}, {}});
   refused(holed, {{"ring"}}, {"'ring' cannot be a grid: something lies inside of it"});
-  EXPECT_GT(mesh(mapped_problem(holed, 0.2, {{}, true})).mesh.quads.size(), 0u);
+  EXPECT_GT(mesh(mapped_problem(holed, 0.2, {{}, true}), "DBCO").mesh.quads.size(), 0u);
   PlanarModel arrow = polygons({{{0, 0}, {1, 1}, {0, 0.2}, {-1, 1}}});
   arrow.loops[0].region = "arrow";
   refused(arrow, {{"arrow"}}, {"'arrow' cannot be a grid: it would fold at ("});

@@ -91,7 +91,7 @@ TEST(MappedSurfaces, APieceOfACylinderIsRegular) {
 TEST(MappedSurfaces, WhatCannotBeIsRefused) {
   const auto refused = [](Mesh surface, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
-    expect_input_error([&] { mesh(grids_on(std::move(surface), 0.2, spec)); }, says);
+    expect_input_error([&] { mesh(grids_on(std::move(surface), 0.2, spec), "DBCO"); }, says);
   };
   refused(testing_support::box(3), {{"region_9"}}, {"m 1: no region is called 'region_9'"});
   refused(testing_support::can(24, 3), {{"region_2"}}, {"m 1: 'region_2' cannot be a grid: its outline has"});
@@ -100,7 +100,7 @@ TEST(MappedSurfaces, WhatCannotBeIsRefused) {
                        {"curve_2", 5, 1, 1, "d 2"},
                        {"curve_3", 7, 1, 1, "d 3"},
                        {"curve_4", 8, 1, 1, "d 4"}};
-  expect_input_error([&] { mesh(divided); }, {"m 1", "sides that do not match", "'curve_"});
+  expect_input_error([&] { mesh(divided, "DBCO"); }, {"m 1", "sides that do not match", "'curve_"});
 }
 
 }  // namespace

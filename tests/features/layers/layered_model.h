@@ -12,7 +12,7 @@
 
 #include "base/predicates.h"
 #include "delquad/mesher.h"
-#include "features/layers/layer_heights.h"
+#include "delquad/model.h"
 
 namespace delquad {
 
@@ -58,7 +58,7 @@ inline LayerSpec layer_on(std::vector<std::string> on, double first, int number,
 inline Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 
 inline long long count_of(const MeshResult& result, const std::string& key) {
-  return result.summaries.get<long long>("layers", key);
+  return result.log.summaries.get<long long>("layers", key);
 }
 
 inline int lines_on(const Mesh& mesh, const std::vector<std::string>& names) {

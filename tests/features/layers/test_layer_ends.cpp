@@ -15,7 +15,9 @@ LayerSpec thick_layer(std::vector<std::string> on, double first, double thicknes
   return layer;
 }
 
-double least_scale(const MeshResult& result) { return result.summaries.get<double>("layers", "least_scale"); }
+double least_scale(const MeshResult& result) {
+  return result.log.summaries.get<double>("layers", "least_scale");
+}
 
 /// All layers, each as high as it was asked for, and no bad quads beside them.
 MeshResult expect_whole(const MeshProblem& problem) {

@@ -31,7 +31,7 @@ TEST(Layers, HoleInAPlate) {
     SCOPED_TRACE(word);
     const MeshResult result = mesh(problem, word);
     expect_layers(problem, result);
-    EXPECT_EQ(result.summaries.get<double>("layers", "least_scale"), 1.0);
+    EXPECT_EQ(result.log.summaries.get<double>("layers", "least_scale"), 1.0);
     for (const double h : first_heights(result.mesh, "hole")) EXPECT_NEAR(h, 1e-4, 2e-6);
   }
 }
@@ -43,7 +43,7 @@ TEST(Layers, CornersOfAnLHaveBisectorsAndAFan) {
   const MeshResult result = mesh(problem, "DBCO");
   expect_layers(problem, result);
   EXPECT_EQ(count_of(result, "fans"), 1);
-  EXPECT_EQ(result.summaries.get<double>("layers", "least_scale"), 1.0);
+  EXPECT_EQ(result.log.summaries.get<double>("layers", "least_scale"), 1.0);
 }
 
 TEST(Layers, EndsLieOnWalls) {
@@ -110,7 +110,7 @@ TEST(Layers, NarrowChannelsLowerThem) {
           .problem(0.05, {layer_on({"a"}, 1e-3, 17)});
   const MeshResult result = mesh(problem, "DBCO");
   expect_layers(problem, result);
-  const double least = result.summaries.get<double>("layers", "least_scale");
+  const double least = result.log.summaries.get<double>("layers", "least_scale");
   EXPECT_LT(least * layer_heights(problem.layers[0]).back(), width / 2);
   EXPECT_GT(least, 0.01);
   ASSERT_FALSE(result.warnings.empty());

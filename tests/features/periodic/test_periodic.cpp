@@ -74,7 +74,7 @@ TEST(Periodic, CellsWithHolesMatch) {
     for (const long long seed : {0, 7}) {
       MeshProblem problem = cell_problem(unit_cell(), size);
       problem.seed = seed;
-      const MeshResult r = mesh(problem);
+      const MeshResult r = mesh(problem, "DBCO");
       EXPECT_TRUE(r.mesh.triangles.empty());
       EXPECT_EQ(r.mesh.periodic.size(), 3u);
       expect_images(r.mesh, "left", "right");
@@ -86,7 +86,7 @@ TEST(Periodic, CellsWithHolesMatch) {
 TEST(Periodic, SizesOnTheFirstSideCount) {
   MeshProblem problem = cell_problem(unit_cell(), 0.1);
   problem.size.field = make_function_size([](const Vec3& x) { return 0.02 + 0.1 * x.x; }, "size");
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
   expect_images(r.mesh, "left", "right");
 }
@@ -104,7 +104,7 @@ TEST(Periodic, SectorsTurn) {
   problem.model = model;
   problem.size.field = make_constant_size(0.12);
   problem.periodic = {{"first", "last", {{}, third}, "p"}};
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
   expect_images(r.mesh, "first", "last");
 }
@@ -135,7 +135,7 @@ TEST(Periodic, SurfacesMatch) {
   problem.model = torus_sector(angle, 30);
   problem.size.field = make_constant_size(0.31);
   problem.periodic = {{"curve_1", "curve_2", {{}, angle}, "p"}};
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
   ASSERT_EQ(r.mesh.periodic.size(), 1u);
   std::set<int> images, masters;
@@ -152,13 +152,13 @@ TEST(Periodic, SurfacesMatch) {
   EXPECT_EQ(images.size(), masters.size());
   EXPECT_GT(images.size(), 10u);
   problem.periodic[0].motion.angle = 1.5;
-  expect_input_error([&] { mesh(problem); },
+  expect_input_error([&] { mesh(problem, "DBCO"); },
                      {"p: the sides do not match: the image of (", "away from the curves of 'curve_2'"});
 }
 
 TEST(Periodic, IsWritten) {
   const testing_support::TemporaryFolder folder;
-  const MeshResult r = mesh(cell_problem(unit_cell(), 0.1));
+  const MeshResult r = mesh(cell_problem(unit_cell(), 0.1), "DBCO");
   write_mesh(folder / "cell.msh", r.mesh);
   const std::string text = testing_support::read_text(folder / "cell.msh");
   EXPECT_NE(text.find("$Periodic\n3\n1 2 8\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n"), std::string::npos);
@@ -179,7 +179,7 @@ TEST(Periodic, SidesThatDoNotMatchAreRefused) {
   const auto refused = [](const PeriodicPair& pair, std::initializer_list<const char*> says) {
     MeshProblem problem = cell_problem(unit_cell(), 0.1);
     problem.periodic = {pair};
-    expect_input_error([&] { mesh(problem); }, says);
+    expect_input_error([&] { mesh(problem, "DBCO"); }, says);
   };
   refused({"left", "right", {{0.9, 0, 0}}, "p 1"},
           {"p 1: the sides do not match", "has no image in 'right'"});
@@ -187,9 +187,9 @@ TEST(Periodic, SidesThatDoNotMatchAreRefused) {
   refused({"pore", "hole", {{1, 0, 0}}, "p 1"}, {"p 1: the sides do not match"});
   MeshProblem divided = cell_problem(unit_cell(), 0.1);
   divided.divisions = {{"top", 8, 1, 1, "d 1"}};
-  expect_input_error([&] { mesh(divided); }, {"p 2: curve", "gets its nodes twice"});
+  expect_input_error([&] { mesh(divided, "DBCO"); }, {"p 2: curve", "gets its nodes twice"});
   divided.divisions = {{"bottom", 9, 1.1, 1, "d 1"}};
-  const MeshResult r = mesh(divided);
+  const MeshResult r = mesh(divided, "DBCO");
   EXPECT_EQ(nodes_on(r.mesh, "top").size(), 10u);
   expect_images(r.mesh, "bottom", "top");
 }

@@ -95,10 +95,10 @@ std::set<int> tags_of(const std::vector<Entity>& entities, const std::vector<int
 
 /// Sound, of quads, and with the topology, faces and curves that it has without planes.
 MeshResult expect_as_without(const MeshProblem& problem) {
-  const MeshResult with = mesh(problem);
+  const MeshResult with = mesh(problem, "DBCO");
   MeshProblem plain = problem;
   plain.symmetry = {};
-  const MeshResult without = mesh(plain);
+  const MeshResult without = mesh(plain, "DBCO");
   EXPECT_TRUE(with.soundness.sound()) << with.soundness.text();
   EXPECT_TRUE(with.mesh.triangles.empty());
   EXPECT_EQ(with.surface->mesh.euler_characteristic, without.surface->mesh.euler_characteristic);
@@ -133,7 +133,7 @@ TEST(SymmetricSurfaces, BoxesAreMirroredAtUpToThreePlanes) {
 }
 
 TEST(SymmetricSurfaces, CurvesThroughAPlaneStayOne) {
-  const MeshResult r = mesh(problem_of(block(5), 0.11, at({kMiddleX})));
+  const MeshResult r = mesh(problem_of(block(5), 0.11, at({kMiddleX})), "DBCO");
   std::map<int, int> through;  // lines of each curve at the plane
   for (std::size_t l = 0; l < r.mesh.lines.size(); ++l)
     for (const int v : r.mesh.lines[l]) through[r.mesh.line_curve[l]] += r.mesh.points[v].x == 0.5;
@@ -157,7 +157,7 @@ TEST(SymmetricSurfaces, ClosedSurfacesAreCutOpen) {
   const Mesh sphere = testing_support::round_sphere(9).fine;
   const SymmetryPlane x{{0, 0, 0}, {1, 0, 0}}, y{{0, 0, 0}, {0, 1, 0}}, z{{0, 0, 0}, {0, 0, 1}};
   for (const auto& planes : {std::vector{x}, std::vector{y, z}, std::vector{x, y, z}}) {
-    const MeshResult r = mesh(problem_of(sphere, 0.2, at(planes)));
+    const MeshResult r = mesh(problem_of(sphere, 0.2, at(planes)), "DBCO");
     EXPECT_TRUE(r.soundness.sound()) << r.soundness.text();
     EXPECT_EQ(r.surface->mesh.euler_characteristic, 2);
     EXPECT_TRUE(r.surface->mesh.watertight());
@@ -166,7 +166,7 @@ TEST(SymmetricSurfaces, ClosedSurfacesAreCutOpen) {
   }
   const Mesh torus = testing_support::torus(40, 18, 1, 0.4).fine;
   for (const auto& planes : {std::vector{x}, std::vector{z}, std::vector{x, y}, std::vector{x, z}}) {
-    const MeshResult r = mesh(problem_of(torus, 0.15, at(planes)));
+    const MeshResult r = mesh(problem_of(torus, 0.15, at(planes)), "DBCO");
     EXPECT_TRUE(r.soundness.sound()) << r.soundness.text();
     EXPECT_EQ(r.surface->mesh.euler_characteristic, 0);
     EXPECT_TRUE(r.surface->mesh.watertight());
@@ -182,7 +182,7 @@ TEST(SymmetricSurfaces, PlanesAreFound) {
   Mesh cube = testing_support::box(4);
   const double c = std::cos(0.4), s = std::sin(0.4);
   for (Vec3& x : cube.points) x = {c * x.x - s * x.y + 0.3, c * x.y + s * x.x, x.z};
-  const MeshResult turned = mesh(problem_of(cube, 0.17, {{}, true}));
+  const MeshResult turned = mesh(problem_of(cube, 0.17, {{}, true}), "DBCO");
   const Vec3 centre{c * 0.5 - s * 0.5 + 0.3, c * 0.5 + s * 0.5, 0.5};
   expect_mirrored(turned.mesh, {centre, {0, 0, 1}});
 }
@@ -196,18 +196,18 @@ Mesh crooked() {
 }
 
 TEST(SymmetricSurfaces, WhereNoPlaneIsFoundAllIsMeshed) {
-  const MeshResult r = mesh(problem_of(crooked(), 0.15, {{}, true, "s 1"}));
+  const MeshResult r = mesh(problem_of(crooked(), 0.15, {{}, true, "s 1"}), "DBCO");
   EXPECT_TRUE(r.soundness.sound());
   EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const Warning& w) {
     return w.text.find("s 1: no plane of symmetry was found") != std::string::npos;
   }));
   MeshProblem plain = problem_of(crooked(), 0.15);
-  EXPECT_EQ(mesh(plain).mesh.points, r.mesh.points);
+  EXPECT_EQ(mesh(plain, "DBCO").mesh.points, r.mesh.points);
 }
 
 TEST(SymmetricSurfaces, ModelsThatAreNotSymmetricAreRefused) {
   const auto refused = [](Mesh triangles, SymmetrySpec spec, std::initializer_list<const char*> says) {
-    expect_input_error([&] { mesh(problem_of(std::move(triangles), 0.2, std::move(spec))); }, says);
+    expect_input_error([&] { mesh(problem_of(std::move(triangles), 0.2, std::move(spec)), "DBCO"); }, says);
   };
   refused(block(4), at({{{0.6, 0, 0}, {1, 0, 0}}}),
           {"s 1: the model is not symmetric at the plane through (0.6, 0, 0)", "the mirror image of face",
@@ -215,10 +215,11 @@ TEST(SymmetricSurfaces, ModelsThatAreNotSymmetricAreRefused) {
   refused(block(4), at({{{0.5, 0, 0}, {1, 0, 0}}, {{0.5, 0, 0}, {1, 1, 0}}}),
           {"s 1: expected one plane of symmetry, or two or three that are perpendicular"});
   MeshProblem flat = problem_of(block(4), 0.2, at({{{0.5, 0, 0}, {0, 0, 0}}}));
-  expect_input_error([&] { mesh(flat); }, {"s 1: the normal of a plane of symmetry has no finite length"});
+  expect_input_error([&] { mesh(flat, "DBCO"); },
+                     {"s 1: the normal of a plane of symmetry has no finite length"});
   MeshProblem periodic = problem_of(block(4), 0.2, at({kMiddleX}));
   periodic.periodic = {{"curve_1", "curve_2", {}}};
-  expect_input_error([&] { mesh(periodic); }, {"s 1: symmetry does not go with periodic sides"});
+  expect_input_error([&] { mesh(periodic, "DBCO"); }, {"s 1: symmetry does not go with periodic sides"});
 }
 
 /// A plate at z = 0, region 1, with a wall that goes up and one that goes down along its side x = 1.
@@ -258,7 +259,7 @@ TEST(SymmetricSurfaces, LinesAndPointsInFacesHaveImages) {
                            {{{0.3, 0.5, 0.7}}, "left", ""},
                            {{{0.7, 0.5, 0.7}}, "right", ""},
                            {{{0.5, 0.65, 0.7}}, "middle", ""}};
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.soundness.sound()) << r.soundness.text();
   expect_mirrored(r.mesh, kMiddleX);
   std::map<std::string, Vec3> points;
@@ -282,22 +283,22 @@ TEST(SymmetricSurfaces, LinesAndPointsWithoutImagesSpoilPlanes) {
   for (const auto& [points, says] : items) {
     MeshProblem problem = problem_of(block(5), 0.13, at({kMiddleX}));
     problem.surface.embed = {{points, "item", ""}};
-    expect_input_error([&] { mesh(problem); },
+    expect_input_error([&] { mesh(problem, "DBCO"); },
                        {"s 1: the model is not symmetric at the plane through", says});
     problem.symmetry = {{}, true, "s 1"};
-    const MeshResult r = mesh(problem);
+    const MeshResult r = mesh(problem, "DBCO");
     EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const Warning& w) {
       return w.text.find("s 1: no plane of symmetry was found: all of the model is meshed; the plane") == 0 &&
              w.text.find("would be one, but") != std::string::npos &&
              w.text.find("'item'") != std::string::npos;
     }));
     problem.symmetry = {};
-    EXPECT_EQ(mesh(problem).mesh.points, r.mesh.points);
+    EXPECT_EQ(mesh(problem, "DBCO").mesh.points, r.mesh.points);
   }
   // A point in the middle of a side leaves two planes.
   MeshProblem problem = problem_of(block(5), 0.13, {{}, true, "s 1"});
   problem.surface.embed = {{{{0.5, 0.4, 0.7}}, "item", ""}};
-  const PreparedProblem p = prepare(problem);
+  const PreparedProblem p = prepare_problem(problem);
   EXPECT_EQ(p.symmetry.size(), 2u);
   EXPECT_TRUE(std::ranges::any_of(p.warnings, [](const Warning& w) {
     return w.text.find(
@@ -344,7 +345,7 @@ TEST(SymmetricSurfaces, TheMostCurvatureOfAllImagesCounts) {
   for (const char* name : {"region_1", "region_2", ""}) {
     MeshProblem problem = problem_of(torus, 0.2, at({{{0, 0, 0}, {1, 0, 0}}}));
     if (*name != 0) problem.size.named = {{.name = name, .curvature = 40}};
-    counts.push_back(mesh(problem).mesh.quads.size());
+    counts.push_back(mesh(problem, "DBCO").mesh.quads.size());
   }
   EXPECT_EQ(counts[0], counts[1]);
   EXPECT_GT(counts[0], 2 * counts[2]);
@@ -356,9 +357,9 @@ TEST(SymmetricSurfaces, TheLeastSizeOfAllImagesCounts) {
   problem.size.function = [](std::span<const Vec3> x, std::span<double> size) {
     for (std::size_t i = 0; i < x.size(); ++i) size[i] = x[i].x > 0.5 ? 0.05 : 0.2;
   };
-  const MeshResult before = mesh(problem);
+  const MeshResult before = mesh(problem, "DBCO");
   problem.symmetry.planes[0].normal = {-1, 0, 0};
-  const MeshResult behind = mesh(problem);
+  const MeshResult behind = mesh(problem, "DBCO");
   expect_mirrored(before.mesh, kMiddleX);
   expect_mirrored(behind.mesh, kMiddleX);
   const double n = static_cast<double>(before.mesh.quads.size());
@@ -368,7 +369,7 @@ TEST(SymmetricSurfaces, TheLeastSizeOfAllImagesCounts) {
   const auto quads = [](const std::vector<std::string>& names) {
     MeshProblem named = problem_of(block(5), 0.2, at({kMiddleX}));
     for (const std::string& name : names) named.size.named.push_back({.name = name, .size = 0.05});
-    return static_cast<double>(mesh(named).mesh.quads.size());
+    return static_cast<double>(mesh(named, "DBCO").mesh.quads.size());
   };
   const double both = quads({"region_1", "region_2"});
   EXPECT_NEAR(quads({"region_1"}), both, 0.03 * both);
@@ -377,7 +378,7 @@ TEST(SymmetricSurfaces, TheLeastSizeOfAllImagesCounts) {
 }
 
 TEST(SymmetricSurfaces, PlanesThatAreFoundAreTold) {
-  const PreparedProblem p = prepare(problem_of(block(5), 0.2, {{}, true}));
+  const PreparedProblem p = prepare_problem(problem_of(block(5), 0.2, {{}, true}));
   ASSERT_EQ(p.symmetry.size(), 3u);
   for (const SymmetryPlane& plane : p.symmetry)
     EXPECT_NEAR(dot(Vec3{0.5, 0.4, 0.35} - plane.point, plane.normal), 0, 1e-9);
@@ -386,23 +387,23 @@ TEST(SymmetricSurfaces, PlanesThatAreFoundAreTold) {
 TEST(SymmetricSurfaces, DividedCurvesShareTheirEdges) {
   MeshProblem problem = problem_of(block(5), 0.11, at({kMiddleX}));
   // A curve that goes through the plane.
-  const MeshResult before = mesh(problem);
+  const MeshResult before = mesh(problem, "DBCO");
   std::string name;
   for (std::size_t l = 0; l < before.mesh.lines.size() && name.empty(); ++l)
     for (const int v : before.mesh.lines[l])
       if (before.mesh.points[v].x == 0.5)
         name = "curve_" + std::to_string(before.mesh.curves[before.mesh.line_curve[l]].tag);
   problem.divisions = {{name, 14, 1, 1, "d 1"}};
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   int edges = 0;
   for (const int c : r.mesh.line_curve) edges += "curve_" + std::to_string(r.mesh.curves[c].tag) == name;
   EXPECT_EQ(edges, 14);
   expect_mirrored(r.mesh, kMiddleX);
   problem.divisions[0].edges = 13;
-  expect_input_error([&] { mesh(problem); }, {"d 1: 13 edges for curve", "expected 12 or 14"});
+  expect_input_error([&] { mesh(problem, "DBCO"); }, {"d 1: 13 edges for curve", "expected 12 or 14"});
   problem.divisions[0].edges = 14;
   problem.divisions[0].progression = 1.2;
-  expect_input_error([&] { mesh(problem); }, {"d 1: curve", "expected edges of equal length"});
+  expect_input_error([&] { mesh(problem, "DBCO"); }, {"d 1: curve", "expected edges of equal length"});
 }
 
 TEST(SymmetricSurfaces, ExamplesOfCadAreMirrored) {
@@ -416,7 +417,7 @@ TEST(SymmetricSurfaces, ExamplesOfCadAreMirrored) {
     problem.symmetry = {{}, true, "s 1"};
     MeshResult r;
     try {
-      r = mesh(problem);
+      r = mesh(problem, "DBCO");
     } catch (const InputError& error) {
       if (std::string(error.what()).find("OpenCASCADE") != std::string::npos) GTEST_SKIP() << error.what();
       throw;

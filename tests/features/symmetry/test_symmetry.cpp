@@ -53,8 +53,8 @@ void expect_mirrored(const Mesh& mesh, const std::function<Vec3(Vec3)>& mirror) 
 
 /// All is meshed, as without, and a warning says so, and what spoils a plane of the outline.
 void expect_no_plane(const PlanarModel& model, const std::string& spoiled = "") {
-  const MeshResult r = mesh(symmetric_problem(model, 0.2, {{}, true, "s 1"}));
-  EXPECT_EQ(r.mesh.points, mesh(symmetric_problem(model, 0.2, {})).mesh.points);
+  const MeshResult r = mesh(symmetric_problem(model, 0.2, {{}, true, "s 1"}), "DBCO");
+  EXPECT_EQ(r.mesh.points, mesh(symmetric_problem(model, 0.2, {}), "DBCO").mesh.points);
   EXPECT_TRUE(std::ranges::any_of(r.warnings, [&](const Warning& w) {
     return w.text == "s 1: no plane of symmetry was found: all of the model is meshed" + spoiled;
   }));
@@ -92,7 +92,7 @@ TEST(Symmetry, EdgesAtSinglePointsAreMirrored) {
   model.points[0].where = "m 3";
   expect_input_error(
       [&] {
-        mesh(symmetric_problem(model, 0.1, {{{{2, 1, 0}, {0, 1, 0}}}, false, "s 1"}));
+        mesh(symmetric_problem(model, 0.1, {{{{2, 1, 0}, {0, 1, 0}}}, false, "s 1"}), "DBCO");
       },
       {"s 1: the model is not symmetric: the point 'sensor' (m 3) has no mirror image at (0.6, 1.59)"});
   // The other points' planes are none of this one.
@@ -111,12 +111,12 @@ TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
 }
 
 TEST(Symmetry, PlanesThatAreFoundAreTold) {
-  const PreparedProblem p = prepare(symmetric_problem(symmetric_plate(), 0.2, {{}, true}));
+  const PreparedProblem p = prepare_problem(symmetric_problem(symmetric_plate(), 0.2, {{}, true}));
   ASSERT_EQ(p.symmetry.size(), 2u);
   EXPECT_NEAR(std::abs(p.symmetry[0].normal.x), 1, 1e-12);
   EXPECT_NEAR(std::abs(p.symmetry[1].normal.y), 1, 1e-12);
   for (const SymmetryPlane& plane : p.symmetry) EXPECT_NEAR(norm(plane.point - Vec3{2, 1, 0}), 0, 1e-12);
-  EXPECT_TRUE(prepare(symmetric_problem(symmetric_plate(), 0.2, {})).symmetry.empty());
+  EXPECT_TRUE(prepare_problem(symmetric_problem(symmetric_plate(), 0.2, {})).symmetry.empty());
 }
 
 TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
@@ -130,7 +130,7 @@ TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
   const auto meshed = [&](const std::vector<std::string>& names, const SymmetrySpec& spec) {
     MeshProblem problem = symmetric_problem(model, 0.2, spec);
     for (const std::string& name : names) problem.size.named.push_back({.name = name, .size = 0.05});
-    return mesh(problem).mesh;
+    return mesh(problem, "DBCO").mesh;
   };
   for (const SymmetrySpec& spec : {one, two}) {
     const Mesh both = meshed({"left", "right"}, spec);
@@ -146,7 +146,7 @@ TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
       MeshProblem problem = symmetric_problem(model, 0.2, two);
       const Vec3 at{x, y, 0};
       problem.size.sources = {{at, at, 0.02, 0.2, 0.1, 0.5}};
-      counts.push_back(static_cast<double>(mesh(problem).mesh.quads.size()));
+      counts.push_back(static_cast<double>(mesh(problem, "DBCO").mesh.quads.size()));
     }
   const auto [least, most] = std::ranges::minmax(counts);
   EXPECT_LT(most, 1.1 * least);
@@ -154,11 +154,12 @@ TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
 }
 
 TEST(Symmetry, PlanesAreFound) {
-  const MeshResult r = mesh(symmetric_problem(symmetric_plate(), 0.1, {{}, true}));
+  const MeshResult r = mesh(symmetric_problem(symmetric_plate(), 0.1, {{}, true}), "DBCO");
   expect_mirrored(r.mesh, about_x2);
   expect_mirrored(r.mesh, about_y1);
   // Of a triangle with two equal sides there is one, of a scalene one none.
-  const MeshResult t = mesh(symmetric_problem(polygons({{{-1, 0}, {1, 0}, {0, 3}}}), 0.2, {{}, true}));
+  const MeshResult t =
+      mesh(symmetric_problem(polygons({{{-1, 0}, {1, 0}, {0, 3}}}), 0.2, {{}, true}), "DBCO");
   expect_mirrored(t.mesh, [](Vec3 x) { return Vec3{-x.x, x.y, x.z}; });
   expect_no_plane(polygons({{{-1, 0}, {1.5, 0}, {0, 3}}}));
 }
@@ -166,11 +167,11 @@ TEST(Symmetry, PlanesAreFound) {
 TEST(Symmetry, AxesAreNoCurvesUnlessTheModelHasThem) {
   PlanarModel model = symmetric_plate();
   const SymmetrySpec spec{{{{2, 0, 0}, {1, 0, 0}}}};
-  const MeshResult plain = mesh(symmetric_problem(model, 0.11, spec));
+  const MeshResult plain = mesh(symmetric_problem(model, 0.11, spec), "DBCO");
   for (const auto& line : plain.mesh.lines)
     EXPECT_FALSE(plain.mesh.points[line[0]].x == 2 && plain.mesh.points[line[1]].x == 2);
   model.curves.push_back({make_segment({2, 0}, {2, 0.65}), "rib", {}});
-  const MeshResult ribbed = mesh(symmetric_problem(model, 0.11, spec));
+  const MeshResult ribbed = mesh(symmetric_problem(model, 0.11, spec), "DBCO");
   int on_rib = 0;
   for (std::size_t l = 0; l < ribbed.mesh.lines.size(); ++l)
     on_rib += ribbed.mesh.curves[ribbed.mesh.line_curve[l]].names == std::vector<std::string>{"rib"};
@@ -181,7 +182,7 @@ TEST(Symmetry, AxesAreNoCurvesUnlessTheModelHasThem) {
 TEST(Symmetry, SeedsTurnThePlanes) {
   MeshProblem problem = symmetric_problem(symmetric_plate(), 0.11, {{{{2, 0, 0}, {1, 0, 0}}}});
   problem.seed = 5;
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.soundness.sound());
   EXPECT_TRUE(r.mesh.triangles.empty());
 }
@@ -189,7 +190,7 @@ TEST(Symmetry, SeedsTurnThePlanes) {
 TEST(Symmetry, ModelsThatAreNotSymmetricAreRefused) {
   const auto refused = [](PlanarModel model, SymmetrySpec spec, std::initializer_list<const char*> says) {
     spec.where = "s 1";
-    expect_input_error([&] { mesh(symmetric_problem(std::move(model), 0.2, spec)); }, says);
+    expect_input_error([&] { mesh(symmetric_problem(std::move(model), 0.2, spec), "DBCO"); }, says);
   };
   refused(symmetric_plate(), {{{{1.9, 0, 0}, {1, 0, 0}}}},
           {"s 1: the model is not symmetric", "has no mirror image"});
@@ -208,12 +209,12 @@ TEST(Symmetry, NumbersOfEdgesThatWouldDoAreTold) {
       symmetric_problem(model, 0.1, {{{{2, 1, 0}, {1, 0, 0}}, {{2, 1, 0}, {0, 1, 0}}}, false, "s 1"});
   for (const int edges : {41, 42}) {
     problem.divisions = {{"hole", edges}};
-    expect_input_error([&] { mesh(problem); },
+    expect_input_error([&] { mesh(problem, "DBCO"); },
                        {("s 1: " + std::to_string(edges) + " edges cannot divide").c_str(), "'hole'",
                         "into 4 pieces", "expected 40 or 44"});
   }
   problem.divisions = {{"hole", 44}};
-  const MeshResult r = mesh(problem);
+  const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.soundness.sound());
   expect_mirrored(r.mesh, about_x2);
 }
@@ -221,7 +222,7 @@ TEST(Symmetry, NumbersOfEdgesThatWouldDoAreTold) {
 TEST(Symmetry, GridsAroundHolesAreRefusedForTheHoles) {
   MeshProblem problem = symmetric_problem(symmetric_plate(), 0.1, {{{{2, 0, 0}, {1, 0, 0}}}});
   problem.mapped = {{"plate"}, false, "m 1"};
-  expect_input_error([&] { mesh(problem); },
+  expect_input_error([&] { mesh(problem, "DBCO"); },
                      {"'plate' cannot be a grid: something lies inside of it: expected one outline"});
 }
 

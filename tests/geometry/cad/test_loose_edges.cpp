@@ -30,7 +30,7 @@ MeshResult mesh_of(const std::filesystem::path& file, double size) {
   MeshProblem problem;
   problem.model = CadModel{file};
   problem.size.field = make_constant_size(size);
-  return mesh(problem);
+  return mesh(problem, "DBCO");
 }
 
 /// Length of the lines both of whose ends lie in the set.

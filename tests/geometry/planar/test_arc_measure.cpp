@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "cases/formulas.h"
+#include "delquad/fields.h"
 #include "delquad/model.h"
 #include "geometry/planar/arc_measure.h"
 #include "tests/geometry/planar/models.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "cases/formulas.h"
+#include "delquad/fields.h"
 #include "delquad/model.h"
 #include "tests/support/expect_input_error.h"
 

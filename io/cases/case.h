@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "delquad/mesher.h"
+
+namespace delquad {
+
+/// Where data lies, seen from the folder that the program is called in, unless it is told otherwise.
+inline constexpr const char* kDataFolder = "../shared/data";
+
+/// A problem, and what else its file says: what a pipeline works on.
+struct Case : MeshProblem {
+  Case() { where.clear(), size.where.clear(), cross.where.clear(); }  // nobody has asked for anything
+
+  /// What an experiment varies, by title, and the folder of the results.
+  std::vector<std::pair<std::string, std::string>> variant;
+  std::string folder;
+  std::filesystem::path model_file;            ///< the .toml file that the model comes from; empty: none
+  bool may_be_absent = false;                  ///< the model's file is data that the case is skipped without
+  std::filesystem::path data_folder;           ///< that the key `data` counts from; empty: it is not allowed
+  std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
+};
+
+bool has_model(const MeshProblem& problem);
+/// Null unless the model is one of curves.
+const PlanarModel* planar_model(const MeshProblem& problem);
+/// The name of the example that the model is; empty: it is none.
+std::string example_of(const MeshProblem& problem);
+/// The file that the model is read from; empty: none.
+std::filesystem::path model_path(const MeshProblem& problem);
+
+}  // namespace delquad

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "io/cases/case.h"
+#include "io/cases/toml_reader.h"
+
+namespace delquad {
+
+/// Takes over the keys of a case that the table has: model, data, mesh, curve, loop, pattern, surface, size,
+/// cross, insertion, smoothing, recombination, compare. What it lacks stays as it is. Paths count from the
+/// table's file. Does not call finish().
+void read_case_keys(const TomlTable& table, Case& target);
+
+/// A model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh). `defaults`: what
+/// the file does not say. Throws InputError for other extensions and for experiment files.
+Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
+
+}  // namespace delquad

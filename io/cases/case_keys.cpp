@@ -1,0 +1,295 @@
+#include "io/cases/case_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace delquad {
+namespace toml_types {
+
+std::string at_least(const std::string& type, double least) {
+  return fmt::format(R"({{"type": "{}", "minimum": {}}})", type, least);
+}
+
+std::string between(const std::string& type, double least, double most) {
+  return fmt::format(R"({{"type": "{}", "minimum": {}, "maximum": {}}})", type, least, most);
+}
+
+std::string above(double low, double most) {
+  return fmt::format(R"({{"type": "number", "exclusiveMinimum": {}, "maximum": {}}})", low, most);
+}
+
+std::string one_of(const std::vector<std::string>& texts) {
+  return fmt::format(R"({{"enum": ["{}"]}})", fmt::join(texts, R"(", ")"));
+}
+
+}  // namespace toml_types
+
+namespace {
+
+using namespace toml_types;
+
+const std::string kPoint = R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})";
+const std::string kSpacePoint =
+    R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3})";
+const std::string kVector = R"({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3})";
+const std::string kTextOrTexts = R"({"type": ["string", "array"], "items": {"type": "string"}})";
+const std::string kTextsAndTables =
+    R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})";
+const std::string kTextsOrPoints =
+    R"({"type": "array", "items": {"type": ["string", "array"], "items": {"type": "number"}}, "minItems": 3, "maxItems": 4})";
+const std::string kWords = R"({"type": "object", "additionalProperties": {"type": "string"}})";
+const std::string kCompound =
+    R"({"anyOf": [{"enum": ["all", "tangent"]},
+                  {"type": "array", "items": {"type": "array", "items": {"type": "integer"}, "minItems": 2}}]})";
+
+std::string points(int least, const std::string& point = kPoint) {
+  return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}}})", point, least);
+}
+
+std::string two_points() {
+  return fmt::format(R"({{"type": "array", "items": {}, "minItems": 2, "maxItems": 2}})", kPoint);
+}
+
+/// Shapes that are closed by themselves, and what may stand beside each.
+TomlKeys closed_shapes() {
+  return {
+      {"rectangle", "two opposite corners", two_points()},
+      {"polygon", "corners, in either direction", points(3)},
+      {"circle", "a circle", "", circle_keys},
+      {"boundary", "name of its curves, or one for each; not with 'curves', which have names", kTextOrTexts},
+      {"region", "name of what is inside", kText},
+      {"hole", "whether it must be a hole", kFlag}};
+}
+
+constexpr const char* kCompare = "compare";
+
+/// The type of an option's value, as JSON Schema.
+std::string type_of(const OptionKey& key) {
+  if (const std::vector<OptionValue> allowed = allowed_values(key); !allowed.empty()) {
+    std::vector<std::string> texts;
+    for (const OptionValue& value : allowed) texts.push_back(text_of(value));
+    return fmt::format(R"({{"enum": [{}]}})", fmt::join(texts, ", "));
+  }
+  const char* types[] = {"boolean", "integer", "number", "string"};
+  std::string type = fmt::format(R"({{"type": "{}")", types[key.value.index()]);
+  const auto add = [&](const char* name, const std::optional<double>& limit) {
+    if (limit) type += fmt::format(R"(, "{}": {})", name, *limit);
+  };
+  add("minimum", key.least);
+  add("exclusiveMinimum", key.above);
+  add("maximum", key.most);
+  return type + "}";
+}
+
+}  // namespace
+
+const TomlKeys& circle_keys() {
+  static const TomlKeys keys = {{"centre", "[x, y]", kPoint, nullptr, false, true},
+                                {"radius", "a length", kPositive, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& arc_keys() {
+  static const TomlKeys keys = {
+      {"centre", "[x, y]", kPoint, nullptr, false, true},
+      {"radius", "a length", kPositive, nullptr, false, true},
+      {"from", "degrees", kNumber, nullptr, false, true},
+      {"to", "degrees; counterclockwise where it is more", kNumber, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& expression_keys() {
+  static const TomlKeys keys = {{"x", "formula in t", kExpression, nullptr, false, true},
+                                {"y", "formula in t", kExpression, nullptr, false, true},
+                                {"from", "first t", kNumber, nullptr, false, true},
+                                {"to", "last t", kNumber, nullptr, false, true}};
+  return keys;
+}
+
+namespace {
+
+/// Those that begin, then the shapes.
+TomlKeys with_shapes(TomlKeys keys) {
+  for (const TomlKey& shape : TomlKeys{{"segment", "two points", two_points()},
+                                       {"polyline", "points, each of which gets a node", points(2)},
+                                       {"arc", "a part of a circle", "", arc_keys},
+                                       {"circle", "a circle", "", circle_keys},
+                                       {"expression", "formulas", "", expression_keys}})
+    keys.push_back(shape);
+  return keys;
+}
+
+}  // namespace
+
+const TomlKeys& curve_keys() {
+  static const TomlKeys keys = with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
+                                            {"boundary", "its name in all but loops; else 'name'", kText}});
+  return keys;
+}
+
+const TomlKeys& embed_keys() {
+  static const TomlKeys keys = [] {
+    TomlKeys all = with_shapes({{"name", "its physical group", kText},
+                                {"crack", "whether the mesh comes apart along it", kFlag},
+                                {"point", "a point that becomes a node", kSpacePoint}});
+    std::ranges::find(all, "polyline", &TomlKey::name)->type = points(2, kSpacePoint);
+    return all;
+  }();
+  return keys;
+}
+
+const TomlKeys& loop_keys() {
+  static const TomlKeys keys = [] {
+    TomlKeys all = closed_shapes();
+    all.push_back({"curves", "names of curves that close up", kTexts});
+    return all;
+  }();
+  return keys;
+}
+
+const TomlKeys& pattern_keys() {
+  static const TomlKeys keys = [] {
+    TomlKeys all = closed_shapes();
+    all.push_back({"count", "how many, [nx, ny]", kPoint, nullptr, false, true});
+    all.push_back({"step", "from one to the next, [dx, dy]", kPoint, nullptr, false, true});
+    return all;
+  }();
+  return keys;
+}
+
+const TomlKeys& mirror_keys() {
+  static const TomlKeys keys = {
+      {"point", "of the plane, [x, y, z]", kVector, nullptr, false, true},
+      {"normal", "of the plane, [x, y, z]", kVector, nullptr, false, true},
+      {"tolerance", "how far from it shared edges are, in diagonals", between("number", 0, 0.1)},
+      {"join", "whether faces run on through the plane", kFlag}};
+  return keys;
+}
+
+const TomlKeys& surface_keys() {
+  static const TomlKeys keys = {
+      {"compound", "faces to mesh as one", kCompound},
+      {"merge_curves", "shorter curves become one with a neighbour", kPositive},
+      {"feature_angle", "degrees", above(0, 180)},
+      {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
+      {"mirror", "the model is one half", "", mirror_keys},
+      {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
+      {"glue", "whether bodies of CAD share what they touch at", kFlag},
+      {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
+  return keys;
+}
+
+const TomlKeys& source_keys() {
+  static const TomlKeys keys = {{"at", "a point", kSpacePoint, nullptr, false, true},
+                                {"to", "the other end, of a segment", kSpacePoint},
+                                {"near", "size up to radius_near", kPositive, nullptr, false, true},
+                                {"far", "size beyond radius_far", kPositive, nullptr, false, true},
+                                {"radius_near", "a length; 0 if absent", at_least("number", 0)},
+                                {"radius_far", "a length", kPositive, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& division_keys() {
+  static const TomlKeys keys = {{"name", "of curves", kText, nullptr, false, true},
+                                {"edges", "of each of them", at_least("integer", 1), nullptr, false, true},
+                                {"progression", "length of each edge, of that before it", kPositive},
+                                {"bump", "length of edges at the ends, of those in the middle", kPositive}};
+  return keys;
+}
+
+const TomlKeys& periodic_keys() {
+  static const TomlKeys keys = {{"from", "name of curves or faces", kText, nullptr, false, true},
+                                {"to", "name of their images", kText, nullptr, false, true},
+                                {"translate", "[x, y] or [x, y, z]", kSpacePoint},
+                                {"rotate", "degrees, counterclockwise", kNumber},
+                                {"centre", "of the rotation; the origin if absent", kSpacePoint},
+                                {"axis", "of the rotation; z if absent", kVector}};
+  return keys;
+}
+
+const TomlKeys& mapped_keys() {
+  static const TomlKeys keys = {
+      {"name", "of a region or face", kText, nullptr, false, true},
+      {"corners", "three or four: names of points, or places", kTextsOrPoints, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& symmetry_keys() {
+  static const TomlKeys keys = {{"point", "of the plane", kSpacePoint, nullptr, false, true},
+                                {"normal", "of the plane", kSpacePoint, nullptr, false, true}};
+  return keys;
+}
+
+const TomlKeys& named_size_keys() {
+  static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
+                                {"size", "at most, on them and in them", kPositive},
+                                {"reach", "how far from them, too; 0 if absent", at_least("number", 0)},
+                                {"growth", "of sizes from there on, per length; 0.3 if absent", kPositive},
+                                {"curvature", "elements per full turn, of surfaces", at_least("number", 3)}};
+  return keys;
+}
+
+const TomlKeys& size_keys() {
+  static const TomlKeys keys = {{"base", "a number, an expression, a file or \"boundary\"", kSize},
+                                {"source", "points and segments with sizes", "", source_keys, true},
+                                {"on", "sizes of what has a name", "", named_size_keys, true},
+                                {"gradation", "the most that sizes grow by per length", kPositive},
+                                {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
+                                {"min", "least size that curvature asks for", kPositive},
+                                {"max", "largest size", kPositive}};
+  return keys;
+}
+
+const TomlKeys& layer_keys() {
+  static const TomlKeys keys = {
+      {"on", "names of curves that bound regions", kTextOrTexts, nullptr, false, true},
+      {"into", "names of the regions that get them; absent: on both sides of the curves", kTextOrTexts},
+      {"first", "height of the quads at the curve", kPositive, nullptr, false, true},
+      {"growth", "height of a quad by that of the one below", at_least("number", 1)},
+      {"number", "quads that stand on each other", between("integer", 1, 10000)},
+      {"thickness", "instead of the number: height of all of them", kPositive},
+      {"fan", "degrees by which corners with a fan turn away", above(0, 120)}};
+  return keys;
+}
+
+TomlKeys keys_of(const OptionGroup& group) {
+  TomlKeys keys;
+  for (const OptionKey& key : group.keys) keys.push_back({key.name, key.help, type_of(key)});
+  return keys;
+}
+
+TomlKeys case_keys() {
+  TomlKeys keys = {
+      {"loop", "closed loops", "", loop_keys, true},
+      {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
+      {"curve", "curves that loops are made of", "", curve_keys, true},
+      {"embed", "curves and points inside of regions, polylines and points on surfaces", "", embed_keys,
+       true},
+      {"example", "a surface that the program makes itself", kText},
+      {"mesh", "an MSH file; with 'start' of any format", kText},
+      {"start", "words may begin from the elements of that mesh", kFlag},
+      {"model", "a model file, a surface or an MSH file", kText},
+      {"data", "a surface or MSH file in the folder of --data", kText},
+      {"surface", "what becomes of a surface's faces", "", surface_keys},
+      {"layer", "thin quads along curves", "", layer_keys, true},
+      {"size", "wanted edge length", kSize, size_keys},
+      {"divide", "numbers of edges of curves", "", division_keys, true},
+      {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},
+      {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},
+      {"mapped", "regions or faces that become grids, or \"auto\"", kTextsAndTables, mapped_keys, true},
+      {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
+      {"order", "of the elements, 1 to 4: curved above 1", at_least("integer", 1)},
+      {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
+  for (const OptionGroup& group : option_groups()) {
+    if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end() || group.name == kCompare)
+      throw std::logic_error("options '" + group.name + "': a key of cases has that name");
+    keys.push_back({group.name, group.help, "", [group] { return keys_of(group); }});
+  }
+  keys.push_back({kCompare, "published row beside each pipeline", kWords});
+  return keys;
+}
+
+}  // namespace delquad

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "geometry/planar/planar_model.h"
+#include "io/cases/toml_reader.h"
+
+namespace delquad {
+
+/// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/experiments.md has the schema). Throws
+/// InputError with file and line.
+PlanarModel read_planar_model(const TomlTable& table);
+/// Whether the table has any of these keys.
+bool has_planar_model(const TomlTable& table);
+
+/// Reads `embed` of a table whose model is a surface: polylines and points in space. Throws InputError as the
+/// other.
+std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table);
+
+}  // namespace delquad

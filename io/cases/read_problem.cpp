@@ -1,0 +1,167 @@
+#include "io/cases/read_problem.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "base/activity.h"
+#include "base/located.h"
+#include "base/nearest_name.h"
+#include "base/text.h"
+#include "delquad/error.h"
+#include "fields/fields.h"
+#include "geometry/mesh/outline.h"
+#include "geometry/planar/planar_model.h"
+#include "io/cases/size_file.h"
+#include "io/formats/msh.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+namespace {
+
+const std::set<std::string> kCadFiles = {".step", ".stp", ".iges", ".igs", ".brep"};
+const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off", ".ply", ".3mf"};
+
+constexpr const char* kFromBoundary = "boundary";
+constexpr const char* kFromGradient = "gradient";
+constexpr const char* kSizeAware = "size-aware";
+constexpr std::pair<CrossKind, const char*> kCrosses[] = {{CrossKind::kBoundary, kFromBoundary},
+                                                          {CrossKind::kSizeAware, kSizeAware},
+                                                          {CrossKind::kGradient, kFromGradient}};
+
+/// A field whose errors say where it was written.
+template <class Field, class Point, class Value>
+class Located final : public Field {
+ public:
+  Located(std::shared_ptr<const Field> base, std::string where)
+      : base_(std::move(base)), where_(std::move(where)) {}
+  Value at(Point x, int& hint) const override {
+    return located(where_, [&] { return base_->at(x, hint); });
+  }
+
+ private:
+  std::shared_ptr<const Field> base_;
+  std::string where_;
+};
+
+/// Reads a formula in whose place one of `words` could stand: it may be one of them, misspelt.
+template <class F>
+auto formula_or_word(const std::string& text, const std::vector<std::string>& words, F&& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(error.what() + suggestion(text, words));
+  }
+}
+
+/// A number, an expression or a file as a field.
+std::shared_ptr<const SizeField> make_field(const SizeSpec& size) {
+  const std::string &text = size.text, &where = size.where;
+  if (const auto number = as_number(text)) {
+    if (!(*number > 0) || *number > std::numeric_limits<double>::max())
+      throw InputError(where + ": size " + text + ": expected a finite number > 0");
+    return make_constant_size(*number);
+  }
+  if (const auto file = size_file_of(text, size.folder))
+    return located(where,
+                   [&] { return std::shared_ptr<const SizeField>(make_file_size(file->path, file->field)); });
+  return located(where, [&] {
+    return std::make_shared<Located<SizeField, const Vec3&, double>>(
+        formula_or_word(text, {kFromBoundary}, [&] { return make_expression_size(text); }), where);
+  });
+}
+
+void read_size(SizeSpec& size) {
+  if (size.text.empty() || size.field || size.function || size.from_boundary) return;
+  size.from_boundary = size.text == kFromBoundary;
+  if (!size.from_boundary) size.field = make_field(size);
+}
+
+void read_cross(CrossSpec& cross) {
+  if (cross.text.empty() || cross.kind) return;
+  const auto* word = std::ranges::find(kCrosses, cross.text, &std::pair<CrossKind, const char*>::second);
+  if (word != std::end(kCrosses)) {
+    cross.kind = word->first;
+    return;
+  }
+  cross.kind = CrossKind::kField;
+  cross.field = located(cross.where, [&] {
+    return std::make_shared<Located<CrossField, Vec2, Cross>>(
+        formula_or_word(cross.text, {kFromBoundary, kFromGradient, kSizeAware},
+                        [&] { return make_expression_cross(cross.text); }),
+        cross.where);
+  });
+}
+
+/// A file of lines, or of triangles or quads in space.
+Model read_msh_model(const std::filesystem::path& path) {
+  LineModel lines{{}, {}, path.string()};
+  lines.mesh = read_msh(path, &lines.surfaces);
+  if (holds_surface(lines.mesh)) return TriangleModel{std::move(lines.mesh), lines.source};
+  return lines;
+}
+
+Model read_model(const ModelFile& file, bool keep_going) {
+  const DoingStage stage("reading");
+  const std::string kind = kind_of_file(file.path);
+  if (file.given) {
+    GivenMesh given{{}, file.path.string()};
+    given.mesh = read_mesh(file.path, &given.notes);
+    return given;
+  }
+  if (kCadFiles.count(kind) > 0) return CadModel{file.path};
+  if (kTriangleFiles.count(kind) == 0) return read_msh_model(file.path);
+  TriangleModel triangles{{}, file.path.string()};
+  triangles.mesh = read_mesh(file.path, &triangles.notes, keep_going ? Strays::kKept : Strays::kRefused);
+  return triangles;
+}
+
+}  // namespace
+
+bool is_surface_file(const std::filesystem::path& path) {
+  return kCadFiles.count(kind_of_file(path)) + kTriangleFiles.count(kind_of_file(path)) > 0;
+}
+
+std::string surface_files() {
+  return fmt::format("{}, {}", fmt::join(kCadFiles, ", "), fmt::join(kTriangleFiles, ", "));
+}
+
+std::string text_of(const CrossSpec& cross) {
+  if (!cross.text.empty()) return cross.text;
+  const auto* word = std::ranges::find(kCrosses, cross.kind.value_or(CrossKind::kBoundary),
+                                       &std::pair<CrossKind, const char*>::first);
+  return word != std::end(kCrosses) ? word->second : "angle";
+}
+
+MeshProblem read_files(MeshProblem problem) {
+  if (const auto* file = std::get_if<ModelFile>(&problem.model))
+    problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going); });
+  if (problem.size.where.empty()) problem.size.where = problem.where;
+  read_size(problem.size);
+  read_cross(problem.cross);
+  return problem;
+}
+
+void check_case(const Case& c) {
+  if (const auto file = model_path(c); !c.may_be_absent && !file.empty() && !std::filesystem::exists(file))
+    throw InputError(fmt::format("{}: case '{}': there is no file '{}'", c.where, c.name, file.string()));
+  MeshProblem fields;
+  fields.size = c.size;
+  fields.cross = c.cross;
+  read_files(fields);
+}
+
+std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {
+  if (text.empty()) throw InputError("--size: the size is empty: expected a number or an expression");
+  if (text != kFromBoundary) return make_field({.text = text, .where = "--size"});
+  const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
+  return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
+}
+
+}  // namespace delquad

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/cases/case.h"
+
+namespace delquad {
+
+/// Whether the file holds a surface by its extension: CAD or triangles.
+bool is_surface_file(const std::filesystem::path& path);
+/// These extensions, for messages.
+std::string surface_files();
+
+/// How people write the directions: "boundary", "size-aware", "gradient", an angle; "angle" of fields.
+std::string text_of(const CrossSpec& cross);
+
+/// With the ModelFile in memory (but for CAD) and the texts of size and directions as fields. Throws
+/// InputError with file and line.
+MeshProblem read_files(MeshProblem problem);
+
+/// Throws InputError with file and line where the model's file is missing (but for data that cases are
+/// skipped without) or formulas of size or crosses cannot be read: what is known before anything is meshed.
+void check_case(const Case& c);
+
+/// The size field of a mesh that is there already: `text` is a number, an expression, a file or "boundary",
+/// as --size gives it.
+std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
+
+}  // namespace delquad

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/nearest_name.h"
+#include "delquad/mesh.h"
+#include "io/cases/toml_keys.h"
+
+namespace delquad {
+
+enum class TomlKind { kNone, kNumber, kText, kFlag, kArray, kTable };
+
+/// A checked view of one table of a TOML file. Every getter throws InputError "file:line: ..." which names
+/// the key and says what was expected; copies share the record of the keys that were asked for, against which
+/// finish() checks.
+class TomlTable {
+ public:
+  /// Throws InputError when the file cannot be read or is not TOML.
+  static TomlTable read(const std::filesystem::path& file);
+
+  const std::filesystem::path& file() const;
+  /// "file:line" of the table.
+  std::string where() const;
+  /// "file:line" of a key of it.
+  std::string where(const std::string& key) const;
+
+  /// kNone: absent.
+  TomlKind kind(const std::string& key) const;
+  bool has(const std::string& key) const { return kind(key) != TomlKind::kNone; }
+  /// The keys present, in alphabetical order.
+  std::vector<std::string> keys() const;
+
+  /// Finite; integers are numbers too.
+  double number(const std::string& key) const;
+  double number(const std::string& key, double absent) const;
+  double positive_number(const std::string& key) const;
+  long long integer(const std::string& key) const;
+  long long integer(const std::string& key, long long absent) const;
+  bool flag(const std::string& key, bool absent) const;
+  std::string text(const std::string& key) const;
+  std::string text(const std::string& key, const std::string& absent) const;
+  /// A text, or a number as it would be written in an expression.
+  std::string expression(const std::string& key) const;
+  /// [x, y]
+  Vec2 point(const std::string& key) const;
+  /// [x, y, z], or [x, y] with z = 0
+  Vec3 space_point(const std::string& key) const;
+  /// [[x, y], ...]
+  std::vector<Vec2> points(const std::string& key) const;
+  /// [[x, y, z], ...]; z = 0 where it is left out
+  std::vector<Vec3> space_points(const std::string& key) const;
+  std::vector<double> numbers(const std::string& key) const;
+  /// [[n, ...], ...], of the range of int.
+  std::vector<std::vector<int>> integer_lists(const std::string& key) const;
+  std::vector<std::string> texts(const std::string& key) const;
+  /// A list of texts and points [x, y] or [x, y, z].
+  std::vector<std::variant<std::string, Vec3>> texts_and_points(const std::string& key) const;
+  TomlTable table(const std::string& key) const;
+  std::optional<TomlTable> optional_table(const std::string& key) const;
+  /// An array of tables, or one table; none when absent.
+  std::vector<TomlTable> tables(const std::string& key) const;
+  /// The same where texts may stand among the tables.
+  std::pair<std::vector<std::string>, std::vector<TomlTable>> texts_and_tables(const std::string& key) const;
+
+  /// Dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
+  std::vector<std::string> leaves() const;
+  /// How many elements the list at a dotted key has, at least one.
+  std::size_t count(const std::string& leaf) const;
+  /// Element `i` of the list at a dotted key, as TOML text; texts without their quotes.
+  std::string element_text(const std::string& leaf, std::size_t i) const;
+  /// This table, where the value at each of the dotted keys is element `choice[k]` of the list that `lists`
+  /// has there. Throws InputError where such a key lies below one that is no table.
+  TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
+                        const std::vector<std::size_t>& choice) const;
+
+  /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
+  void finish() const;
+  /// Throws InputError for a key that is present and none of these, suggesting the nearest of them: to be
+  /// called first, before the key that was meant is missed.
+  void require_known(const TomlKeys& keys) const;
+  /// The same for a table with these keys; a std::logic_error when another one was asked for, so that the
+  /// list is what is read.
+  void finish(const TomlKeys& keys) const;
+
+ private:
+  void require_among(const std::vector<std::string>& known) const;
+
+  struct Data;
+  explicit TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<Data> data_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,403 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/insertion_options.h"
+#include "algorithms/treatment/recombination_options.h"
+#include "features/crosses/size_aware.h"
+#include "io/cases/case_file.h"
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
+#include "smoothing/optimisation/optimisation_options.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/prepare_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+class Cases : public testing::Test {
+ protected:
+  Case read(const std::string& text) {
+    return read_model_case(testing_support::write_text(folder_ / "c.toml", text));
+  }
+  static double size_at(const PreparedProblem& p, double x, double y) {
+    int hint = -1;
+    return p.size.field->at({x, y, 0}, hint);
+  }
+  const std::string square_ = "loop = { rectangle = [[0, 0], [1, 1]] }\n";
+  testing_support::TemporaryFolder folder_;
+};
+
+TEST_F(Cases, Layers) {
+  const std::string sides =
+      "loop = { rectangle = [[0, 0], [1, 1]], boundary = ['s', 'e', 'n', 'w'] }\nsize = 0.1\n";
+  const Case c = read(sides +
+                      "layer = [{ on = 's', first = 0.001, number = 3 },\n"
+                      "{ on = ['n', 'w'], first = 0.01, growth = 1.5, thickness = 0.1, fan = 70 }]");
+  ASSERT_EQ(c.layers.size(), 2u);
+  EXPECT_EQ(c.layers[0].on, std::vector<std::string>{"s"});
+  EXPECT_EQ(c.layers[0].number, 3);
+  EXPECT_EQ(c.layers[0].growth, 1.2);
+  EXPECT_EQ(c.layers[1].on, (std::vector<std::string>{"n", "w"}));
+  EXPECT_EQ(c.layers[1].thickness, 0.1);
+  EXPECT_EQ(c.layers[1].fan, 70);
+  EXPECT_EQ(read_files(c).layers.size(), 2u);
+  const auto refused = [&](const std::string& layer, std::initializer_list<const char*> parts) {
+    expect_input_error([&] { read(sides + "layer = { " + layer + " }"); }, parts);
+  };
+  refused("on = 's', first = 0, number = 3", {"c.toml:3", "'layer.first'"});
+  refused("on = 's', first = 0.1, number = 0", {"c.toml:3", "'number' is 0"});
+  refused("on = 's', first = 0.1", {"c.toml:3", "none of 'number' and 'thickness'"});
+  refused("on = 's', first = 0.1, number = 2, heigth = 1", {"c.toml:3", "'layer.heigth'"});
+}
+
+TEST_F(Cases, AFileGivesTheSize) {
+  testing_support::write_text(
+      folder_ / "h.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+      "$Elements\n1\n1 3 2 0 1 1 2 3 4\n$EndElements\n"
+      "$NodeData\n1\n\"h\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 0.2\n4 0.1\n$EndNodeData\n"
+      "$NodeData\n1\n\"bad\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 -1\n4 0.1\n$EndNodeData\n");
+  for (const char* size : {"size = \"h.msh:h\"\n", "size = { base = \"h.msh:h\", max = 0.5 }\n"}) {
+    const PreparedProblem p = prepare_case(read(square_ + size));
+    EXPECT_DOUBLE_EQ(size_at(p, 0.25, 0.7), 0.125) << size;
+    EXPECT_DOUBLE_EQ(size_at(p, 3, 0.5), 0.2) << size;
+  }
+  const auto prepare = [&](const std::string& size) {
+    prepare_case(read(square_ + "size = \"" + size + "\"\n"));
+  };
+  expect_input_error([&] { prepare("h.msh:bad"); }, {"the nodal size 2"});
+  expect_input_error([&] { prepare("h.msh"); }, {"c.toml:2: "});
+  expect_input_error([&] { prepare("none.msh"); }, {"none.msh"});
+}
+
+TEST_F(Cases, NamesHaveSizes) {
+  const std::string model =
+      "loop = [{ rectangle = [[0, 0], [1, 1]], boundary = [\"bottom\", \"\", \"top\", \"\"] },\n"
+      "        { circle = { centre = [0.5, 0.5], radius = 0.2 }, region = \"core\" }]\n"
+      "embed = { point = [0.9, 0.9], name = \"sensor\" }\n[size]\nbase = 0.2\n";
+  const PreparedProblem p = prepare_case(
+      read(model +
+           "on = [{ name = \"bottom\", size = 0.05 }, { name = \"core\", size = 0.04, growth = 0.5 },\n"
+           "      { name = \"sensor\", size = 0.03, reach = 0.05 }]\n"));
+  EXPECT_DOUBLE_EQ(size_at(p, 0.1, 0), 0.05);
+  EXPECT_NEAR(size_at(p, 0.1, 0.1), 0.05 + 0.3 * 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0.45, 0.55), 0.04);
+  EXPECT_NEAR(size_at(p, 0.5, 0.65), 0.04, 1e-12);
+  EXPECT_NEAR(size_at(p, 0.2, 0.5), 0.04 + 0.5 * 0.1, 1e-4);  // the core has chords
+  EXPECT_NEAR(size_at(p, 0.9, 0.86), 0.03, 1e-12);
+  EXPECT_NEAR(size_at(p, 0.9, 0.75), 0.03 + 0.3 * 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0, 0.98), 0.2);
+  const PreparedProblem by_number = prepare_case(read(model + "on = { name = \"curve_2\", size = 0.05 }\n"));
+  EXPECT_DOUBLE_EQ(size_at(by_number, 1, 0.5), 0.05);
+
+  const auto prepare = [&](const std::string& on) { prepare_case(read(model + "on = " + on + "\n")); };
+  expect_input_error([&] { prepare("{ name = \"botom\", size = 0.1 }"); },
+                     {"c.toml:6: nothing is called 'botom'; did you mean 'bottom'?"});
+  expect_input_error([&] { prepare("{ name = \"elsewhere\", size = 0.1 }"); }, {"there are", "'core'"});
+  expect_input_error([&] { prepare("{ name = \"core\" }"); }, {"expected 'size' or 'curvature'"});
+  expect_input_error([&] { prepare("{ name = \"core\", curvature = 24 }"); }, {"planar"});
+  expect_input_error([&] { prepare("{ name = \"core\", size = 0 }"); }, {"c.toml:6"});
+}
+
+TEST_F(Cases, CurvesAreDivided) {
+  const std::string model =
+      "loop = { rectangle = [[0, 0], [2, 1]], boundary = [\"bottom\", \"right\", \"top\", \"left\"] }\nsize "
+      "= 0.1\n";
+  const PreparedProblem p =
+      prepare_case(read(model + "divide = [{ name = \"bottom\", edges = 8, progression = 1.5 },\n"
+                                "          { name = \"top\", edges = 30, bump = 0.25 }]\n"));
+  std::vector<double> bottom, top;
+  for (const Vec3& x : p.boundary.points) {
+    if (x.y == 0) bottom.push_back(x.x);
+    if (x.y == 1) top.push_back(x.x);
+  }
+  std::ranges::sort(bottom);
+  std::ranges::sort(top);
+  ASSERT_EQ(bottom.size(), 9u);
+  for (std::size_t k = 2; k < bottom.size(); ++k)
+    EXPECT_NEAR((bottom[k] - bottom[k - 1]) / (bottom[k - 1] - bottom[k - 2]), 1.5, 1e-9);
+  ASSERT_EQ(top.size(), 31u);
+  EXPECT_NEAR((top[1] - top[0]) / (top[16] - top[15]), 0.25, 0.02);  // no edge is in the middle
+  EXPECT_NEAR(top[1] - top[0], top[30] - top[29], 1e-12);
+  // Sizes near the curve are those of its edges, smaller or larger.
+  const PreparedProblem one =
+      prepare_case(read(model + "divide = { name = \"bottom\", edges = 8, progression = 1.5 }\n"));
+  EXPECT_GT(size_at(one, 1.9, 0), 0.8 * (bottom[8] - bottom[7]));
+  EXPECT_NEAR(size_at(one, 0, 0), bottom[1] - bottom[0], 1e-9);
+  EXPECT_EQ(size_at(one, 1, 0.9), 0.1);
+
+  const auto prepare = [&](const std::string& divide) {
+    prepare_case(read(model + "divide = " + divide + "\n"));
+  };
+  expect_input_error([&] { prepare("{ name = \"botom\", edges = 8 }"); },
+                     {"c.toml:3: no curve is called 'botom'; did you mean 'bottom'?"});
+  expect_input_error([&] { prepare("{ name = \"top\", edges = 0 }"); }, {"c.toml:3", "'edges' is 0"});
+  expect_input_error([&] { prepare("{ name = \"top\", bump = 0.2 }"); },
+                     {"c.toml:3: 'divide.edges' is missing"});
+  expect_input_error([&] { prepare("{ name = \"top\", edges = 8, bump = 0 }"); }, {"c.toml:3", "bump"});
+  expect_input_error([&] { prepare("[{ name = \"top\", edges = 8 }, { name = \"top\", edges = 8 }]"); },
+                     {"divided twice"});
+  expect_input_error(
+      [&] {
+        prepare(
+            "[{ name = \"top\", edges = 8 }, { name = \"bottom\", edges = 7 }, { name = \"left\", edges = 4 "
+            "},"
+            " { name = \"right\", edges = 4 }]");
+      },
+      {"'domain' with an odd number", "'bottom'", "'right'"});
+}
+
+TEST_F(Cases, FlagsForGridsAndSymmetryAreToldOfAuto) {
+  for (const char* key : {"mapped", "symmetry"})
+    expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\n" + key + " = true\n")); },
+                       {"c.toml:3", key, "\"auto\""});
+}
+
+TEST_F(Cases, GridsWithCorners) {
+  const std::string model =
+      "loop = [{ polygon = [[0, 0], [1, -0.2], [2, 0], [2, 1], [0, 1]], region = \"house\" },\n"
+      "        { rectangle = [[3, 0], [4, 1]], region = \"hall\" }]\n"
+      "embed = { point = [2, 1], name = \"tip\" }\nsize = 0.2\n";
+  const auto grids = [&](const std::string& mapped) {
+    int n = 0;
+    for (const PreparedPatch& patch : prepare_case(read(model + "mapped = " + mapped + "\n")).patches)
+      n += patch.grid.has_value();
+    return n;
+  };
+  const std::string house = "{ name = \"house\", corners = [[0, 0], [2, 0], \"tip\", [0, 1]] }";
+  EXPECT_EQ(grids(house), 1);
+  EXPECT_EQ(grids("[\"hall\", " + house + "]"), 2);
+  EXPECT_EQ(grids("\"auto\""), 2);
+  const auto refused = [&](const std::string& mapped, std::initializer_list<const char*> says) {
+    expect_input_error([&] { grids(mapped); }, says);
+  };
+  refused("[1, 2]", {"c.toml:5", "a text in quotes, a table, or a list of these"});
+  refused("{ name = \"house\" }", {"c.toml:5", "'mapped.corners'"});
+  refused("{ name = \"house\", corners = [[0, 0], 1, 2] }",
+          {"c.toml:5", "a list of texts in quotes or points"});
+  refused("{ name = \"house\", corner = [[0, 0]] }", {"c.toml:5", "corner"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0]] }", {"c.toml:5", "2 corner(s): expected 3 or 4"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0], \"top\"] }",
+          {"c.toml:5", "no point is called 'top'"});
+  refused("{ name = \"house\", corners = [[0, 0], [2, 0], [1, 1]] }",
+          {"c.toml:5", "(1, 1) is no node of the outline of 'house'", "the nearest is"});
+}
+
+TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
+  // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
+  const PreparedProblem p =
+      prepare_case(read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0]] },\n"
+                        "         { name = \"rest\", polyline = [[2, 0], [2, 1], [0, 1], [0, 0]] }]\n"
+                        "loop = { curves = [\"wall\", \"rest\"] }\n"
+                        "embed = { segment = [[1.5, 0.1], [1.5, 1]], name = \"stiffener\" }\nsize = 0.1\n"
+                        "divide = [{ name = \"wall\", edges = 11 }, { name = \"stiffener\", edges = 5 }]\n"));
+  std::vector<int> edges(p.boundary.curves.size(), 0);
+  for (const int c : p.boundary.line_curve) ++edges[c];
+  EXPECT_EQ(edges[0], 11);
+  EXPECT_EQ(edges[2], 5);
+  expect_input_error(
+      [&] {
+        prepare_case(
+            read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0], [0, 1]] },\n"
+                 "         { name = \"rest\", segment = [[0, 1], [0, 0]] }]\n"
+                 "loop = { curves = [\"wall\", \"rest\"] }\nsize = 0.1\n"
+                 "divide = { name = \"wall\", edges = 2 }\n"));
+      },
+      {"3 pieces: expected at least 3"});
+}
+
+TEST_F(Cases, SourcesAndGradationShapeTheSize) {
+  const PreparedProblem p = prepare_case(
+      read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "
+                     "0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.05), 0.05);
+  EXPECT_NEAR(size_at(p, 0.5, 0.25), 0.125, 1e-12);
+  EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.9), 0.2);
+
+  const std::string step = square_ + "[size]\nbase = \"x < 0.5 ? 0.02 : 0.2\"\n";
+  EXPECT_DOUBLE_EQ(size_at(prepare_case(read(step)), 0.6, 0.5), 0.2);
+  EXPECT_LT(size_at(prepare_case(read(step + "gradation = 0.2\n")), 0.6, 0.5), 0.07);
+}
+
+TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
+  const PreparedProblem disk =
+      prepare_case(read("loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.1\n"));
+  ASSERT_TRUE(disk.crosses.index_sum_and_expected);
+  EXPECT_EQ(disk.crosses.index_sum_and_expected->first, 4);
+  EXPECT_EQ(disk.crosses.index_sum_and_expected->second, 4);
+  EXPECT_EQ(disk.crosses.singularities.size(), 4u);
+  EXPECT_TRUE(disk.warnings.empty());
+}
+
+TEST_F(Cases, AnalyticCrosses) {
+  int hint = -1;
+  const PreparedProblem angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
+  EXPECT_NEAR(angle.patches[0].cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
+  const PreparedProblem gradient =
+      prepare_case(read(square_ + "size = \"0.1 + 0.01*x + 0.02*y\"\ncross = \"gradient\"\n"));
+  hint = -1;
+  EXPECT_NEAR(gradient.patches[0].cross->at({0.5, 0.5}, hint).angle(),
+              std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
+  expect_input_error([&] { prepare_case(read(square_ + "size = 0.1\ncross = \"atan(x\"\n")); },
+                     {"c.toml:3", "atan(x"});
+}
+
+TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
+  const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
+  const Case c = read(lewis + "size = \"0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n");
+  const PreparedProblem p = prepare_case(c);
+  ASSERT_TRUE(p.crosses.dislocations);
+  EXPECT_LT(p.crosses.dislocations->second, 0.6 * p.crosses.dislocations->first);
+  EXPECT_EQ(p.crosses.index_sum_and_expected, std::pair(4, 4));
+  EXPECT_GT(p.crosses.singularities.size(), 4u);
+  for (const char* word : {"DB", "PB"}) {
+    Case aligned = c;
+    aligned.cross.text = "boundary";
+    const auto before = run_word(prepare_case(aligned), parse_word(word)).metrics.values;
+    const auto after = run_word(p, parse_word(word)).metrics.values;
+    for (const char* metric : {"eta_mean", "d4", "tau"})
+      EXPECT_GT(after.at(metric), before.at(metric)) << word;
+  }
+}
+
+TEST_F(Cases, RowsEndWhereCirclesDiffer) {
+  const std::string ring =
+      "loop = [{ circle = { centre = [0, 0], radius = 1 } }, { circle = { centre = [0, 0], radius = 0.4 } "
+      "}]\n";
+  // The circles' difference, and what the absolute value makes of the background mesh's noise.
+  const double ends = expected_row_ends(prepare_case(read(ring + "size = 0.025\n")));
+  EXPECT_NEAR(ends, 2 * std::numbers::pi * 0.6 / 0.025, 30);
+  EXPECT_NEAR(expected_row_ends(prepare_case(read(square_ + "size = 0.025\n"))), 0, 1e-6);
+  const PreparedProblem aware = prepare_case(read(ring + "size = 0.025\ncross = \"size-aware\"\n"));
+  EXPECT_EQ(expected_row_ends(aware), ends);
+}
+
+// The finer the mesh, the more rows end; the size-aware field keeps its part of them.
+TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
+  const auto dislocations = [&](const std::string& factor) {
+    return *prepare_case(read("loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\nsize = \"" + factor +
+                              "*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n"))
+                .crosses.dislocations;
+  };
+  const auto coarse = dislocations("0.01"), fine = dislocations("0.0025");
+  EXPECT_NEAR(fine.first, 4 * coarse.first, 0.05 * fine.first);
+  EXPECT_NEAR(fine.second, 4 * coarse.second, 0.1 * fine.second);
+}
+
+TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
+  // Two patches: a square and the square inside it.
+  const std::string text =
+      square_ +
+      "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = \"in\", "
+      "count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
+  const PreparedProblem aligned = prepare_case(read(text)),
+                        aware = prepare_case(read(text + "cross = \"size-aware\"\n"));
+  ASSERT_EQ(aware.patches.size(), 2u);
+  EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
+  EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
+  int hint = -1, other = -1;
+  for (std::size_t i = 0; i < aware.patches.size(); ++i) {
+    for (const Vec2 u : aware.patches[i].boundary.points) {
+      const Cross a = aligned.patches[i].cross->at(u, hint), b = aware.patches[i].cross->at(u, other);
+      EXPECT_EQ(a.c, b.c);
+      EXPECT_EQ(a.s, b.s);
+    }
+  }
+}
+
+TEST_F(Cases, OptionsReachTheStages) {
+  const Case c = read(square_ +
+                      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, lower_clamp = true "
+                      "}\nrecombination = { treatment = \"none\" }\n");
+  const InsertionOptions insertion = insertion_options(c.options);
+  EXPECT_EQ(insertion.frontal.h_max, 1.2);
+  EXPECT_EQ(insertion.frontal.rejection, 0.6);
+  EXPECT_TRUE(insertion.linf.lower_clamp);
+  EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
+  const RunResult result = run_word(prepare_case(c), parse_word("FB"));
+  EXPECT_TRUE(result.log.summaries.has("recombination"));
+  EXPECT_FALSE(result.log.summaries.has("treatment"));
+}
+
+TEST_F(Cases, CleanupOptionsReachTheStage) {
+  const std::string text = square_ + "size = 0.1\ncleanup = { rounds = 2, tolerance = 0.01, seed = 7 }\n";
+  const Case c = read(text);
+  EXPECT_EQ(cleanup_options(c.options).rounds, 2);
+  EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
+  EXPECT_EQ(cleanup_options(c.options).seed, 7);
+  const RunResult result = run_word(prepare_case(c), parse_word("FBC"));
+  const Summaries& done = result.log.summaries;
+  ASSERT_TRUE(done.has("cleanup"));
+  EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { rounds = -1 }\n"); }, {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { tolerance = 2 }\n"); },
+                     {"c.toml:3", "'cleanup.tolerance' is 2", "at most 1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\ncleanup = { sead = 2 }\n"); }, {"c.toml:3", "'seed'"});
+}
+
+TEST_F(Cases, OptimisationOptionsReachTheStage) {
+  const Case c = read(
+      square_ + "size = 0.1\noptimisation = { passes = 1, iterations = 3, size = 0, alignment = 0.5 }\n");
+  EXPECT_EQ(optimisation_options(c.options).passes, 1);
+  EXPECT_EQ(optimisation_options(c.options).iterations, 3);
+  EXPECT_EQ(optimisation_options(c.options).size, 0);
+  EXPECT_EQ(optimisation_options(c.options).alignment, 0.5);
+  const RunResult result = run_word(prepare_case(c), parse_word("FBO"));
+  const Summaries& done = result.log.summaries;
+  ASSERT_TRUE(done.has("optimisation"));
+  EXPECT_GT(done.number("optimisation", "iterations"), 0);
+  EXPECT_LT(done.number("optimisation", "energy_after"), done.number("optimisation", "energy_before"));
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { size = -1 }\n"); },
+                     {"c.toml:3", "-1"});
+  expect_input_error([&] { read(square_ + "size = 0.1\noptimisation = { iterations = 0 }\n"); },
+                     {"c.toml:3", "'optimisation.iterations' is 0"});
+}
+
+TEST_F(Cases, MistakesAreLocated) {
+  expect_input_error([&] { read(square_ + "size = { base = 1, sources = [] }"); }, {"c.toml:2", "'source'"});
+  expect_input_error(
+      [&] {
+        read(square_ +
+             "[size]\nsource = { at = [0, 0], near = 1, far = 2, radius_near = 3, "
+             "radius_far = 2 }");
+      },
+      {"c.toml:3", "larger than 'radius_near'"});
+  expect_input_error([&] { read(square_ + "size = [1]"); }, {"c.toml:2", "number or an expression"});
+  expect_input_error([&] { read(square_ + "mesh = \"a.msh\""); }, {"c.toml:2", "exclude"});
+  expect_input_error([&] { read("mesh = \"a.vtu\""); }, {"c.toml:1", "not a .msh file"});
+  expect_input_error([&] { read("model = \"c.toml\""); }, {"c.toml:1", "another"});
+  expect_input_error([&] { prepare_case(read(square_)); }, {"c.toml", "expected a size"});
+}
+
+TEST_F(Cases, HopelessSizesAreRefusedEarly) {
+  Case c = read(square_ +
+                "pattern = { circle = { centre = [0.1, 0.1], radius = 0.001 }, count = [5, 5], step = [0.2, "
+                "0.2] }\nsize = 1e-6\n");
+  expect_input_error([&] { prepare_case(c); }, {"c.toml:3", "1e+12 quads", "50000000"});
+  c = read(square_ + "size = 0.1\n");
+  c.max_elements = 99;
+  expect_input_error([&] { prepare_case(c); }, {"about 100 quads", "99"});
+}
+
+TEST_F(Cases, MostPointsFollowMostElements) {
+  PreparedProblem p = prepare_case(read(square_ + "size = 0.1\n"));
+  p.settings.max_elements = 20;  // far less than what was checked
+  expect_input_error([&] { run_word(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
+}
+
+TEST_F(Cases, PatchesShareTheirInterface) {
+  const Case c = read(
+      "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"
+      "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = \"inside\"\n");
+  for (const char* word : {"F", "D", "FB", "DB"}) {
+    const RunResult result = run_word(prepare_case(c), parse_word(word));
+    EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{}) << word;
+    EXPECT_EQ(result.mesh.regions.size(), 2u);
+  }
+}
+
+}  // namespace
+}  // namespace delquad

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "delquad/extend.h"
+#include "delquad/mesher.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/triangulated_shapes.h"
+
+namespace delquad {
+namespace {
+
+MeshProblem plate() {
+  MeshProblem problem;
+  problem.name = "plate";
+  problem.model = polygons({{{0, 0}, {3, 0}, {3, 2}, {0, 2}}, {{1, 0.5}, {2, 0.5}, {1.5, 1.5}}});
+  problem.size.text = "0.1 + 0.05*x";
+  return problem;
+}
+
+void expect_same(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.quads, b.quads);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(Door, AllWaysLeadToTheSameMesh) {
+  const MeshResult whole = mesh(plate(), "DBCO");
+  const Prepared prepared = prepare(plate());
+  const MeshResult result = mesh(prepared, "DBCO");
+  expect_same(whole.mesh, result.mesh);
+  Meshing meshing(prepared);
+  for (const Stage* stage : parse_word("DBCO").stages) {
+    meshing.run(*stage);
+    EXPECT_EQ(meshing.mesh().quads.empty(), stage->letter == 'D') << stage->letter;
+  }
+  const MeshResult last = meshing.finish();
+  expect_same(whole.mesh, last.mesh);
+  EXPECT_EQ(whole.metrics.values.at("eta_mean"), prepared.metrics(last.mesh).values.at("eta_mean"));
+  EXPECT_NEAR(static_cast<double>(last.mesh.quads.size()), last.prepared->size.expected_quads,
+              0.1 * last.prepared->size.expected_quads);
+  // Once each, those of the preparation first.
+  EXPECT_EQ(last.log.times.front().first, "read");
+  for (const char* step : {"read", "fields", "insertion", "metrics"})
+    EXPECT_EQ(std::ranges::count(last.log.times, step, &StepTimes::value_type::first), 1) << step;
+}
+
+TEST(Door, WhatNobodySaysIsGood) {
+  const Quality& good = quality_named("good");
+  MeshProblem said = plate();
+  said.cross.kind = good.cross;
+  expect_same(mesh(plate()).mesh, mesh(said, good.word).mesh);
+  // Directions that are said count more than the quality.
+  said.cross.kind = CrossKind::kBoundary;
+  expect_same(mesh(said, "good").mesh, mesh(plate(), good.word).mesh);
+  expect_input_error([] { mesh(plate(), "god"); }, {"unknown letter"});
+}
+
+TEST(Door, TextsMeanWhatTheirFieldsMean) {
+  MeshProblem by_field = plate();
+  by_field.size = {.field = make_expression_size("0.1 + 0.05*x")};
+  expect_same(mesh(plate(), "DB").mesh, mesh(by_field, "DB").mesh);
+  MeshProblem turned = plate(), by_angle = plate();
+  turned.cross.text = "0.3";
+  by_angle.cross = {.kind = CrossKind::kField, .field = make_expression_cross("0.3")};
+  expect_same(mesh(turned, "DB").mesh, mesh(by_angle, "DB").mesh);
+  turned.cross.text = "size-awere";
+  expect_input_error([&] { prepare(turned); }, {"cross", "size-aware"});
+  turned.cross.text = "boundary", turned.size.text = "0.1 +";
+  expect_input_error([&] { prepare(turned); }, {"size"});
+}
+
+TEST(Door, FilesAreReadWhenTheyAreMeshed) {
+  const testing_support::TemporaryFolder folder;
+  const auto file = folder / "box.msh";
+  MeshProblem by_file, by_mesh;
+  by_file.model = ModelFile{file};
+  by_file.size.text = by_mesh.size.text = "0.25";
+  expect_input_error([&] { prepare(by_file); }, {"box.msh"});
+  by_mesh.model = TriangleModel{testing_support::box(1)};
+  write_mesh(file, std::get<TriangleModel>(by_mesh.model).mesh);
+  const Prepared prepared = prepare(by_file);
+  EXPECT_TRUE(prepared.is_surface());
+  EXPECT_EQ(prepared.fine().triangles.size(), std::get<TriangleModel>(by_mesh.model).mesh.triangles.size());
+  expect_same(mesh(prepared, "DB").mesh, mesh(by_mesh, "DB").mesh);
+  EXPECT_EQ(model_info(by_file).report.faces.size(), 6u);
+  // Words may begin from the elements of a given mesh.
+  expect_input_error([&] { mesh(by_file, "B"); }, {"starts from"});
+}
+
+TEST(Door, HasAVersion) { EXPECT_EQ(std::ranges::count(std::string(version()), '.'), 2); }
+
+}  // namespace
+}  // namespace delquad

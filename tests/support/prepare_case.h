@@ -1,0 +1,13 @@
+#pragma once
+
+#include "io/cases/read_problem.h"
+#include "mesher/prepare.h"
+
+namespace delquad {
+
+/// All that is prepared of a problem, the files of which are read first.
+inline PreparedProblem prepare_case(const MeshProblem& problem) {
+  return prepare_problem(read_files(problem));
+}
+
+}  // namespace delquad
