@@ -19,4 +19,8 @@ function(delquad_room)
   string(REPLACE "/" "_" links "${ARG_LINKS}")
   list(TRANSFORM links PREPEND delquad::)
   target_link_libraries(delquad_${name} PUBLIC ${links} PRIVATE delquad_flags ${ARG_PRIVATE})
+  if(TARGET delquad_bench)  # which stands on the shared library, not on copies of its rooms
+    target_sources(delquad_bench PRIVATE $<TARGET_OBJECTS:delquad_${name}>)
+    target_link_libraries(delquad_bench PRIVATE ${ARG_PRIVATE})
+  endif()
 endfunction()

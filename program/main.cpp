@@ -1,3 +1,3 @@
-#include "delquad/extend.h"
+#include "delquad/bench.h"
 
 int main(int argc, char** argv) { return delquad::run_program(argc, argv); }

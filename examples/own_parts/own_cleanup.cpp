@@ -1,4 +1,5 @@
 // X: closes quads between two inner points of three quads each, which become one point of four.
+#include <delquad/bench.h>
 #include <delquad/extend.h>
 
 #include <algorithm>

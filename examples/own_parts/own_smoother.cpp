@@ -1,4 +1,5 @@
 // S: every inner point goes part of the way to the mean of its neighbours, as long as no triangle gets flat.
+#include <delquad/bench.h>
 #include <delquad/extend.h>
 
 namespace {

@@ -1,4 +1,5 @@
 // coarse: matches by costs of which only a few levels are told apart, to see what the resolution is worth.
+#include <delquad/bench.h>
 #include <delquad/extend.h>
 #include <delquad/matching.h>
 

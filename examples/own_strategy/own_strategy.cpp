@@ -1,5 +1,6 @@
 // M: new points at the tip of an equilateral triangle, as F does, but measured by the larger of the two
 // norms.
+#include <delquad/bench.h>
 #include <delquad/extend.h>
 
 #include <algorithm>

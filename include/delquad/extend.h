@@ -157,8 +157,4 @@ WordStart word_start(const Model& model);
 /// not follow each other. `start`: with a given mesh a word may begin with any letter.
 Word parse_word(const std::string& text, WordStart start = WordStart::kBoundary);
 
-/// The `delquad` program with what was added: what its arguments ask for. Returns its exit code; errors are
-/// printed.
-int run_program(int argc, char** argv);
-
 }  // namespace delquad
