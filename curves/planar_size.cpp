@@ -11,7 +11,7 @@
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/planar_symmetry.h"
-#include "features/symmetry/symmetric_size.h"
+#include "features/symmetry/symmetry_planes.h"
 #include "fields/fields.h"
 
 namespace delquad {

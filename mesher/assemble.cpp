@@ -8,7 +8,7 @@
 #include "features/curved/curved_mesh.h"
 #include "features/layers/planar_layers.h"
 #include "features/periodic/periodic.h"
-#include "features/symmetry/mirror_mesh.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"

@@ -9,7 +9,7 @@
 #include "base/activity.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
-#include "features/symmetry/mirror_mesh.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "mesher/check_problem.h"
 #include "mesher/finish_steps.h"
 #include "mesher/model_steps.h"

@@ -15,7 +15,7 @@
 #include "features/crosses/size_aware.h"
 #include "features/embedded/imprint.h"
 #include "features/given/given_domain.h"
-#include "features/given/kept_curves.h"
+#include "features/given/given_surface.h"
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"

@@ -13,7 +13,7 @@
 #include "features/given/given_domain.h"
 #include "features/grids/mapped_grid.h"
 #include "features/layers/add_layers.h"
-#include "features/symmetry/patch_image.h"
+#include "features/symmetry/planar_symmetry.h"
 #include "mesher/finish_steps.h"
 #include "mesher/runner.h"
 

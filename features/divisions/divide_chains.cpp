@@ -4,7 +4,6 @@
 #include <map>
 
 #include "delquad/error.h"
-#include "features/divisions/division_places.h"
 #include "features/divisions/divisions.h"
 #include "geometry/mesh/entity_names.h"
 

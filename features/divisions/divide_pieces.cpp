@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "delquad/error.h"
-#include "features/divisions/division_places.h"
 #include "features/divisions/divisions.h"
 #include "geometry/mesh/entity_names.h"
 

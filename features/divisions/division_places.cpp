@@ -1,4 +1,4 @@
-#include "features/divisions/division_places.h"
+#include "features/divisions/divisions.h"
 
 #include <fmt/format.h>
 

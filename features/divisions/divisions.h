@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "delquad/model.h"
 #include "geometry/planar/curve_pieces.h"
 #include "patches/surface_curves.h"
 #include "patches/surface_domain.h"
@@ -39,5 +41,12 @@ std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> siz
                                             const std::vector<CurveDivision>& divisions);
 std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const SurfaceModel& model,
                                             const std::vector<CurveDivision>& divisions);
+
+/// The nodes of a curve that is cut into pieces of these lengths: of each piece the lengths from its
+/// beginning to its nodes, ascending, both ends included. Ends of pieces are nodes already, and count as the
+/// nearest of the wanted ones. Throws InputError for fewer edges than pieces; `label` is the curve's.
+std::vector<std::vector<double>> division_places(const CurveDivision& division,
+                                                 const std::vector<double>& lengths,
+                                                 const std::string& label);
 
 }  // namespace delquad

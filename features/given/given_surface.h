@@ -34,4 +34,9 @@ GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 /// What a patch holds, its boundary's points first; `inside` receives the places of the others.
 QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside);
 
+/// The domain of a model whose curves are kept point by point: all their points are nodes, and no stage moves
+/// those that are on no cut. The k-th point of a patch's boundary is the vertex of its map from which the
+/// k-th side of its outline begins. Warnings name the patches with an odd boundary.
+SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size);
+
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "features/given/kept_curves.h"
+#include "features/given/given_surface.h"
 
 #include <utility>
 

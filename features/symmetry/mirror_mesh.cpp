@@ -1,5 +1,5 @@
-#include "features/symmetry/mirror_mesh.h"
 #include "base/segment.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/keep_elements.h"
 
 #include <fmt/format.h>

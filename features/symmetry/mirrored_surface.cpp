@@ -10,8 +10,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirror_match.h"
-#include "features/symmetry/mirror_mesh.h"
-#include "features/symmetry/symmetric_size.h"
+#include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"
 

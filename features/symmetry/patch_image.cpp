@@ -1,4 +1,4 @@
-#include "features/symmetry/patch_image.h"
+#include "features/symmetry/planar_symmetry.h"
 
 #include <algorithm>
 #include <utility>

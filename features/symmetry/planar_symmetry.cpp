@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/divisions/division_places.h"
+#include "features/divisions/divisions.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/loops_apart.h"
 

@@ -1,4 +1,4 @@
-#include "features/symmetry/symmetric_size.h"
+#include "features/symmetry/symmetry_planes.h"
 
 #include <algorithm>
 #include <utility>

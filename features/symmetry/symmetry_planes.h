@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "delquad/model.h"
 
 namespace delquad {
@@ -38,5 +40,14 @@ class SymmetryPlanes {
 /// The planes that are given. Throws InputError, beginning with `where`, for more than three and for those
 /// that are not perpendicular.
 SymmetryPlanes given_planes(const std::vector<SymmetryPlane>& planes, const std::string& where);
+
+/// At each place the least of the sizes there and at its mirror images. Images whose size is the same to
+/// rounding change nothing.
+std::shared_ptr<const SizeField> least_of_images(std::shared_ptr<const SizeField> size,
+                                                 const SymmetryPlanes& planes);
+
+/// The size on the positive sides, and its mirror image.
+std::shared_ptr<const SizeField> folded_size(std::shared_ptr<const SizeField> size,
+                                             const SymmetryPlanes& planes);
 
 }  // namespace delquad

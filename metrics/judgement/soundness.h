@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "delquad/mesher.h"
-#include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
 #include "patches/prepared.h"
