@@ -3,9 +3,9 @@
 #include <cmath>
 #include <memory>
 
-#include "curves/mesh_planar_curves.h"
 #include "delquad/fields.h"
 #include "delquad/model.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/planar_model.h"
 
 /// The domains that the microbenchmarks share.

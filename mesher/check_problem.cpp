@@ -10,7 +10,7 @@
 
 #include "base/length_unit.h"
 #include "base/located.h"
-#include "curves/compose_size.h"
+#include "features/curves/compose_size.h"
 #include "features/given/given_surface.h"
 #include "features/layers/layer_heights.h"
 #include "fields/fields.h"

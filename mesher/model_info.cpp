@@ -4,8 +4,8 @@
 
 #include "base/activity.h"
 #include "base/box.h"
-#include "curves/mesh_planar_curves.h"
 #include "delquad/mesher.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "features/given/given_domain.h"
 #include "features/given/given_surface.h"
 #include "features/given/named_domain.h"

@@ -3,9 +3,9 @@
 #include <utility>
 #include <variant>
 
-#include "curves/compose_size.h"
 #include "delquad/error.h"
 #include "features/crosses/size_aware.h"
+#include "features/curves/compose_size.h"
 #include "features/given/given_domain.h"
 #include "features/given/named_domain.h"
 #include "features/grids/grids.h"

@@ -10,9 +10,9 @@
 #include "base/budget.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "mesher/finish_steps.h"
 #include "metrics/judgement/soundness.h"
-#include "features/symmetry/mirrored_surface.h"
 
 namespace delquad {
 namespace {

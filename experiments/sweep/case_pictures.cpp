@@ -78,7 +78,8 @@ void refine(std::vector<Vec2>& points, std::vector<std::array<int, 3>>& triangle
 void draw_case(const Prepared& prepared, const std::string& name, const std::filesystem::path& folder) {
   if (prepared.is_surface()) return;  // fields of surfaces live in the parameter planes of their patches
   std::vector<SingularityMark> marks;
-  for (const PlacedSingularity& s : prepared->crosses.singularities) marks.push_back({{s.at.x, s.at.y}, s.index});
+  for (const PlacedSingularity& s : prepared->crosses.singularities)
+    marks.push_back({{s.at.x, s.at.y}, s.index});
   draw_crosses(folder / "cross.svg", prepared->boundary, sample_crosses(prepared), marks,
                name + ": cross field");
   TriPatch tri = *prepared.background();

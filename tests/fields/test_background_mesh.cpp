@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/predicates.h"
-#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/planar/planar_model.h"
 #include "tests/fields/backgrounds.h"

@@ -10,7 +10,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
-#include "curves/mesh_surface_curves.h"
+#include "features/curves/mesh_surface_curves.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "metrics/metrics.h"

@@ -9,7 +9,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/context.h"
 #include "base/predicates.h"
-#include "curves/mesh_surface_curves.h"
+#include "features/curves/mesh_surface_curves.h"
 #include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "patches/surface_domain.h"

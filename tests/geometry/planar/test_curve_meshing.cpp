@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "curves/mesh_planar_curves.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"
 

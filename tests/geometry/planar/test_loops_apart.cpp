@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "curves/mesh_planar_curves.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <set>
 
-#include "curves/mesh_planar_curves.h"
 #include "delquad/fields.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"
 

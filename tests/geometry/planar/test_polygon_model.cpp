@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/sampled_curve.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "curves/mesh_planar_curves.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/planar_model.h"
 #include "tests/geometry/planar/models.h"
 #include "tests/support/expect_input_error.h"

@@ -1,4 +1,4 @@
-#include "curves/mesh_surface_curves.h"
+#include "features/curves/mesh_surface_curves.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/activity.h"
-#include "curves/patch_boundaries.h"
 #include "delquad/error.h"
+#include "features/curves/patch_boundaries.h"
 #include "features/divisions/divisions.h"
 #include "features/periodic/periodic.h"
 #include "patches/corner_caps.h"

@@ -2,9 +2,9 @@
 #include <optional>
 #include <utility>
 
-#include "curves/compose_size.h"
-#include "curves/mesh_planar_curves.h"
 #include "delquad/error.h"
+#include "features/curves/compose_size.h"
+#include "features/curves/mesh_planar_curves.h"
 #include "features/divisions/divisions.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/fine_spots.h"

@@ -1,4 +1,4 @@
-#include "curves/patch_boundaries.h"
+#include "features/curves/patch_boundaries.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <utility>
 
-#include "curves/compose_size.h"
+#include "features/curves/compose_size.h"
 #include "features/divisions/divisions.h"
 #include "features/sizes/named_parts.h"
 

@@ -1,4 +1,4 @@
-#include "curves/compose_size.h"
+#include "features/curves/compose_size.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "curves/mesh_planar_curves.h"
+#include "features/curves/mesh_planar_curves.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
-#include "curves/even_pieces.h"
 #include "delquad/error.h"
+#include "features/curves/even_pieces.h"
 #include "features/divisions/divisions.h"
 #include "features/embedded/embedded_pieces.h"
 #include "features/grids/grids.h"

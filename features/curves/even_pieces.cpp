@@ -1,4 +1,4 @@
-#include "curves/even_pieces.h"
+#include "features/curves/even_pieces.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
