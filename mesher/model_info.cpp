@@ -82,7 +82,10 @@ ModelInfo model_info(MeshProblem problem, double size) {
   SurfaceModel model = load(read_files(std::move(problem)));
   ModelReport report = report_model(model);
   if (size > 0) warn_of_large_size(*make_constant_size(size), model.fine, model.warnings);
-  return {std::move(model.source), std::move(model.fine), std::move(model.warnings), std::move(report)};
+  ModelInfo info{
+      std::move(model.source), std::move(model.fine), std::move(model.warnings), std::move(report), {}};
+  for (const LeftOutFace& part : model.left_out) info.left_out.push_back(part.reason);
+  return info;
 }
 
 }  // namespace delquad

@@ -130,7 +130,7 @@ int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
   Case c = read_model_case(arguments.model);
   set_surface(arguments, c);
-  if (size > 0) c.size.base = *arguments.size;
+  if (size > 0) c.size.text = *arguments.size;
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}, {"-o", arguments.output}});
   if (!arguments.json.empty()) check_output(arguments.json);
   if (!arguments.output.empty()) {
@@ -144,9 +144,8 @@ int info_command(const InfoArguments& arguments) {
   print_overview(info);
   print_parts(info);
   print_difficulties(info, size);
-  for (const LeftOutFace& part : info.model.left_out)
-    fmt::print(stderr, "error: left out: {}\n", part.reason);
-  return info.model.left_out.empty() ? kDone : kFacesLeftOut;
+  for (const std::string& reason : info.left_out) fmt::print(stderr, "error: left out: {}\n", reason);
+  return info.left_out.empty() ? kDone : kFacesLeftOut;
 }
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 
 #include "build_info.h"
 #include "delquad/error.h"
+#include "delquad/mesher.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/scratch_folder.h"
 #include "geometry/cad/cad_reader.h"

@@ -205,6 +205,7 @@ struct ModelInfo {
   Mesh fine;  ///< a triangulation of all of it
   std::vector<Warning> warnings;
   ModelReport report;
+  std::vector<std::string> left_out;  ///< why parts are missing; empty unless problem.keep_going
 };
 
 /// How far a flat chart is from a conformal one and from an isometry, weighted by area on the surface.
