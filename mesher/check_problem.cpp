@@ -12,7 +12,6 @@
 #include "base/located.h"
 #include "features/curves/compose_size.h"
 #include "features/given/given_surface.h"
-#include "features/layers/layer_heights.h"
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/surface/triangulated_model.h"

@@ -50,7 +50,7 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
   python.run([&](std::stop_token cancel) {
     context.cancel = std::move(cancel);
     result->rest = delquad::mesh(std::move(problem), word, context);
-    result->size.expected_quads = result->rest.prepared->size.expected_quads;
+    result->expected_quads = result->rest.prepared->size.expected_quads;
     result->rest.prepared = {};
     static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
   });
