@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fields/fields.h"
+#include "mesher/finish_steps.h"
 #include "mesher/prepare_surface.h"
 #include "mesher/runner.h"
 #include "tests/support/shapes.h"
@@ -50,6 +51,35 @@ TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
   EXPECT_GT(mended, 0);
+}
+
+TEST(LiftBadQuads, SaysWhatItWasWorth) {
+  using Pairs = std::vector<std::vector<double>>;
+  MeshProblem c;
+  c.name = c.where = "ball";
+  const PreparedProblem prepared =
+      prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4), [](double) {});
+  const RunResult run = run_word(prepared, parse_word("DB"));
+  const Summaries& done = run.log.summaries;
+  ASSERT_GT(done.number("lift_bad_quads", "moved"), 0);
+  const auto& lifted = done.get<Pairs>("lift_bad_quads", "eta_mean");
+  ASSERT_EQ(lifted.size(), 1u);
+  // Nothing comes after it.
+  EXPECT_EQ(lifted[0][1], run.metrics.values.at("eta_mean"));
+  EXPECT_EQ(done.get<Pairs>("lift_bad_quads", "eta_worst")[0][1], run.metrics.values.at("eta_worst"));
+  EXPECT_EQ(done.get<Pairs>("lift_bad_quads", "irregular")[0][1], run.metrics.values.at("n_irregular"));
+  EXPECT_GT(done.get<Pairs>("lift_bad_quads", "eta_worst")[0][1],
+            done.get<Pairs>("lift_bad_quads", "eta_worst")[0][0]);
+  double gain = 0, seconds = 0;
+  for (const FinishStep& step : finish_steps()) {
+    const SummaryStep* of_step = done.find(step.name);
+    if (of_step == nullptr) continue;
+    seconds += done.number(step.name, "seconds");
+    if (of_step->find("eta_mean") == nullptr) continue;
+    for (const auto& pair : done.get<Pairs>(step.name, "eta_mean")) gain += pair[1] - pair[0];
+  }
+  EXPECT_NEAR(done.number("finish", "eta_mean"), gain, 1e-12);
+  EXPECT_NEAR(done.number("finish", "seconds"), seconds, 1e-9);
 }
 
 }  // namespace
