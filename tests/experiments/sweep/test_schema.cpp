@@ -21,16 +21,16 @@ using testing_support::write_text;
 using Json = nlohmann::json;
 
 /// A table of an experiment with scalar keys: what stands before and after one of them.
-struct Place {
+struct KeyPlace {
   std::string path;  ///< empty: the top
   TomlKeys keys;
   std::string beside;  ///< other keys that it needs
 };
 
-std::vector<Place> places() {
-  std::vector<Place> all = {{"", case_keys(), ""},
-                            {"size", size_keys(), "base = 1, curvature = 20, max = 100"},
-                            {"surface", surface_keys(), ""}};
+std::vector<KeyPlace> places() {
+  std::vector<KeyPlace> all = {{"", case_keys(), ""},
+                               {"size", size_keys(), "base = 1, curvature = 20, max = 100"},
+                               {"surface", surface_keys(), ""}};
   for (const OptionGroup& group : option_groups()) all.push_back({group.name, keys_of(group), ""});
   return all;
 }
@@ -38,7 +38,7 @@ std::vector<Place> places() {
 class Schema : public testing::Test {
  protected:
   /// What the program says to a key with this value; empty: nothing.
-  std::string complaint(const Place& place, const std::string& key, const std::string& value) {
+  std::string complaint(const KeyPlace& place, const std::string& key, const std::string& value) {
     std::string line = key + " = " + value;
     if (!place.path.empty()) {
       std::string beside;
@@ -62,7 +62,7 @@ class Schema : public testing::Test {
     }
   }
 
-  void expect(bool good, const Place& place, const std::string& key, const std::string& value) {
+  void expect(bool good, const KeyPlace& place, const std::string& key, const std::string& value) {
     EXPECT_EQ(complaint(place, key, value) == "", good)
         << place.path << "." << key << " = " << value << ": " << complaint(place, key, value);
   }
@@ -79,7 +79,7 @@ bool allows(const Json& type, const char* name) {
 /// tell.
 TEST_F(Schema, SaysOfValuesWhatTheProgramSays) {
   int checked = 0;
-  for (const Place& place : places())
+  for (const KeyPlace& place : places())
     for (const TomlKey& key : place.keys) {
       if (key.type.empty() || key.name == "compare" || key.name == "compound") continue;
       if (place.path.empty() && key.name != "size" && key.name != "cross" && key.name != "seed") continue;
@@ -128,7 +128,7 @@ void for_each_table(const TomlKeys& keys, const std::string& name,
 
 /// Keys that the schema has and the program does not know would be refused as unknown.
 TEST_F(Schema, HasNoKeyThatTheProgramLacks) {
-  for (const Place& place : places())
+  for (const KeyPlace& place : places())
     for (const TomlKey& key : place.keys) {
       const std::string said = complaint(place, key.name, "{ nonsense = 1 }");
       EXPECT_EQ(said.find("unknown key '" + (place.path.empty() ? "" : place.path + ".") + key.name + "'"),
