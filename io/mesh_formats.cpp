@@ -50,6 +50,9 @@ std::string extensions_of(const Can& can) {
 }
 
 [[noreturn]] void unknown(const std::filesystem::path& path, const std::string& known) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError(path.string() + ": is a folder: expected a mesh file");
   throw InputError(path.string() + ": unknown kind of mesh file '" + path.extension().string() +
                    "': expected " + known);
 }

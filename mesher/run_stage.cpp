@@ -84,10 +84,12 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
     stage.run(input, mesh, log);
     check_stage_result(stage, patch.boundary, mesh);
   };
-  if (!prepared.surface) {
-    located(prepared.settings.where, run);
-    return "";
-  }
+  if (!prepared.surface) try {
+      run();
+      return "";
+    } catch (const TooManyPoints& error) {
+      throw InputError(prepared.settings.where + ": " + error.what());
+    }
   const std::string title =
       fmt::format("face {}: {}: ", prepared.boundary.regions[patch.region].tag, stage.name);
   try {

@@ -42,7 +42,7 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
   patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
   patch.form = PatchForm::kTriangles;
   if (summary.termination == FrontalTermination::kMaxPoints)
-    throw InputError(
+    throw TooManyPoints(
         fmt::format("insertion stopped at {} points, the most that {} elements (max-elements) allow",
                     summary.inserted, in.max_points / kPointsPerElement));
   add_summary(log, summary);

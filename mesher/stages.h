@@ -5,11 +5,18 @@
 #include <vector>
 
 #include "base/counters.h"
+#include "delquad/error.h"
 #include "delquad/extend.h"
 #include "delquad/model.h"
 #include "patches/all_patches.h"
 
 namespace delquad {
+
+/// What was to be inserted is more than max_elements allow; the message does not say where that was asked for.
+class TooManyPoints : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// Edits of whole patches that were taken back, because they left two quads around a tube.
 struct DiscardSummary {

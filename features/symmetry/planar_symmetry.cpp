@@ -229,7 +229,8 @@ std::string what_spoils_symmetry(const PlanarModel& model) {
   return fmt::format(
       "the plane through {} with the normal {} would be one, but {} has no "
       "mirror image at {}",
-      show_point(plane.point), show_point(plane.normal), item, show_point(image));
+      show_point(Vec2{plane.point.x, plane.point.y}), show_point(Vec2{plane.normal.x, plane.normal.y}), item,
+      show_point(image));
 }
 
 namespace {

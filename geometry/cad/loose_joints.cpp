@@ -544,17 +544,24 @@ std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces
   for (int f = 1; f <= faces.Extent(); ++f)
     for (const TopAbs_ShapeEnum kind : {TopAbs_EDGE, TopAbs_VERTEX})
       TopExp::MapShapesAndAncestors(faces(f), kind, TopAbs_FACE, faces_of);
+  // Faces that hang together may meet in a point, as a pocket may touch the floor: that is meshed.
+  DisjointSets hanging(faces.Extent());
+  for (int e = 1; e <= faces_of.Extent(); ++e)
+    if (faces_of.FindKey(e).ShapeType() == TopAbs_EDGE)
+      for (const TopoDS_Shape& face : faces_of(e))
+        hanging.join(faces.FindIndex(faces_of(e).First()) - 1, faces.FindIndex(face) - 1);
+  const auto part_of = [&](const TopoDS_Shape& face) { return hanging.root(faces.FindIndex(face) - 1); };
   std::vector<LooseJoint> joints;
   for (int v = 1; v <= faces_of.Extent(); ++v) {
     const TopoDS_Shape& vertex = faces_of.FindKey(v);
     if (vertex.ShapeType() != TopAbs_VERTEX) continue;
     const TopTools_ListOfShape& all = faces_of(v);
-    const auto other =
-        std::find_if(all.begin(), all.end(), [&](const auto& f) { return !f.IsSame(all.First()); });
+    const auto other = std::find_if(
+        all.begin(), all.end(), [&](const TopoDS_Shape& f) { return part_of(f) != part_of(all.First()); });
     if (other == all.end()) continue;
     for (const TopoDS_Shape& face : all) {
       if (!is_inside(TopoDS::Face(face), vertex, faces_of)) continue;
-      const TopoDS_Shape& touched = face.IsSame(all.First()) ? *other : all.First();
+      const TopoDS_Shape& touched = part_of(face) == part_of(all.First()) ? *other : all.First();
       const gp_Pnt at = BRep_Tool::Pnt(TopoDS::Vertex(vertex));
       joints.push_back({LooseJoint::Kind::kTouch,
                         {faces.FindIndex(face) - 1, faces.FindIndex(touched) - 1},

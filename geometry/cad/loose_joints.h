@@ -44,8 +44,8 @@ std::vector<NearContact> near_contacts(const SurfaceModel& model, const std::vec
                                        const std::vector<LooseJoint>& joints, double deflection,
                                        double reach);
 
-/// Where faces share a vertex, and for one of them it is no end of a curve: a single point inside of it, or
-/// the pole of a sphere. No node of a mesh joins them there.
+/// Where faces that do not hang together share a vertex, and for one of them it is no end of a curve: a
+/// single point inside of it, or the pole of a sphere. No node of a mesh joins them there.
 std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces);
 
 }  // namespace delquad::cad

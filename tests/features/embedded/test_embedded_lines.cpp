@@ -162,7 +162,7 @@ TEST(EmbeddedLines, PlanarModelsRefuseThem) {
   problem.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
   problem.size.field = make_constant_size(0.5);
   problem.surface.embed = {{{{0.5, 0.5, 0}}, "p", "test"}};
-  expect_input_error([&] { mesh(problem, "DBCO"); }, {"the model is planar", "embedded in space"});
+  expect_input_error([&] { mesh(problem, "DBCO"); }, {"the model is planar", "embed"});
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST_F(Glue, SheetsThatNearlyTouch) {
   const auto size = [](const Vec3&) { return 1.0; };
   for (const double gap : {1e-4, 1e-3, 1e-2, 0.09}) {
     SCOPED_TRACE(gap);
-    const std::string told = fmt::format("{:.3g} from face 1", gap);
+    const std::string told = fmt::format(" is {:.3g} from face ", gap);
     // A web above the plate; a plate beside it.
     for (const TopoDS_Shape& other :
          {sheet({0, 10, gap}, {40, 0, 0}, {0, 0, 6}), sheet({40 + gap, 0, 0}, {20, 0, 0}, {0, 30, 0})}) {

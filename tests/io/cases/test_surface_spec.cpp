@@ -75,7 +75,6 @@ TEST(SurfaceSpecs, WhatDoesNothingForCadIsRefused) {
     problem.surface = read(spec);
     return make_surface(problem);
   };
-  expect_input_error([&] { made("weld_tolerance = 1e-5\n"); }, {"m.toml:2", "CAD"});
   expect_input_error([&] { made("mirror = { point = [0, 0, 0], normal = [0, 0, 1] }\n"); },
                      {"m.toml:2", "CAD"});
   expect_input_error([&] { made("feature_angle = 20\n"); }, {"m.toml:2", "CAD"});
