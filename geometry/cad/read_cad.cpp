@@ -113,13 +113,14 @@ void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double di
                const std::function<double(const Vec3&)>& size) {
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
   constexpr std::size_t kMostNamed = 20;
-  std::vector<Box<Vec3>> boxes(model.fine.regions.size());
+  std::vector<std::vector<Vec3>> corners(model.fine.regions.size());
   for (std::size_t t = 0; t < model.fine.triangles.size(); ++t)
     for (const int v : model.fine.triangles[t])
-      boxes[model.fine.triangle_region[t]].add(model.fine.points[v]);
+      corners[model.fine.triangle_region[t]].push_back(model.fine.points[v]);
+  const auto length_of = [&](int face) { return norm(Box<Vec3>::around(corners[face]).size()); };
   // What is small may stand as far from others as it is long.
   std::erase_if(contacts, [&](const NearContact& c) {
-    const double shorter = std::min(norm(boxes[c.faces[0]].size()), norm(boxes[c.faces[1]].size()));
+    const double shorter = std::min(length_of(c.faces[0]), length_of(c.faces[1]));
     return c.distance <= kTouching * diagonal || c.distance > kPartOfSize * shorter ||
            c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
   });
