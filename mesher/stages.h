@@ -12,7 +12,8 @@
 
 namespace delquad {
 
-/// What was to be inserted is more than max_elements allow; the message does not say where that was asked for.
+/// What was to be inserted is more than max_elements allow; the message does not say where that was asked
+/// for.
 class TooManyPoints : public InputError {
  public:
   using InputError::InputError;
