@@ -30,6 +30,7 @@ struct Statement {
   std::string_view type;  ///< the first, of several
   Range at;
   int first, end;  ///< references
+  bool is_damaged = false;
 };
 
 bool has_word(std::string_view type, std::initializer_list<std::string_view> words) {
@@ -75,6 +76,11 @@ class StepText {
         rest.lost.push_back(fmt::format("{}: {}", title(at->second), reason));
         take_out(at->second);
       }
+    for (int s = 0; s < std::ssize(statements_); ++s)
+      if (statements_[s].is_damaged) {
+        rest.lost.push_back(fmt::format("{}: it is damaged", title(s)));
+        take_out(s);
+      }
     std::set<int> told;
     for (Reference& r : references_)
       if (!index_of_.contains(r.to)) {
@@ -103,12 +109,14 @@ class StepText {
     return fmt::format("#{} ({})", statements_[statement].number, statements_[statement].type);
   }
 
+  bool is_comment(std::size_t at) const { return text_.compare(at, 2, "/*") == 0; }
+
   /// Behind a text, a comment, or one character.
   std::size_t skip(std::size_t at) const {
     std::size_t end = at;
     if (text_[at] == '\'')
       end = text_.find('\'', at + 1);
-    else if (text_.compare(at, 2, "/*") == 0)
+    else if (is_comment(at))
       end = text_.find("*/", at + 2);
     return end == std::string::npos ? text_.size() : end + 1;
   }
@@ -153,6 +161,10 @@ class StepText {
         if (first.empty()) {
           first = std::string_view(text_).substr(at, end - at);
           outer = open.size() + 1;
+          // Arguments follow.
+          const std::size_t next = text_.find_first_not_of(" \t\r\n", end);
+          s.is_damaged =
+              s.is_damaged || next == std::string::npos || !(text_[next] == '(' || is_comment(next));
         }
         at = end;
       } else {
@@ -160,15 +172,22 @@ class StepText {
           open.push_back(static_cast<int>(lists_.size()));
           lists_.push_back({at, at});
         }
-        if (c == ')' && !open.empty()) {
-          lists_[open.back()].end = at;
-          open.pop_back();
+        if (c == ')') {
+          s.is_damaged = s.is_damaged || open.empty();
+          if (!open.empty()) {
+            lists_[open.back()].end = at;
+            open.pop_back();
+          }
         }
+        // Outside of texts and comments all is ASCII.
+        s.is_damaged = s.is_damaged || !(std::isprint(static_cast<unsigned char>(c)) != 0 ||
+                                         std::isspace(static_cast<unsigned char>(c)) != 0);
         at = skip(at);
       }
     }
     if (first == "DATA") in_data_ = true;
     if (first == "ENDSEC") in_data_ = false;
+    s.is_damaged = s.is_damaged || !open.empty();
     s.at.end = std::min(at + 1, text_.size());
     if (s.number > 0 && at < text_.size()) {
       s.type = first;

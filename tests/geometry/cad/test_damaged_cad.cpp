@@ -83,6 +83,19 @@ TEST_F(DamagedCad, MissingEntitiesTakeTheFacesThatNeedThem) {
   }
 }
 
+TEST_F(DamagedCad, StatementsThatAreNoneAreNamed) {
+  const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  const std::size_t at = text.find(" = PLANE("), begin = text.rfind('#', at);
+  const std::string number = text.substr(begin, at - begin);
+  // Without arguments, with bytes that no STEP file has, with lists that do not end.
+  for (const std::string& other : {std::string(" = PLANE,("), std::string(" = PLANE(\0", 10),
+                                   std::string(" = PLANE(\x80"), std::string(" = PLANE((")}) {
+    std::string damaged = text;
+    damaged.replace(at, 9, other);
+    expect_refused(damaged, {number.c_str(), "it is damaged"}, 5);
+  }
+}
+
 TEST_F(DamagedCad, NumbersThatCannotBeReadTakeTheirFaces) {
   const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
   const std::size_t plane = text.find(" = PLANE("), axis = text.find("#", plane);
