@@ -80,6 +80,7 @@ class StepText {
       if (statements_[s].is_damaged) {
         rest.lost.push_back(fmt::format("{}: it is damaged", title(s)));
         take_out(s);
+        is_shape_hurt_ = true;  // whatever it was about
       }
     std::set<int> told;
     for (Reference& r : references_)
@@ -121,7 +122,9 @@ class StepText {
     return end == std::string::npos ? text_.size() : end + 1;
   }
 
-  static bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+  /// In any locale.
+  static bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+  static bool is_word(char c) { return is_ascii(c) && (std::isalnum(c) != 0 || c == '_'); }
 
   std::size_t end_of_word(std::size_t at) const {
     while (at < text_.size() && is_word(text_[at])) ++at;
@@ -180,8 +183,7 @@ class StepText {
           }
         }
         // Outside of texts and comments all is ASCII.
-        s.is_damaged = s.is_damaged || !(std::isprint(static_cast<unsigned char>(c)) != 0 ||
-                                         std::isspace(static_cast<unsigned char>(c)) != 0);
+        s.is_damaged = s.is_damaged || !is_ascii(c) || (std::isprint(c) == 0 && std::isspace(c) == 0);
         at = skip(at);
       }
     }
