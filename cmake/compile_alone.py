@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compiles each source of a build folder alone, without making anything: unity builds hide includes that are missing.
 
-Usage: compile_alone.py BUILD. Exit code 1 when a source does not compile. Sources that the build makes are left out.
+Usage: compile_alone.py BUILD. Exit code 1 when a source does not compile, or there is none. Sources that the build makes are left out.
 """
 import concurrent.futures
 import json
@@ -23,7 +23,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         wrong = [e["file"] for e, good in zip(entries, pool.map(compiles, entries)) if not good]
     print(f"{len(entries)} sources compiled alone, {len(wrong)} do not: {' '.join(wrong)}")
-    return 1 if wrong else 0
+    return 1 if wrong or not entries else 0
 
 
 if __name__ == "__main__":
