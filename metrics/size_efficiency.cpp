@@ -18,9 +18,9 @@ namespace {
 constexpr double kAgreement = 1e-3;
 /// Panels are halved at most this often: a jump of delta is found to 1e-6 of the edge.
 constexpr int kMaxHalvings = 20;
-/// Values of delta on an edge, far more than any that jumps some times needs: where sheets lie on each other,
-/// it may jump everywhere.
-constexpr int kMostValues = 16384;
+/// Values of delta on an edge: a jump takes two for each halving, so ten jumps are found. Where sheets lie on
+/// each other it may jump everywhere; then the mean of so many values, evenly spaced, is taken.
+constexpr int kMostValues = 512, kValuesOfMean = 256;
 
 class EdgeIntegral {
  public:
@@ -39,13 +39,19 @@ class EdgeIntegral {
   /// Two panels at the least, so that delta symmetric about the middle is not taken for constant.
   double length(double f0, double f1) {
     const double fm = at(0.5);
-    return norm(ab_) * (panel(0, f0, 0.5, fm, kMaxHalvings) + panel(0.5, fm, 1, f1, kMaxHalvings));
+    const double adaptive = panel(0, f0, 0.5, fm, kMaxHalvings) + panel(0.5, fm, 1, f1, kMaxHalvings);
+    return norm(ab_) * (values_ < kMostValues ? adaptive : mean());
   }
 
  private:
   double at(double t) {
     ++values_;
     return 1 / size_.at(a_ + t * ab_, hint_);
+  }
+  double mean() {
+    double sum = 0;
+    for (int i = 0; i < kValuesOfMean; ++i) sum += at((i + 0.5) / kValuesOfMean);
+    return sum / kValuesOfMean;
   }
 
   Vec3 a_, ab_;

@@ -71,9 +71,8 @@ TEST(AdimensionalLength, EndsAtJumps) {
 TEST(AdimensionalLength, EndsWhereSizesJumpEverywhere) {
   const SizeBy size([](const Vec3& x) { return std::sin(1e9 * x.x) < 0 ? 0.5 : 1.0; });
   const double length = adimensional_length({0, 0, 0}, {1, 0, 0}, size);
-  EXPECT_GT(length, 1);
-  EXPECT_LT(length, 2);
-  EXPECT_LT(size.evaluations, 20000);
+  EXPECT_NEAR(length, 1.5, 0.15);  // half of each; the mean of 256 values is within 2 %, five times that
+  EXPECT_LT(size.evaluations, 1000);
 }
 
 double tau(const Mesh& mesh, const SizeField& size) { return evaluate_metrics(mesh, &size).values.at("tau"); }
