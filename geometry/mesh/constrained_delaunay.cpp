@@ -45,12 +45,15 @@ std::vector<Cdt::Vertex_handle> insert_points(Cdt& cdt, const std::vector<Vec2>&
 }
 
 /// Numbers the faces inside the patch, flooding from the left sides of its boundary edges; returns these.
-/// Refuses edges, but for slits, that have the inside on their right, too: of loops turned inside out.
+/// Refuses edges, but for slits, that have the inside on their right, too, and an inside without end: of
+/// loops turned inside out.
 std::vector<Cdt::Face_handle> flood_inside(Cdt& cdt, const PatchBoundary& boundary,
                                            const std::vector<Cdt::Vertex_handle>& handle) {
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = kOutside;
   std::vector<Cdt::Face_handle> inside;
+  bool has_end = true;
   const auto enter = [&](Cdt::Face_handle f) {
+    has_end &= !cdt.is_infinite(f);
     if (f->info() != kOutside || cdt.is_infinite(f)) return;
     f->info() = static_cast<int>(inside.size());
     inside.push_back(f);
@@ -73,6 +76,11 @@ std::vector<Cdt::Face_handle> flood_inside(Cdt& cdt, const PatchBoundary& bounda
     for (int k = 0; k < 3; ++k) {
       if (!inside[i]->is_constrained(k)) enter(inside[i]->neighbor(k));
     }
+  }
+  if (!has_end) {
+    const Vec2 at = boundary.points[boundary.edges[0][0]];
+    throw InputError(
+        fmt::format("the boundary is turned inside out at ({}, {}): the patch has no end", at.x, at.y));
   }
   for (const auto& [face, i] : right) {
     if (face->info() == kOutside) continue;

@@ -75,6 +75,16 @@ TEST(ConstrainedDelaunay, RefusesHolesThatAreTurnedInsideOut) {
   }
 }
 
+TEST(ConstrainedDelaunay, RefusesOutlinesThatAreTurnedInsideOut) {
+  // What lies on their left is the pockets between them and their hull, and all beyond it.
+  std::vector<Vec2> outline = {{0, 0}, {2, 1}, {4, 0}, {3, 2}, {4, 4}, {2, 3}, {0, 4}, {1, 2}};
+  EXPECT_NO_THROW(constrained_delaunay(shapes::polygon(outline)));
+  std::ranges::reverse(outline);
+  EXPECT_THROW(constrained_delaunay(shapes::polygon(outline)), InputError);
+  std::rotate(outline.begin(), outline.begin() + 1, outline.end());
+  EXPECT_THROW(constrained_delaunay(shapes::polygon(outline)), InputError);
+}
+
 TEST(ConstrainedDelaunay, InvariantsSeeDamage) {
   TriPatch tri = constrained_delaunay(shapes::disk(1, 8));
   std::swap(tri.triangles[0][0], tri.triangles[0][1]);
