@@ -62,17 +62,21 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
   for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
 }
 
+/// Steps of agreement where a problem is meshed anew, as its mesh was not sound: fewer irregular vertices are
+/// not what is missing then, and there may be many rounds.
+constexpr long long kStepsAnew = kMostAgreementSteps / 10;
+
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
                              const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                             Failures& failures) {
+                             long long most_steps, Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
                                  *solver, asked, divisions, periodic, problem.mapped,
-                                 curve_options(problem.options).agreement);
+                                 curve_options(problem.options).agreement, most_steps);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
@@ -155,9 +159,10 @@ class SurfaceSteps final : public ModelSteps {
       other.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
       on_curves = std::make_shared<SurfaceSize>(model_, other);
     }
-    surface_->domain = mesh_curves_of(model_, std::move(flattening_), *on_curves,
-                                      wanted_.curvature ? nullptr : wanted_.base.get(), problem_, divisions_,
-                                      periodic_, failures_);
+    surface_->domain =
+        mesh_curves_of(model_, std::move(flattening_), *on_curves,
+                       wanted_.curvature ? nullptr : wanted_.base.get(), problem_, divisions_, periodic_,
+                       refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     p.failures = failures_.take();

@@ -1,6 +1,7 @@
 #include "base/matching/agree_counts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -39,8 +40,10 @@ class Agreement {
         outside_(n_patches),
         in_sums_(curves.size()),
         at_patch_(n_patches + 1),
-        closes_(n_patches + 1, 0) {
+        closes_(n_patches + 1, 0),
+        costs_(curves.size()) {
     for (std::size_t c = 0; c < curves.size(); ++c) {
+      note_costs(static_cast<int>(c));
       if (!curves[c].is_free || curves[c].patches.empty()) continue;
       std::vector<int> patches = curves[c].patches;
       if (patches.size() == 1) patches.push_back(outside_);
@@ -213,8 +216,15 @@ class Agreement {
     return n * log * (curves_[curve].weight + kUneven * log);
   }
   double cost_of(Change change) const {
+    if (std::abs(change.by) <= kNoted) return costs_[change.curve][change.by + kNoted];
+    return new_cost_of(change);
+  }
+  double new_cost_of(Change change) const {
     const int n = counts_[change.curve];
     return misfit(change.curve, n + change.by) - misfit(change.curve, n);
+  }
+  void note_costs(int curve) {
+    for (int by = -kNoted; by <= kNoted; ++by) costs_[curve][by + kNoted] = new_cost_of({curve, by});
   }
   double price(int sum, int value) const {
     return value == 0 ? 0 : sums_[sum].price_of_pair + sums_[sum].price * std::abs(value);
@@ -269,12 +279,14 @@ class Agreement {
   bool make(const Changes& changes) {
     for (const Change& c : changes) {
       counts_[c.curve] += c.by;
+      note_costs(c.curve);
       for (const auto& [s, times] : in_sums_[c.curve]) values_[s] += times * c.by;
     }
     return !changes.empty();
   }
 
   static constexpr int kAnywhere = -1;
+  static constexpr int kNoted = 2;  // searches change numbers by no more
 
   const std::vector<AgreeingCurve>& curves_;
   const std::vector<ClosureSum>& sums_;
@@ -287,6 +299,7 @@ class Agreement {
   std::vector<int> values_;                                ///< of the sums
   int forced_ = -1;                                        ///< a sum that is to become zero
   std::vector<double> best_;                               ///< by label()
+  std::vector<std::array<double, 2 * kNoted + 1>> costs_;  ///< cost_of() of each curve, by its change
 };
 
 }  // namespace

@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "base/activity.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/curves/patch_boundaries.h"
 #include "features/divisions/divisions.h"
@@ -27,8 +32,28 @@ constexpr int kRefinements = 8;
 constexpr long long kMostEdges = 1'000'000;
 /// So many times curves that keep boundaries from enclosing quads leave agreement.
 constexpr int kMostKept = 10;
-/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
-constexpr long long kMostSteps = 200'000'000;
+/// Where a patch is narrowest between these chains, and how wide: the least height of triangles with all
+/// corners on them; empty: there are none.
+std::string narrowest_between(const Mesh& fine, const FlatPatch& map, const std::vector<CurveChain>& chains,
+                              const std::vector<int>& at_fault) {
+  std::set<int> on_chains;
+  for (const int c : at_fault) on_chains.insert(chains[c].points.begin(), chains[c].points.end());
+  double width = std::numeric_limits<double>::infinity();
+  Vec3 at;
+  for (const auto& triangle : map.flat.triangles) {
+    std::array<Vec3, 3> x;
+    bool is_between = true;
+    for (int k = 0; k < 3; ++k) {
+      const int node = map.fine_node[triangle[k]];
+      x[k] = fine.points[node];
+      is_between &= on_chains.contains(node);
+    }
+    const double longest = std::max({norm(x[1] - x[0]), norm(x[2] - x[1]), norm(x[0] - x[2])});
+    const double height = norm(cross(x[1] - x[0], x[2] - x[0])) / longest;
+    if (is_between && height < width) width = height, at = (1.0 / 3) * (x[0] + x[1] + x[2]);
+  }
+  return std::isfinite(width) ? fmt::format("; it is {:.3g} wide at {}", width, show_point(at)) : "";
+}
 
 /// The curves that keep boundaries from enclosing quads do not take part in agreement, then get more edges,
 /// until there are none.
@@ -38,29 +63,34 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
                                        const MappedSpec& spec, double price, Budget& steps,
                                        std::vector<MappedFace>& mapped) {
   Agreement agreement{price};
+  std::optional<ChainCounts> even;
   for (int attempt = 0, kept = 0;;) {
     PatchBoundaries placed =
-        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, steps, mapped);
+        place_boundaries(model, curves, across, wanted, size, solver, spec, agreement, steps, mapped, even);
     const std::size_t n_kept = agreement.kept.size();
     if (price > 0 && kept++ < kMostKept)
       for (const std::vector<int>& at_fault : placed.at_fault)
         agreement.kept.insert(at_fault.begin(), at_fault.end());
     if (agreement.kept.size() > n_kept) continue;
     const FlatPatch* crossing = nullptr;
+    const std::vector<int>* at_fault = nullptr;
     bool can_change = false;
     for (size_t p = 0; p < curves.maps.size(); ++p) {
-      if (!placed.at_fault[p].empty()) crossing = &curves.maps[p];
+      if (!placed.at_fault[p].empty()) crossing = &curves.maps[p], at_fault = &placed.at_fault[p];
       for (const int c : placed.at_fault[p]) wanted.demands[c].minimum = 2 * placed.counts[c];
       can_change |=
           std::ranges::any_of(placed.at_fault[p], [&](int c) { return wanted.demands[c].exact == 0; });
     }
     if (crossing == nullptr) return placed;
+    even.reset();
     const long long edges = std::accumulate(placed.counts.begin(), placed.counts.end(), 0LL);
     if (attempt++ == kRefinements || !can_change || (attempt > 1 && edges > kMostEdges))
-      throw FaceError(crossing->face, fmt::format("{}: its boundary crosses itself in the parameter plane {}",
-                                                  face_name(model.fine, *crossing),
-                                                  can_change ? "however fine its curves are"
-                                                             : "with the edges that its curves are given"));
+      throw FaceError(
+          crossing->face,
+          fmt::format("{}: its boundary crosses itself in the parameter plane {}{}",
+                      face_name(model.fine, *crossing),
+                      can_change ? "however fine its curves are" : "with the edges that its curves are given",
+                      narrowest_between(model.fine, *crossing, curves.chains, *at_fault)));
   }
 }
 
@@ -162,7 +192,7 @@ class Capping {
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                                  const MappedSpec& mapped, double agreement) {
+                                  const MappedSpec& mapped, double agreement, long long most_steps) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size);
   ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
@@ -174,10 +204,10 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
   if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
-  Budget steps(kMostSteps);
+  Budget steps(most_steps);
   PatchBoundaries placed =
       place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, steps, grids);
-  domain.steps = kMostSteps - steps.left();
+  domain.steps = most_steps - steps.left();
   if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
   domain.mapped = grid_patches(grids, curves, placed.counts);
   check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);

@@ -8,6 +8,9 @@
 
 namespace delquad {
 
+/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
+constexpr long long kMostAgreementSteps = 200'000'000;
+
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
 /// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
@@ -15,12 +18,12 @@ namespace delquad {
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
 /// `mapped` asks, get numbers that fit. `agreement`: the price of agree_on_counts(); 0: numbers follow the
-/// size alone. Throws FaceError when no refinement gives a valid boundary, naming the face, and InputError
-/// where divisions leave a patch with an odd number of edges.
+/// size alone; `most_steps`: its budget. Throws FaceError when no refinement gives a valid boundary, naming
+/// the face, and InputError where divisions leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
                                   const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
-                                  double agreement = 0);
+                                  double agreement = 0, long long most_steps = kMostAgreementSteps);
 
 }  // namespace delquad

@@ -62,12 +62,20 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
                                  const MappedSpec& spec, const Agreement& agreement, Budget& steps,
-                                 std::vector<MappedFace>& mapped) {
+                                 std::vector<MappedFace>& mapped, std::optional<ChainCounts>& even) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
-  placed.counts = mapped.empty() ? even_counts(joined_demands(wanted.demands, curves.images),
-                                               static_cast<int>(maps.size()), solver, placed.odd_patches)
-                                 : grid_counts(spec, model.fine, curves, wanted, mapped, placed.odd_patches);
+  if (!mapped.empty()) {
+    placed.counts = grid_counts(spec, model.fine, curves, wanted, mapped, placed.odd_patches);
+  } else {
+    if (!even) {
+      even.emplace();
+      even->counts = even_counts(joined_demands(wanted.demands, curves.images), static_cast<int>(maps.size()),
+                                 solver, even->odd_patches);
+    }
+    placed.counts = even->counts;
+    placed.odd_patches = even->odd_patches;
+  }
   if (agreement.price > 0) {
     std::set<int> kept = agreement.kept;
     for (const MappedFace& face : mapped)

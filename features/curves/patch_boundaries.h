@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -25,12 +26,18 @@ struct Agreement {
   std::set<int> kept = {};  ///< chains that have the numbers that their sizes ask for
 };
 
+/// Numbers of edges that make patches even, and the patches that stay odd.
+struct ChainCounts {
+  std::vector<int> counts, odd_patches;
+};
+
 /// `steps`: what agreement and the search for nodes that face each other may take. `mapped`: the patches that
-/// are to be grids, as `spec` asks; see grid_counts().
+/// are to be grids, as `spec` asks; see grid_counts(). `even`: those of the same demands, which depend on
+/// nothing else; none: they are found, but where there are grids.
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
                                  const MappedSpec& spec, const Agreement& agreement, Budget& steps,
-                                 std::vector<MappedFace>& mapped);
+                                 std::vector<MappedFace>& mapped, std::optional<ChainCounts>& even);
 
 }  // namespace delquad
