@@ -3,7 +3,9 @@
 #include "base/context.h"
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
+#include "features/sizes/scale_sizes.h"
 #include "io/cases/read_problem.h"
+#include "mesher/number_of_quads.h"
 #include "mesher/prepare.h"
 #include "mesher/refine_unsound.h"
 #include "mesher/runner.h"
@@ -35,14 +37,23 @@ RunSettings settings_of(const Context& context) {
 Prepared prepare_now(MeshProblem problem, Steps& steps) {
   steps.begin("boundary and fields");
   const Stopwatch reading;
-  const auto read = std::make_shared<const MeshProblem>(read_files(std::move(problem)));
+  problem = refined(read_files(std::move(problem)));
   const TimeSpent time = reading.time();
-  PreparedProblem made = prepare_problem(*read);
+  PreparedProblem made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
   StageLog log;
   log.add_time("read", time);
-  for (const auto& [step, spent] : made.times) log.add_time(step, spent);
+  add_times(made.times, log);
   made.times = std::move(log.times);
-  return {read, std::make_shared<const PreparedProblem>(std::move(made))};
+  return {std::make_shared<const MeshProblem>(std::move(problem)),
+          std::make_shared<const PreparedProblem>(std::move(made))};
+}
+
+void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
+  if (result.soundness.sound()) return;
+  const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
+  PreparedProblem best = prepared.inside();
+  refine_unsound([&](const Refinement& r) { return prepare_problem(*problem, r); }, word, best, result);
+  prepared = {problem, std::make_shared<const PreparedProblem>(std::move(best))};
 }
 
 MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
@@ -79,7 +90,7 @@ Word ask_for(const Quality& quality, MeshProblem& problem) {
 void add_preparation(MeshResult& result) {
   const Preparation& made = *result.prepared;
   StageLog log{made.times};
-  for (const auto& [step, spent] : result.log.times) log.add_time(step, spent);
+  add_times(result.log.times, log);
   result.log.times = std::move(log.times);
   result.warnings.insert(result.warnings.begin(), made.warnings.begin(), made.warnings.end());
 }
@@ -117,12 +128,18 @@ MeshResult Meshing::finish() {
   const Word word = std::move(state_->word);
   MeshResult result = finish_meshing(prepared.inside(), prepared.problem().name + " " + word.text,
                                      std::move(state_->patches));
-  if (!result.soundness.sound()) {
-    const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
-    PreparedProblem best = prepared.inside();
-    refine_unsound([&](const Refinement& r) { return prepare_problem(*problem, r); }, word, best, result);
-    prepared = {problem, std::make_shared<const PreparedProblem>(std::move(best))};
-  }
+  make_sound(word, prepared, result);
+  if (prepared.problem().quads)
+    meet_quads(
+        [&](MeshProblem problem) {
+          const Refinement read = as_read(prepared.inside());
+          Prepared other(std::make_shared<const MeshProblem>(problem),
+                         std::make_shared<const PreparedProblem>(prepare_problem(problem, read)));
+          MeshResult run = run_word(other.inside(), word);
+          make_sound(word, other, run);
+          return std::pair(std::move(other), std::move(run));
+        },
+        prepared, result);
   result.prepared = std::move(prepared);
   add_preparation(result);
   return result;

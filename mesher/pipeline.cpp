@@ -94,11 +94,19 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   return p;
 }
 
+Refinement as_read(const PreparedProblem& prepared) {
+  return {.cad = prepared.surface ? prepared.surface->cad : nullptr};
+}
+
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
   PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
   check_order(prepared);
   return prepared;
+}
+
+void add_times(const StepTimes& times, StageLog& log) {
+  for (const auto& [step, time] : times) log.add_time(step, time);
 }
 
 RunResult run_word(const PreparedProblem& prepared, const Word& word,

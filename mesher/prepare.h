@@ -14,6 +14,9 @@ struct Refinement {
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 
+/// Nothing; CAD need not be read again.
+Refinement as_read(const PreparedProblem& prepared);
+
 /// Boundary, background mesh and fields of a problem whose files are read. Throws InputError for models and
 /// fields that cannot be meshed, and for a size that would need more than problem.max_elements, with the
 /// estimate, before that work begins. `refinement`: of surfaces and of planar models of curves.

@@ -73,10 +73,6 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
   for (const Vec3& at : places_of_masters(prepared, soundness.places)) add(at);
 }
 
-void add_times(const StepTimes& times, StageLog& log) {
-  for (const auto& [step, time] : times) log.add_time(step, time);
-}
-
 Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
   const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
   return fmt::format(
@@ -108,7 +104,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
     return;
-  Refinement refinement{.cad = prepared.surface ? prepared.surface->cad : nullptr};
+  Refinement refinement = as_read(prepared);
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
   Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(prepared, result)));

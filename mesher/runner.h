@@ -28,6 +28,7 @@ struct MeshingState {
 MeshingState begin_meshing(const PreparedProblem& prepared);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
+void add_times(const StepTimes& times, StageLog& log);
 struct Finishing;
 /// The finish steps on patches, and these as one mesh.
 Mesh put_together(Finishing& on);

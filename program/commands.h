@@ -87,6 +87,8 @@ struct MeshArguments : SurfaceArguments {
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"
   std::vector<std::string> set;                           ///< "OPTION=VALUE", see Options
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says
+  std::optional<double> refine;                           ///< else as the model says
+  std::optional<long long> quads;                         ///< so, too
   std::string quality = kDefaultQuality;
   std::optional<std::string> pipeline;  ///< else the word of that quality
   long long max_elements = 50'000'000;

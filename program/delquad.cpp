@@ -296,6 +296,11 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, CommonArguments& common) 
           "--mapped", arguments.mapped,
           "name of a region or face that becomes a grid, or 'auto' for all where that pays; may be repeated")
       ->allow_extra_args(false);
+  mesh->add_option("--refine", arguments.refine, "divide all sizes by this, for studies of convergence")
+      ->check(kLength);
+  mesh->add_option("--quads", arguments.quads,
+                   "about how many, by sizes that are all larger or smaller; no --size is needed then")
+      ->transform(kCount);
   mesh->add_option("--curvature", arguments.curvature,
                    "of surfaces: elements per full turn of a curved face or curve")
       ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));

@@ -80,6 +80,9 @@ SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
   if (arguments.size) {
     if (arguments.size->empty())
       throw InputError("--size: the size is empty: expected a number, an expression, a file or 'boundary'");
+    if (arguments.quads && as_number(*arguments.size))
+      throw InputError(
+          "--size and --quads: a size that is a number says how many quads there are: expected one of both");
     size = {.text = *arguments.size, .where = "--size"};
   }
   const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
@@ -241,6 +244,8 @@ int mesh_command(const MeshArguments& arguments) {
   c.allow_unsound = true;  // see below
   c.size = with_arguments(std::move(c.size), arguments);
   if (arguments.order) c.order = *arguments.order;
+  if (arguments.refine) c.refine = *arguments.refine;
+  if (arguments.quads) c.quads = *arguments.quads;
   check_mesh_format(arguments.output, arguments.msh, c.order);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   set_mapped(arguments, c.mapped);

@@ -344,6 +344,8 @@ void define_problem(py::module_& m) {
   c.def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
       .def("seed", [](Problem& p, long long seed) { p.problem.seed = seed; })
       .def("order", [](Problem& p, int order) { p.problem.order = order; })
+      .def("refine", [](Problem& p, double by) { p.problem.refine = by; })
+      .def("quads", [](Problem& p, long long n) { p.problem.quads = n; })
       .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
       .def("keep_going", [](Problem& p, bool yes) { p.problem.keep_going = yes; })
       .def("progress", [](Problem& p, py::object function) { p.callbacks.progress = std::move(function); })

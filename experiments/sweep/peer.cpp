@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "base/activity.h"
+#include "base/calibration.h"
 #include "delquad/error.h"
-#include "experiments/sweep/calibration.h"
 #include "experiments/sweep/command_files.h"
 #include "experiments/sweep/peer_reference.h"
 #include "experiments/sweep/peer_sizes.h"
@@ -23,6 +23,7 @@
 #include "io/mesh_io.h"
 #include "metrics/surface/surface_report.h"
 #include "metrics/tables/rendered_table.h"
+#include "metrics/tables/result_records.h"
 
 namespace delquad {
 namespace {
@@ -33,6 +34,7 @@ constexpr unsigned kVersionSeconds = 30;   // after which a program that only te
 constexpr std::size_t kLongestLine = 200;  // of a program's output, in a message
 /// With which a program ends that cannot be told the case, the reason in its last line.
 constexpr int kCannotBeTold = 77;
+constexpr CalibrationLimits kCalibration = {.tolerance = kEquallyMany, .most_runs = 8};
 constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
 
 /// What a program said went wrong: its first line with "error" in it, else its last.
@@ -210,7 +212,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
 PeerRun run_scaled(const Peer& peer, const Case& c, const Prepared& prepared, double scale,
                    const fs::path& folder) {
   if (planar_model(c) == nullptr || scale == 1) return run_once({peer, c, prepared, scale, scale}, folder);
-  return run_once({peer, c, prepare_scaled(c, scale), scale, 1}, folder);
+  return run_once({peer, c, prepare_scaled(prepared, scale), scale, 1}, folder);
 }
 
 /// Everything in the folder but what is kept.
@@ -235,7 +237,7 @@ class Calibrated {
       : peer_(peer), c_(c), prepared_(prepared), folder_(folder), wanted_(wanted) {}
 
   PeerRun run() {
-    done = calibrate_scale(wanted_, [&](double scale) { return quads_at(scale); });
+    done = calibrate_scale(wanted_, kCalibration, [&](double scale) { return quads_at(scale); });
     if (fs::exists(folder_ / kKept)) {
       remove_files(folder_);
       move_all_but_kept(folder_ / kKept, folder_);

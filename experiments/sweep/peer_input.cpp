@@ -154,8 +154,8 @@ std::optional<double> uniform_size(const Case& c) {
   const SizeSpec& s = c.size;
   auto size = as_number(s.text);
   if (s.text.empty() && s.max > 0) size = s.max;
-  if (!size || !s.sources.empty() || !s.named.empty() || s.curvature > 0) return std::nullopt;
-  return s.max > 0 ? std::min(*size, s.max) : *size;
+  if (!size || c.quads || !s.sources.empty() || !s.named.empty() || s.curvature > 0) return std::nullopt;
+  return (s.max > 0 ? std::min(*size, s.max) : *size) / c.refine;
 }
 
 fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {

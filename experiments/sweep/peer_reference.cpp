@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "base/activity.h"
+#include "base/calibration.h"
 #include "delquad/error.h"
-#include "experiments/sweep/calibration.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/scratch_folder.h"
-#include "io/cases/read_problem.h"
 
 namespace delquad {
 namespace {
@@ -47,16 +46,6 @@ std::optional<double> quads_of_word(const Prepared& prepared, const std::string&
   return quads;
 }
 
-class ScaledSize final : public SizeField {
- public:
-  ScaledSize(std::shared_ptr<const SizeField> size, double scale) : size_(std::move(size)), scale_(scale) {}
-  double at(const Vec3& x, int& hint) const override { return scale_ * size_->at(x, hint); }
-
- private:
-  std::shared_ptr<const SizeField> size_;
-  double scale_;
-};
-
 }  // namespace
 
 std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
@@ -69,21 +58,10 @@ std::optional<double> reference_quads(const Prepared& prepared, const std::strin
   return quads_of_word(prepared, word);
 }
 
-Prepared prepare_scaled(const Case& c, double scale) {
-  MeshProblem problem = read_files(c);
-  SizeSpec& size = problem.size;
-  if (size.field) size.field = std::make_shared<ScaledSize>(size.field, scale);
-  for (SizeSource& source : size.sources) {
-    source.size_near *= scale;
-    source.size_far *= scale;
-  }
-  for (NamedSize& named : size.named) {
-    named.size *= scale;
-    named.growth *= scale;
-  }
-  size.gradation *= scale;  // of the scaled field, |grad| is
-  size.min *= scale;
-  size.max *= scale;
+Prepared prepare_scaled(const Prepared& prepared, double scale) {
+  MeshProblem problem = prepared.problem();
+  problem.quads.reset();
+  problem.refine = 1 / scale;
   return prepare(std::move(problem));
 }
 

@@ -13,8 +13,8 @@ namespace delquad {
 std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
                                       const ReferenceCell& cell);
 
-/// The planar case with every size multiplied by `scale`, its boundary made anew at those. Throws InputError
-/// as prepare() does.
-Prepared prepare_scaled(const Case& c, double scale);
+/// The planar problem with every size multiplied by `scale`, its boundary made anew at those. Throws
+/// InputError as prepare() does.
+Prepared prepare_scaled(const Prepared& prepared, double scale);
 
 }  // namespace delquad

@@ -132,6 +132,8 @@ Json options_json(const Case& c) {
                {"cross", text_of(c.cross)},
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
+  if (c.refine != 1) json["refine"] = c.refine;
+  if (c.quads) json["quads"] = *c.quads;
   for (const CurveDivision& d : c.divisions)
     json["divide"].push_back(
         {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});

@@ -54,7 +54,9 @@ struct MeshProblem {
   MappedSpec mapped = {};      ///< of planar models of curves, and of surfaces
   long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   Options options = {};        ///< of the stages
-  int order = 1;               ///< of the elements, 1 to 4: above 1 they are curved, see Mesh::order
+  double refine = 1;           ///< all sizes are divided by it; numbers of edges and of layers grow with it
+  std::optional<long long> quads = {};  ///< about so many, by sizes that are all larger or smaller
+  int order = 1;                        ///< of the elements, 1 to 4: above 1 they are curved, see Mesh::order
   long long max_elements = 50'000'000;  ///< refuse sizes whose integral of dA/delta^2 is larger
   bool keep_going = false;     ///< leave faces out that cannot be meshed, instead of refusing the model
   bool allow_unsound = false;  ///< return meshes that are not accepted, instead of throwing UnsoundError

@@ -286,6 +286,9 @@ void read_case_keys(const TomlTable& table, Case& target) {
   for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {.text = table.expression("cross"), .where = table.where("cross")};
   target.order = static_cast<int>(integer_between(table, "order", 1, kMostOrder, target.order));
+  if (table.has("refine")) target.refine = table.positive_number("refine");
+  if (table.has("quads"))
+    target.quads = integer_between(table, "quads", 1, std::numeric_limits<long long>::max(), 0);
   target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   for (const OptionGroup& group : option_groups())
     if (const auto given = table.optional_table(group.name)) read_options(*given, group, target.options);

@@ -282,6 +282,8 @@ TomlKeys case_keys() {
       {"mapped", "regions or faces that become grids, or \"auto\"", kTextsAndTables, mapped_keys, true},
       {"cross", "wanted directions: boundary, size-aware, gradient or an angle", kExpression},
       {"order", "of the elements, 1 to 4: curved above 1", at_least("integer", 1)},
+      {"refine", "by which all sizes are divided", kPositive},
+      {"quads", "about how many, by other sizes", at_least("integer", 1)},
       {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {
     if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end() || group.name == kCompare)

@@ -92,9 +92,10 @@ CellRecord parse(const Json& json) {
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
   if (json.contains(kCalibrationStep)) record.calibration = parse_calibration(json.at(kCalibrationStep));
   record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
-  const Json size = json.value("/options/size"_json_pointer, Json::object());
+  const Json options = json.value("options", Json::object()), size = options.value("size", Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
-  if (as_number(base) && size.value("sources", Json::array()).empty() && !size.contains("on"))
+  const bool is_other = options.contains("refine") || options.contains("quads");
+  if (!is_other && as_number(base) && size.value("sources", Json::array()).empty() && !size.contains("on"))
     record.uniform_size = base;
   return record;
 }

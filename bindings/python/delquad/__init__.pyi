@@ -204,6 +204,8 @@ def mesh(
     name: str | None = None,
     seed: int | None = None,
     order: int = 1,
+    refine: float | None = None,
+    quads: int | None = None,
     max_elements: int = 50_000_000,
     keep_going: bool = False,
     allow_unsound: bool = False,

@@ -1,5 +1,6 @@
 """mesh(), and models that are given as Python values."""
 
+import numbers
 import os
 
 from . import _core
@@ -165,6 +166,8 @@ def mesh(
     name=None,
     seed=None,
     order=1,
+    refine=None,
+    quads=None,
     max_elements=_MAX_ELEMENTS,
     keep_going=False,
     allow_unsound=False,
@@ -205,6 +208,8 @@ def mesh(
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
         each alone or with a name, (points, "name"). (In the plane: see planar().)
     name: of the model, for messages. seed: above 0, planar domains are turned a little and nodes on curves shifted, at random.
+    refine: all sizes are divided by it, for studies of convergence; see docs/meshing.md.
+    quads: about how many, by sizes that are all larger or smaller, or without a size by one.
     max_elements: sizes that ask for more are refused. keep_going: faces that cannot be meshed are left out.
     allow_unsound: meshes that are not sound are returned, too.
     order: of the elements, 1 to 4: above 1 they are curved along the model, and arrays hold their corners only.
@@ -220,6 +225,10 @@ def mesh(
     problem = _core.Problem(_as_model(model))
     if size is not None:
         _set_size(problem, size)
+    if quads is not None and isinstance(size, numbers.Real):
+        raise _core.InputError(
+            "size and quads: a size that is a number says how many quads there are: expected one of both"
+        )
     for source in sources:
         problem.add_source(*source)
     for on, asked in (size_on or {}).items():
@@ -258,6 +267,10 @@ def mesh(
     if seed is not None:
         problem.seed(seed)
     problem.order(order)
+    if refine is not None:
+        problem.refine(refine)
+    if quads is not None:
+        problem.quads(quads)
     problem.max_elements(max_elements)
     problem.keep_going(keep_going)
     if progress:

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/sweep/calibration.h"
+#include "base/calibration.h"
 #include "experiments/sweep/peer_reference.h"
 #include "mesher/prepare.h"
 #include "metrics/tables/calibration_notes.h"
@@ -11,13 +11,15 @@
 namespace delquad {
 namespace {
 
+constexpr CalibrationLimits kLimits = {.tolerance = 0.01, .most_runs = 8};
+
 /// A mesher whose number of quads is a power of its size.
 auto power_law(double at_one, double power) {
   return [=](double scale) { return std::optional(std::round(at_one * std::pow(scale, power))); };
 }
 
 TEST(Calibration, IsDoneWithOneRunWhereTheNumberIsRight) {
-  const Calibration done = calibrate_scale(1000, power_law(1009, -2));
+  const Calibration done = calibrate_scale(1000, kLimits, power_law(1009, -2));
   EXPECT_EQ(done.runs, 1);
   EXPECT_EQ(done.scale, 1);
   EXPECT_EQ(done.quads, 1009);
@@ -26,7 +28,7 @@ TEST(Calibration, IsDoneWithOneRunWhereTheNumberIsRight) {
 TEST(Calibration, FindsTheScaleOfPowerLaws) {
   for (const double power : {-2.0, -1.5, -1.0, -3.0})
     for (const double at_one : {400.0, 900.0, 1200.0, 2500.0}) {
-      const Calibration done = calibrate_scale(1000, power_law(at_one, power));
+      const Calibration done = calibrate_scale(1000, kLimits, power_law(at_one, power));
       EXPECT_NEAR(done.quads, 1000, 10) << at_one << " " << power;
       EXPECT_NEAR(std::round(at_one * std::pow(done.scale, power)), done.quads, 0.5)
           << "its scale is the one";
@@ -37,12 +39,12 @@ TEST(Calibration, FindsTheScaleOfPowerLaws) {
 /// Two power laws with a jump between: there is no scale with 1000.
 TEST(Calibration, KeepsTheClosestWhereTheNumberJumps) {
   int runs = 0;
-  const Calibration done = calibrate_scale(1000, [&](double scale) {
+  const Calibration done = calibrate_scale(1000, kLimits, [&](double scale) {
     ++runs;
     return std::optional(std::round((scale < 1.1 ? 1500 : 1150) / (scale * scale)));
   });
   EXPECT_EQ(runs, done.runs);
-  EXPECT_LE(runs, kMostCalibrationRuns);
+  EXPECT_LE(runs, kLimits.most_runs);
   EXPECT_LT(std::abs(std::log(done.quads / 1000)), std::log(1.25));
   for (const auto& tried : done.tried)
     EXPECT_LE(std::abs(std::log(done.quads / 1000)), std::abs(std::log(tried[1] / 1000)));
@@ -50,22 +52,24 @@ TEST(Calibration, KeepsTheClosestWhereTheNumberJumps) {
 
 TEST(Calibration, EndsWhereNothingFollowsTheSize) {
   int runs = 0;
-  const Calibration done = calibrate_scale(1000, [&](double) { return ++runs, std::optional(500.0); });
+  const Calibration done =
+      calibrate_scale(1000, kLimits, [&](double) { return ++runs, std::optional(500.0); });
   EXPECT_EQ(runs, 2);
   EXPECT_EQ(done.quads, 500);
   EXPECT_EQ(done.scale, 1);
 }
 
 TEST(Calibration, EndsWithTheRunBeforeAFailure) {
-  const Calibration done = calibrate_scale(
-      1000, [](double scale) { return scale == 1 ? std::optional(500.0) : std::optional<double>(); });
+  const Calibration done = calibrate_scale(1000, kLimits, [](double scale) {
+    return scale == 1 ? std::optional(500.0) : std::optional<double>();
+  });
   EXPECT_EQ(done.runs, 2);
   EXPECT_EQ(done.quads, 500);
   EXPECT_EQ(done.scale, 1);
 }
 
 TEST(Calibration, NeverLeavesTheRangeOfScales) {
-  calibrate_scale(1e9, [](double scale) {
+  calibrate_scale(1e9, kLimits, [](double scale) {
     EXPECT_GE(scale, 0.249);
     EXPECT_LE(scale, 4.001);
     return std::optional(100 / (scale * scale));

@@ -1,4 +1,4 @@
-#include "experiments/sweep/calibration.h"
+#include "base/calibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 /// Scales beyond this factor, either way, make another case of it.
 constexpr double kLargestScale = 4;
 /// Brackets narrower than this (of log scale) hold a jump of the number of quads, which else changes by less
-/// than kEquallyMany over them.
+/// than anybody asks for over them.
 constexpr double kNarrow = 2e-3;
 /// A number that changes by less (of its logarithm) over this change of log scale does not follow the size.
 constexpr double kNoAnswer = 1e-3, kChange = 0.02;
@@ -64,13 +64,13 @@ double count_of_quads(const Mesh& mesh) {
   return static_cast<double>(mesh.quads.size()) + 0.5 * static_cast<double>(mesh.triangles.size());
 }
 
-Calibration calibrate_scale(double wanted,
+Calibration calibrate_scale(double wanted, const CalibrationLimits& limits,
                             const std::function<std::optional<double>(double scale)>& quads_at) {
   Calibration best;
   std::vector<Try> tries;
   std::optional<double> log_scale = 0;
   const auto off = [&](double quads) { return std::abs(std::log(quads / wanted)); };
-  for (int runs = 1; log_scale && runs <= kMostCalibrationRuns; ++runs) {
+  for (int runs = 1; log_scale && runs <= limits.most_runs; ++runs) {
     const double scale = std::exp(*log_scale);
     const std::optional<double> quads = quads_at(scale);
     if (!quads || !(*quads > 0)) {
@@ -83,7 +83,7 @@ Calibration calibrate_scale(double wanted,
     }
     best.runs = runs;
     best.tried.push_back({scale, *quads});
-    if (std::abs(*quads / wanted - 1) <= kEquallyMany) break;
+    if (std::abs(*quads / wanted - 1) <= limits.tolerance) break;
     tries.push_back({*log_scale, std::log(*quads / wanted)});
     log_scale = next_log_scale(tries);
   }

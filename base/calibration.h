@@ -5,12 +5,8 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "metrics/tables/result_records.h"
 
 namespace delquad {
-
-/// How often a mesher is run to get there, at most.
-inline constexpr int kMostCalibrationRuns = 8;
 
 /// Quads, and a triangle as half a quad, whose area it has.
 double count_of_quads(const Mesh& mesh);
@@ -23,11 +19,17 @@ struct Calibration {
   std::vector<std::vector<double>> tried = {};  ///< scale and number of each run that gave one
 };
 
-/// Looks for the scale of the sizes at which `quads_at` gives `wanted` within kEquallyMany, beginning with 1:
-/// by regula falsi on the logarithms, and by the secant before there is a bracket. Ends, with the closest,
-/// after kMostCalibrationRuns, when the number does not follow the size or jumps over `wanted`, and when
-/// `quads_at` gives nothing.
-Calibration calibrate_scale(double wanted,
+/// How close is close enough, as a part of the wanted number, and how often a mesher is run to get there.
+struct CalibrationLimits {
+  double tolerance;
+  int most_runs;
+};
+
+/// Looks for the scale of the sizes at which `quads_at` gives `wanted` within the tolerance, beginning with
+/// 1: by regula falsi on the logarithms, and by the secant before there is a bracket. Ends, with the closest,
+/// after the most runs, when the number does not follow the size or jumps over `wanted`, and when `quads_at`
+/// gives nothing.
+Calibration calibrate_scale(double wanted, const CalibrationLimits& limits,
                             const std::function<std::optional<double>(double scale)>& quads_at);
 
 }  // namespace delquad

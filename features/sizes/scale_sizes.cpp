@@ -1,0 +1,108 @@
+#include "features/sizes/scale_sizes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "delquad/error.h"
+
+namespace delquad {
+namespace {
+
+class ScaledSize final : public SizeField {
+ public:
+  ScaledSize(std::shared_ptr<const SizeField> size, double factor)
+      : size_(std::move(size)), factor_(factor) {}
+  double at(const Vec3& x, int& hint) const override { return factor_ * size_->at(x, hint); }
+
+ private:
+  std::shared_ptr<const SizeField> size_;
+  double factor_;
+};
+
+void scale_per_turn(double& per_turn, double factor) {
+  if (per_turn > 0) per_turn = std::max(per_turn / factor, kLeastPerTurn);
+}
+
+/// More than any program can make.
+constexpr double kMostRefined = 1e9;
+
+/// A number of edges or rows, k times as many.
+int refined_number(double number, double k) {
+  return static_cast<int>(std::clamp(std::round(k * number), 1.0, kMostRefined));
+}
+
+/// Edges lie in those that there were, where k is whole.
+void refine(CurveDivision& division, double k) {
+  const int edges = refined_number(division.edges, k);
+  division.progression = std::pow(division.progression, double(division.edges) / edges);
+  division.edges = edges;
+}
+
+/// So do rows.
+void refine(LayerSpec& layer, double k) {
+  const std::vector<double> heights = layer_heights(layer);
+  const int rows = refined_number(static_cast<double>(heights.size()), k);
+  layer.growth = std::pow(layer.growth, static_cast<double>(heights.size()) / rows);
+  layer.number = rows;
+  layer.thickness = 0;
+  layer.first = 1;
+  layer.first = heights.back() / layer_heights(layer).back();
+}
+
+}  // namespace
+
+MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
+  SizeSpec& size = problem.size;
+  bool follows_curvature = size.curvature > 0;
+  if (size.field) size.field = std::make_shared<ScaledSize>(size.field, factor);
+  if (size.function)
+    size.function = [factor, base = std::move(size.function)](std::span<const Vec3> points,
+                                                              std::span<double> delta) {
+      base(points, delta);
+      for (double& d : delta) d *= factor;
+    };
+  for (SizeSource& source : size.sources) source.size_near *= factor, source.size_far *= factor;
+  for (NamedSize& named : size.named) {
+    follows_curvature |= named.curvature > 0;
+    named.size *= factor;
+    named.growth *= factor;
+    scale_per_turn(named.curvature, factor);
+  }
+  if (follows_curvature && size.gradation == 0) size.gradation = kCurvatureGradation;
+  size.gradation *= factor;
+  scale_per_turn(size.curvature, factor);
+  size.min *= factor;
+  size.max *= factor;
+  return problem;
+}
+
+void require_free_sizes(const MeshProblem& problem, const std::string& asked) {
+  const auto* lines = std::get_if<LineModel>(&problem.model);
+  const auto* given = std::get_if<GivenMesh>(&problem.model);
+  if (lines != nullptr || given != nullptr)
+    throw InputError(fmt::format(
+        "{}: {}: the lines of {} are kept, each as an edge: expected curves (in a model file, a polyline "
+        "will do), a surface or CAD",
+        problem.where, asked, lines != nullptr ? lines->source : given->source));
+}
+
+MeshProblem refined(MeshProblem problem) {
+  const double k = std::exchange(problem.refine, 1);
+  if (k == 1) return problem;
+  if (!(k > 0) || !std::isfinite(k))
+    throw InputError(fmt::format("{}: refine {}: expected a finite number above 0", problem.where, k));
+  if (problem.quads)
+    throw InputError(
+        problem.where +
+        ": a number of quads says how fine the mesh is, and so does refine: expected one of both");
+  require_free_sizes(problem, fmt::format("refine {}", k));
+  for (CurveDivision& division : problem.divisions) refine(division, k);
+  for (LayerSpec& layer : problem.layers) refine(layer, k);
+  return with_scaled_sizes(std::move(problem), 1 / k);
+}
+
+}  // namespace delquad

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "delquad/mesher.h"
+
+namespace delquad {
+
+/// The problem, whose files are read, with a size that is `factor` times as large everywhere. Distances stay,
+/// so that growth and gradation change with the size; curvature gets kLeastPerTurn elements at least.
+MeshProblem with_scaled_sizes(MeshProblem problem, double factor);
+
+/// The problem, whose files are read, with what `refine` asks for: sizes, numbers of edges, and layers of the
+/// same thickness. Throws InputError where it cannot be.
+MeshProblem refined(MeshProblem problem);
+
+/// Throws InputError where lines are given, which say how long edges are; `asked` names what was asked for.
+void require_free_sizes(const MeshProblem& problem, const std::string& asked);
+
+}  // namespace delquad

@@ -1,0 +1,99 @@
+#include "mesher/number_of_quads.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/calibration.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+#include "features/sizes/scale_sizes.h"
+#include "mesher/check_problem.h"
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
+#include "patches/all_patches.h"
+
+namespace delquad {
+namespace {
+
+/// How near the number of quads is to come, as a part of it, by how many meshes.
+constexpr CalibrationLimits kLimits = {.tolerance = 0.03, .most_runs = 3};
+/// The number that is expected comes as near as this part before anything is meshed, or as often as this is
+/// tried.
+constexpr double kNearGuess = 0.01;
+constexpr int kMostGuesses = 3;
+
+bool has_size(const MeshProblem& problem) {
+  const SizeSpec& size = problem.size;
+  return size.field || size.function || size.from_boundary || !size.sources.empty() || size.max > 0;
+}
+
+}  // namespace
+
+PreparedProblem prepare_for_quads(MeshProblem& problem) {
+  const long long wanted = *problem.quads;
+  if (wanted < 1 || wanted > problem.max_elements)
+    throw InputError(fmt::format("{}: {} quads: expected 1 to {} (max-elements)", problem.where, wanted,
+                                 problem.max_elements));
+  require_free_sizes(problem, fmt::format("{} quads", wanted));
+  check_problem(problem);
+  StepTimes before;
+  if (!has_size(problem)) {
+    const Stopwatch reading;
+    const double area = model_info(problem).report.area;
+    problem.size.field = make_constant_size(std::sqrt(area / static_cast<double>(wanted)));
+    before.emplace_back("read", reading.time());
+  }
+  PreparedProblem made = prepare_problem(problem);
+  for (int guess = 0; guess < kMostGuesses; ++guess) {
+    const double share = made.size.expected_quads / static_cast<double>(wanted);
+    if (std::abs(share - 1) <= kNearGuess) break;
+    MeshProblem other = with_scaled_sizes(problem, std::sqrt(share));
+    PreparedProblem next = prepare_problem(other, as_read(made));
+    // Less than half of the way: curves alone need more, however large the size.
+    const bool follows = share < 1 || next.size.expected_quads < made.size.expected_quads / std::sqrt(share);
+    const StepTimes& lost = follows ? made.times : next.times;
+    before.insert(before.end(), lost.begin(), lost.end());
+    if (!follows) break;
+    problem = std::move(other);
+    made = std::move(next);
+  }
+  made.times.insert(made.times.begin(), before.begin(), before.end());
+  return made;
+}
+
+void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& result) {
+  const MeshProblem first = prepared.problem();
+  const auto wanted = static_cast<double>(*first.quads);
+  const auto worth = [&](const MeshResult& r) {
+    return std::pair(!r.soundness.accepted(), std::abs(std::log(count_of_quads(r.mesh) / wanted)));
+  };
+  StageLog lost;  // the times of all meshes but the nearest
+  double seconds = result.seconds;
+  const auto quads_at = [&](double scale) -> std::optional<double> {
+    if (scale == 1) return count_of_quads(result.mesh);
+    try {
+      auto [other, run] = mesh_anew(with_scaled_sizes(first, scale));
+      const double quads = count_of_quads(run.mesh);
+      seconds += run.seconds;
+      if (worth(run) < worth(result)) std::swap(prepared, other), std::swap(result, run);
+      add_times(other->times, lost);
+      add_times(run.log.times, lost);
+      return quads;
+    } catch (const InputError&) {
+      return std::nullopt;  // no mesh can have that size
+    }
+  };
+  const int meshes = calibrate_scale(wanted, kLimits, quads_at).runs;
+  add_times(lost.times, result.log);
+  result.seconds = seconds;
+  add_summary(result.log, NumberSummary{static_cast<int>(wanted), meshes});
+  const double got = count_of_quads(result.mesh);
+  if (std::abs(got / wanted - 1) > kLimits.tolerance)
+    result.warnings.push_back(fmt::format(
+        "{}: {} quads were asked for, and of {} meshes the nearest has {}: curves, layers and grids "
+        "need as many, or change their number by leaps",
+        first.name, *first.quads, meshes, got));
+}
+
+}  // namespace delquad
