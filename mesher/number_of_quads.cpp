@@ -90,10 +90,10 @@ void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& resul
   add_summary(result.log, NumberSummary{static_cast<int>(wanted), meshes});
   const double got = count_of_quads(result.mesh);
   if (std::abs(got / wanted - 1) > kLimits.tolerance)
-    result.warnings.push_back(fmt::format(
-        "{}: {} quads were asked for, and of {} meshes the nearest has {}: curves, layers and grids "
-        "need as many, or change their number by leaps",
-        first.name, *first.quads, meshes, got));
+    result.warnings.push_back(
+        fmt::format("{}: {} quads were asked for, and of {} meshes the nearest has {}: curves, layers, grids "
+                    "and places that would not be sound need theirs, and numbers of edges change by leaps",
+                    first.name, *first.quads, meshes, got));
 }
 
 }  // namespace delquad

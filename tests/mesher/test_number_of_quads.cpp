@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/calibration.h"
@@ -153,12 +155,19 @@ TEST(NumberOfQuads, IsMetWithoutASize) {
   MeshProblem cad = plate();
   cad.name = "bracket";
   cad.model = ExampleModel{"bracket"};
-  for (MeshProblem problem : {plate(), surface, cad})
-    for (const int wanted : {800, 3000}) {
+  for (const auto& [model, numbers] :
+       {std::pair(plate(), std::array{800, 3000}), std::pair(surface, std::array{6 * 12 * 12, 6 * 22 * 22}),
+        std::pair(cad, std::array{1500, 3000})})
+    for (const int wanted : numbers) {
+      MeshProblem problem = model;
       problem.quads = wanted;
       expect_quads(problem, "DB");
-      expect_quads(problem, "good");
     }
+  for (const char* quality : {"fast", "good", "best"}) {
+    MeshProblem problem = plate();
+    problem.quads = 2500;
+    expect_quads(problem, quality);
+  }
   cad.quads = 1000;
   cad.order = 2;
   expect_quads(cad, "DBC");
@@ -190,6 +199,11 @@ TEST(NumberOfQuads, CountsLayersAndGrids) {
   expect_quads(problem, "good");
 }
 
+bool says(const MeshResult& result, const std::string& what) {
+  return std::ranges::any_of(result.warnings,
+                             [&](const Warning& w) { return w.text.find(what) != std::string::npos; });
+}
+
 TEST(NumberOfQuads, SaysWhereItIsOutOfReach) {
   MeshProblem problem;
   problem.name = problem.where = "flange";
@@ -198,9 +212,13 @@ TEST(NumberOfQuads, SaysWhereItIsOutOfReach) {
   const MeshResult result = mesh(problem, "DB");
   EXPECT_GT(count_of_quads(result.mesh), 8);
   EXPECT_TRUE(result.soundness.accepted());
-  bool is_said = false;
-  for (const Warning& warning : result.warnings) is_said |= warning.text.find("4 quads were asked for") == 8;
-  EXPECT_TRUE(is_said);
+  EXPECT_TRUE(says(result, "flange: 4 quads were asked for"));
+  // A box has six times a square of an even number.
+  problem.model = TriangleModel{box(1)};
+  problem.quads = 800;
+  const MeshResult near = mesh(problem, "DB");
+  EXPECT_EQ(count_of_quads(near.mesh), 6 * 12 * 12);
+  EXPECT_TRUE(says(near, "has 864"));
 }
 
 TEST(NumberOfQuads, RefusesNumbersThatCannotBe) {

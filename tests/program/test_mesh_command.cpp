@@ -37,6 +37,35 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
     EXPECT_TRUE(contains(record, key)) << key;
 }
 
+TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare + "size = 0.1\nrefine = 2\n");
+  const auto quads = [&](std::vector<std::string> more, const std::string& of) {
+    more.insert(more.begin(), {"mesh", of, "-o", folder / "out.msh", "--json", folder / "record.json"});
+    const ProgramResult result = delquad(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_mesh(folder / "out.msh").quads.size();
+  };
+  EXPECT_EQ(quads({}, model), 400u);
+  EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"refine\": 2.0"));
+  EXPECT_EQ(quads({"--refine", "3"}, model), 900u);
+  const auto counted = write_text(folder / "counted.toml", kSquare + "quads = 1600\n");
+  EXPECT_EQ(quads({}, counted), 1600u);
+  EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"asked\": 1600"));
+  EXPECT_NEAR(double(quads({"--quads", "900", "--size", "0.1 + 0.3*x"}, counted)), 900, 27);
+  for (const auto& [given, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--quads", "100"}, "refine"},
+           {{"--quads", "100", "--size", "0.1"}, "--size and --quads"},
+           {{"--quads", "0"}, "whole number"},
+           {{"--refine", "-1"}, "> 0"}}) {
+    std::vector<std::string> command = {"mesh", model, "-o", folder / "no.msh"};
+    command.insert(command.end(), given.begin(), given.end());
+    const ProgramResult result = delquad(command);
+    EXPECT_EQ(result.exit_code, 2) << said;
+    EXPECT_TRUE(contains(result.err, said)) << result.err;
+  }
+}
+
 TEST(MeshCommand, ItsFirstLineCountsAllSteps) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare + R"([size]

@@ -39,6 +39,18 @@ def test_a_constant_function_is_the_constant():
     assert len(calls) == 3
 
 
+def test_sizes_are_divided_and_found_by_number():
+    half = delquad.mesh(square(), size=0.05)
+    divided = delquad.mesh(square(), size=0.1, refine=2)
+    assert np.array_equal(half.points, divided.points) and np.array_equal(half.quads, divided.quads)
+    assert len(delquad.mesh(square(), quads=900).quads) == 900
+    graded = delquad.mesh(square(), size=lambda x: 1 + 4 * x[:, 0], quads=900)
+    assert len(graded.quads) == pytest.approx(900, rel=0.03)
+    for wrong in ({"size": 0.1, "quads": 900}, {"quads": 0}, {"size": 0.1, "refine": 0}):
+        with pytest.raises(delquad.InputError, match="quads|refine"):
+            delquad.mesh(square(), **wrong)
+
+
 def test_the_arrays_are_the_callbacks_own():
     kept = []
 
