@@ -27,12 +27,10 @@ void scale_per_turn(double& per_turn, double factor) {
   if (per_turn > 0) per_turn = std::max(per_turn / factor, kLeastPerTurn);
 }
 
-/// More than any program can make.
-constexpr double kMostRefined = 1e9;
-
-/// A number of edges or rows, k times as many.
+/// A number of edges or rows, k times as many, but one at least; what is none stays, and is refused later.
 int refined_number(double number, double k) {
-  return static_cast<int>(std::clamp(std::round(k * number), 1.0, kMostRefined));
+  constexpr double kMost = 1e9;  // more than anything can have
+  return static_cast<int>(std::clamp(std::round(k * number), std::min(number, 1.0), kMost));
 }
 
 /// Edges lie in those that there were, where k is whole.

@@ -130,6 +130,9 @@ TEST(Refine, RefusesWhatItCannotDo) {
     expect_input_error([&] { prepare(problem); }, {"plate", "refine"});
   }
   problem.refine = 2;
+  problem.divisions = {{.name = "hole", .edges = 0, .where = "hole"}};
+  expect_input_error([&] { prepare(problem); }, {"0 edges"});
+  problem.divisions.clear();
   problem.quads = 100;
   expect_input_error([&] { prepare(problem); }, {"plate", "refine", "quads", "one of both"});
   problem.quads.reset();
