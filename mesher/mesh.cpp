@@ -3,7 +3,7 @@
 #include "base/context.h"
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
-#include "features/sizes/scale_sizes.h"
+#include "features/scaling/scale_sizes.h"
 #include "io/cases/read_problem.h"
 #include "mesher/number_of_quads.h"
 #include "mesher/prepare.h"

@@ -7,7 +7,7 @@
 #include "base/calibration.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
-#include "features/sizes/scale_sizes.h"
+#include "features/scaling/scale_sizes.h"
 #include "mesher/check_problem.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"

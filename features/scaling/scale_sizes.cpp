@@ -1,4 +1,4 @@
-#include "features/sizes/scale_sizes.h"
+#include "features/scaling/scale_sizes.h"
 
 #include <fmt/format.h>
 
