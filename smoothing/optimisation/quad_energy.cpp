@@ -13,8 +13,8 @@ namespace {
 
 /// Where |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
-/// Edges below this part of d cost more, with this weight against that of what they lack in tau.
-constexpr double kShort = 0.3, kShortWeight = 2.5;
+/// What it costs to be beyond the walls of lengths, and how far (as a logarithm) that still can be cured.
+constexpr double kWall = 80, kCurable = 0.25;
 /// Quads in a piece.
 constexpr std::size_t kPieceLength = 1024;
 
@@ -256,13 +256,17 @@ bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
   // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
   const double too_short = weights_.barrier * edge.least_length / (length - edge.least_length);
-  const double far_off = ratio < kShort ? std::log(kShort / ratio) : 0;
-  energy += weights_.size * (1 - lack + kShortWeight * far_off * far_off) +
+  // Positive: how much longer it should be, as a logarithm.
+  const double lacks = ratio < kShortWall  ? std::log(kShortWall / ratio)
+                       : ratio > kLongWall ? std::log(kLongWall / ratio)
+                                           : 0;
+  const double soft = 1 / (1 + lacks * lacks / (kCurable * kCurable));
+  energy += weights_.size * (1 - lack) + kWall * lacks * lacks * soft +
             4 * weights_.alignment * c2 * (1 - c2) + too_short;
   if constexpr (!kSlope) return true;
-  const double by_length =
-      weights_.size * (sinh * (cosh / rounded - 1) - 2 * kShortWeight * far_off) * inverse -
-      too_short / (length - edge.least_length);
+  const double by_length = weights_.size * sinh * (cosh / rounded - 1) * inverse -
+                           2 * kWall * lacks * soft * soft * inverse -
+                           too_short / (length - edge.least_length);
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   side.slope = side.slope + (by_length * u + by_cosine * (edge.arm - c * u));
   return true;

@@ -60,6 +60,7 @@ class TrackOptimisation {
   std::vector<double> least_sines() const;
   double least() const;
   void find_delta();
+  bool beyond_walls(std::size_t quad) const;
   std::vector<char> around_below(double eta) const;
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
@@ -159,14 +160,26 @@ void TrackOptimisation<Vec>::find_delta() {
   });
 }
 
-/// The vertices that can move around quads below this eta.
+template <class Vec>
+bool TrackOptimisation<Vec>::beyond_walls(std::size_t quad) const {
+  const auto& v = quads_[quad];
+  for (int k = 0; k < 4; ++k) {
+    const int a = v[k], b = v[(k + 1) % 4];
+    if (!free_[a] && !free_[b]) continue;
+    const double part = 2 * norm(points_[b] - points_[a]) / (delta_[a] + delta_[b]);
+    if (part < kShortWall || part > kLongWall) return true;
+  }
+  return false;
+}
+
+/// The vertices that can move around quads below this eta, and around those with sides beyond the walls.
 template <class Vec>
 std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   std::vector<char> near(points_.size(), 0);
   const std::vector<double> sines = least_sines();
   const double good = sine_of_eta(eta);
   for (std::size_t q = 0; q < quads_.size(); ++q)
-    if (sines[q] < good)
+    if (sines[q] < good || beyond_walls(q))
       for (const int v : quads_[q]) near[v] = 1;
   for (int ring = 0; ring < kRings; ++ring) {
     const std::vector<char> inner = near;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -79,7 +80,8 @@ TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
       mesh.moving.push_back({v,
                              {Vec3{0.8 + number(), number(), number()},
                               v % 2 == 0 ? Vec3{number(), 0.8 + number(), number()} : Vec3{}}});
-    mesh.delta.assign(patch.points.size(), seed % 2 == 0 ? 0.8 : 4);  // 4: edges around 0.3 delta
+    // Edges of about one delta, and around each wall.
+    mesh.delta.assign(patch.points.size(), std::array{0.8, 0.6, 2.4, 4.0}[seed % 4]);
     mesh.least_lengths.assign(patch.quads.size(), {0.3, 0.3, 0.2, 0.1});
     mesh.arm = [](int, int side) { return side % 2 == 0 ? Vec3{0.6, 0.8, 0} : Vec3{}; };
     mesh.least_sine.assign(patch.quads.size(), 0.02);
@@ -169,10 +171,28 @@ TEST(QuadEnergy, SizeAndCrossPull) {
     return result;
   };
   const int edges = 24;  // with an interior end
-  // At a factor of two every edge lacks a half; a cross at 45 degrees is as far off as can be.
-  EXPECT_NEAR(value(2, 0) - value(1, 0), edges * 0.5, 0.02 * edges);
-  EXPECT_NEAR(value(0.5, 0) - value(1, 0), edges * 0.5, 0.02 * edges);
+  // At a factor of 1.5 every edge lacks a third; a cross at 45 degrees is as far off as can be.
+  EXPECT_NEAR(value(1.5, 0) - value(1, 0), edges / 3.0, 0.02 * edges);
+  EXPECT_NEAR(value(1 / 1.5, 0) - value(1, 0), edges / 3.0, 0.02 * edges);
   EXPECT_NEAR(value(1, std::atan(1.0)) - value(1, 0), edges, 1e-9);
+}
+
+TEST(QuadEnergy, WallsHoldLengthsAndLevelOff) {
+  const QuadPatch grid = grid_patch(4, 4);
+  double of_shapes = 0;
+  const auto value = [&](double delta) {
+    double result = 0;
+    const std::vector<double> rest(18, 0.0);
+    EXPECT_TRUE(energy_of(grid, delta, 0, 0, {0, 2, 0, 0, 0}).evaluate(rest.data(), result, nullptr));
+    return result - of_shapes;
+  };
+  of_shapes = value(1);
+  EXPECT_EQ(value(1 / (kLongWall - 1e-9)), 0);
+  EXPECT_EQ(value(1 / (kShortWall + 1e-9)), 0);
+  // A tenth beyond, to either side, costs the same; five times as far not much more than twice.
+  EXPECT_GT(value(1 / (1.1 * kLongWall)), 1);
+  EXPECT_NEAR(value(1 / (1.1 * kLongWall)), value(1.1 / kShortWall), 1e-9);
+  EXPECT_LT(value(5 / kShortWall), 1.2 * value(2 / kShortWall));
 }
 
 }  // namespace
