@@ -41,7 +41,27 @@ class ConvexSearch {
  public:
   ConvexSearch(const Outline& outline, const PolygonSides& sides) : outline_(outline), sides_(sides) {}
 
-  std::optional<Pattern> best() const;
+  std::optional<Pattern> best() const {
+    const auto& s = sides_.edges;
+    if (s.size() == 3 || s.size() == 5) {
+      const auto feet = star_feet(s);
+      return feet ? std::optional(star(*feet)) : std::nullopt;
+    }
+    if (s.size() == 4 && s[0] == s[2] && s[1] == s[3]) return grid();
+    std::optional<Pattern> least;
+    any_corner(s, [&](int at, int along, int back, std::span<const int> rest, const auto& feet) {
+      const auto found = pair(at, along, back, {rest, feet});
+      if (found && (!least || found->strain < least->strain))
+        least = Pattern{.kind = Pattern::kCorner,
+                        .at = at,
+                        .along = along,
+                        .back = back,
+                        .places = {found->three, found->five},
+                        .strain = found->strain};
+      return false;
+    });
+    return least;
+  }
 
  private:
   std::size_t place(int i) const {
@@ -59,100 +79,74 @@ class ConvexSearch {
   };
   /// The arms of a star to its sides from `first` on, which follow each other on the outline from `at`. The
   /// side that has its centre; negative: none.
-  int add_arms(Hub& hub, const Star& star, std::size_t first, int at) const;
-  Pattern grid() const;
-  Pattern star(const std::array<int, 5>& feet) const;
+  int add_arms(Hub& hub, const Star& star, std::size_t first, int at) const {
+    const auto& [sides, x] = star;
+    const std::size_t n = sides.size();
+    std::size_t on = 0;
+    while (on < n && x[(on + 1) % n] > 0) ++on;
+    for (std::size_t i = first; i < n; ++i) {
+      // The arms beside a centre on the rim lie on the rim.
+      if (on == n || (i + n - on + 1) % n > 2) add_line(hub, at + x[i], x[(i + 1) % n]);
+      at += sides[i];
+    }
+    return on < n ? static_cast<int>(on) : -1;
+  }
+
+  Pattern grid() const {
+    Pattern pattern{Pattern::kGrid};
+    for (int i = 0; i < 2; ++i) {
+      const int half = sides_.edges[i] / 2, across = sides_.edges[1 - i];
+      const std::size_t from = place(start(i) + half), to = place(start(i + 2) + sides_.edges[i] - half);
+      pattern.strain += strain_of(outline_.places[from], outline_.places[to], across, outline_.delta[from]);
+    }
+    return pattern;
+  }
+
+  Pattern star(const std::array<int, 5>& feet) const {
+    Pattern pattern{Pattern::kStar};
+    Hub hub;
+    const int on = add_arms(hub, {sides_.edges, feet}, 0, 0);
+    pattern.places = {on < 0 ? hub.rest() : outline_.places[place(start(on) + feet[on])]};
+    pattern.strain = hub.strain(pattern.places[0]);
+    return pattern;
+  }
+
   struct Pair {
     double strain;
     Vec2 three, five;
   };
-  std::optional<Pair> pair(int at, int along, int back, const Star& rest) const;
+
+  std::optional<Pair> pair(int at, int along, int back, const Star& left) const {
+    const auto& [rest, x] = left;
+    double strain = 0;
+    const int corner = start(at), between = x[1] + std::abs(x[0] - along);
+    const std::size_t ahead = place(corner + along), behind = place(corner - back);
+    Hub three, star;
+    add_line(three, corner + along, back);
+    add_line(three, corner - back, along);
+    const int on = add_arms(star, left, 1, corner + along);
+    Vec2 t = three.rest(), c = t;
+    if (on < 0) {
+      // Both pull at each other.
+      const double w = 1.0 / between, a = three.weight + w, b = star.weight + w, det = a * b - w * w;
+      t = (1 / det) * (b * three.pull + w * star.pull);
+      c = (1 / det) * (w * three.pull + a * star.pull);
+      strain = strain_of(t, c, between, outline_.delta[ahead]);
+    } else if (on > 0) {
+      const int foot = std::accumulate(rest.begin() + 1, rest.begin() + on, corner + along + x[on]);
+      c = outline_.places[place(foot)];
+    } else if (x[0] != along) {
+      const double far = x[0] < along ? double(x[0]) / along : double(rest[0] - x[0]) / back;
+      c = (1 - far) * outline_.places[x[0] < along ? behind : ahead] + far * t;
+    } else {
+      return std::nullopt;  // both irregular vertices would be one
+    }
+    return Pair{strain + three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain), t, c};
+  }
 
   const Outline& outline_;
   const PolygonSides& sides_;
 };
-
-int ConvexSearch::add_arms(Hub& hub, const Star& star, std::size_t first, int at) const {
-  const auto& [sides, x] = star;
-  const std::size_t n = sides.size();
-  std::size_t on = 0;
-  while (on < n && x[(on + 1) % n] > 0) ++on;
-  for (std::size_t i = first; i < n; ++i) {
-    // The arms beside a centre on the rim lie on the rim.
-    if (on == n || (i + n - on + 1) % n > 2) add_line(hub, at + x[i], x[(i + 1) % n]);
-    at += sides[i];
-  }
-  return on < n ? static_cast<int>(on) : -1;
-}
-
-Pattern ConvexSearch::grid() const {
-  Pattern pattern{Pattern::kGrid};
-  for (int i = 0; i < 2; ++i) {
-    const int half = sides_.edges[i] / 2, across = sides_.edges[1 - i];
-    const std::size_t from = place(start(i) + half), to = place(start(i + 2) + sides_.edges[i] - half);
-    pattern.strain += strain_of(outline_.places[from], outline_.places[to], across, outline_.delta[from]);
-  }
-  return pattern;
-}
-
-Pattern ConvexSearch::star(const std::array<int, 5>& feet) const {
-  Pattern pattern{Pattern::kStar};
-  Hub hub;
-  const int on = add_arms(hub, {sides_.edges, feet}, 0, 0);
-  pattern.places = {on < 0 ? hub.rest() : outline_.places[place(start(on) + feet[on])]};
-  pattern.strain = hub.strain(pattern.places[0]);
-  return pattern;
-}
-
-std::optional<ConvexSearch::Pair> ConvexSearch::pair(int at, int along, int back, const Star& left) const {
-  const auto& [rest, x] = left;
-  double strain = 0;
-  const int corner = start(at), between = x[1] + std::abs(x[0] - along);
-  const std::size_t ahead = place(corner + along), behind = place(corner - back);
-  Hub three, star;
-  add_line(three, corner + along, back);
-  add_line(three, corner - back, along);
-  const int on = add_arms(star, left, 1, corner + along);
-  Vec2 t = three.rest(), c = t;
-  if (on < 0) {
-    // Both pull at each other.
-    const double w = 1.0 / between, a = three.weight + w, b = star.weight + w, det = a * b - w * w;
-    t = (1 / det) * (b * three.pull + w * star.pull);
-    c = (1 / det) * (w * three.pull + a * star.pull);
-    strain = strain_of(t, c, between, outline_.delta[ahead]);
-  } else if (on > 0) {
-    const int foot = std::accumulate(rest.begin() + 1, rest.begin() + on, corner + along + x[on]);
-    c = outline_.places[place(foot)];
-  } else if (x[0] != along) {
-    const double far = x[0] < along ? double(x[0]) / along : double(rest[0] - x[0]) / back;
-    c = (1 - far) * outline_.places[x[0] < along ? behind : ahead] + far * t;
-  } else {
-    return std::nullopt;  // both irregular vertices would be one
-  }
-  return Pair{strain + three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain), t, c};
-}
-
-std::optional<Pattern> ConvexSearch::best() const {
-  const auto& s = sides_.edges;
-  if (s.size() == 3 || s.size() == 5) {
-    const auto feet = star_feet(s);
-    return feet ? std::optional(star(*feet)) : std::nullopt;
-  }
-  if (s.size() == 4 && s[0] == s[2] && s[1] == s[3]) return grid();
-  std::optional<Pattern> least;
-  any_corner(s, [&](int at, int along, int back, std::span<const int> rest, const auto& feet) {
-    const auto found = pair(at, along, back, {rest, feet});
-    if (found && (!least || found->strain < least->strain))
-      least = Pattern{.kind = Pattern::kCorner,
-                      .at = at,
-                      .along = along,
-                      .back = back,
-                      .places = {found->three, found->five},
-                      .strain = found->strain};
-    return false;
-  });
-  return least;
-}
 
 }  // namespace
 

@@ -63,89 +63,81 @@ struct Cut {
 class CutSearch {
  public:
   /// Cuts that leave more than `most` irregular vertices are left out.
-  CutSearch(const Outline& outline, int most);
+  CutSearch(const Outline& outline, int most)
+      : outline_(outline), n_(static_cast<int>(outline.turn.size())), most_(most), to_turn_(n_, n_) {
+    for (int i = 2 * n_ - 1; i >= 0; --i)
+      to_turn_[i % n_] = outline.turn[(i + 1) % n_] != 0 ? 1 : std::min(to_turn_[(i + 1) % n_] + 1, n_);
+  }
 
   /// So many, those with the fewest irregular vertices first, of these those with the least strain.
-  std::vector<Cut> first(int n) &&;
+  std::vector<Cut> first(int n) && {
+    if (const auto sides = sides_of(outline_.turn)) {
+      between_sides(*sides);
+    } else {
+      const auto concave = std::ranges::find_if(outline_.turn, [](int t) { return t < 0; });
+      const int from = static_cast<int>(concave - outline_.turn.begin());
+      for (int k = 2; k <= n_ - 2 && from < n_; ++k) try_ends(from, (from + k) % n_);
+    }
+    const auto end = cuts_.begin() + std::min<std::ptrdiff_t>(n, std::ssize(cuts_));
+    std::partial_sort(cuts_.begin(), end, cuts_.end());
+    cuts_.erase(end, cuts_.end());
+    return std::move(cuts_);
+  }
 
  private:
-  void between_sides(const PolygonSides& sides);
-  void try_ends(int from, int to);
-  PartSides part(int from, int to, int turn_from, int turn_to) const;
+  /// Cuts that leave a pentagon.
+  void between_sides(const PolygonSides& sides) {
+    const auto& s = sides.edges;
+    const int n = static_cast<int>(s.size());
+    if (n < 6) return;
+    std::vector<int> start{sides.start};
+    for (int i = 1; i < 2 * n; ++i) start.push_back(start.back() + s[(i - 1) % n]);
+    for (int i = 0; i < (n == 6 ? 3 : n); ++i)
+      for (int a = 1; a < s[i]; ++a)
+        for (int b = 1; b < s[(i + 3) % n]; ++b) try_ends((start[i] + a) % n_, (start[i + 3] + b) % n_);
+  }
+
+  void try_ends(int from, int to) {
+    if (outline_.turn[to] > 0) return;
+    const double delta = 0.5 * (outline_.delta[from] + outline_.delta[to]);
+    const Vec2 a = outline_.places[from], b = outline_.places[to];
+    const double length = norm(a - b) / delta;
+    const int most = static_cast<int>(std::min(1.0 * n_, length / kShortestEdge));
+    int least = std::max(1, static_cast<int>(std::ceil(length / kLongestEdge)));
+    if ((least + to - from + n_) % 2 != 0) ++least;
+    const int all_from = 2 - outline_.turn[from], all_to = 2 - outline_.turn[to];
+    for (int at_from = 1; at_from < all_from; ++at_from)
+      for (int at_to = 1; at_to < all_to; ++at_to) {
+        const PartSides one = part(from, to, 2 - at_from, 2 - at_to),
+                        other = part(to, from, 2 - all_to + at_to, 2 - all_from + at_from);
+        if (bound_of(one.corners()) + bound_of(other.corners()) > most_) continue;
+        for (int cut = least; cut <= most; cut += 2) {
+          const int irregular_one = one.least(cut);
+          if (irregular_one < 0 || irregular_one > most_) continue;
+          const int irregular_other = other.least(cut), irregular = irregular_one + irregular_other;
+          if (irregular_other >= 0 && irregular <= most_)
+            cuts_.push_back({from, at_from, at_to, to, cut, irregular, strain_of(a, b, cut, delta)});
+        }
+      }
+  }
+
+  PartSides part(int from, int to, int turn_from, int turn_to) const {
+    PartSides sides(turn_from);
+    int left = (to - from + n_) % n_;
+    for (int at = from; to_turn_[at] < left;) {
+      const int step = to_turn_[at];
+      at = (at + step) % n_, left -= step;
+      sides.go(step, outline_.turn[at]);
+    }
+    sides.go(left, turn_to);
+    return sides;
+  }
 
   const Outline& outline_;
   int n_, most_;
   std::vector<int> to_turn_;  ///< edges from each place to the next one that has a turn
   std::vector<Cut> cuts_;
 };
-
-CutSearch::CutSearch(const Outline& outline, int most)
-    : outline_(outline), n_(static_cast<int>(outline.turn.size())), most_(most), to_turn_(n_, n_) {
-  for (int i = 2 * n_ - 1; i >= 0; --i)
-    to_turn_[i % n_] = outline.turn[(i + 1) % n_] != 0 ? 1 : std::min(to_turn_[(i + 1) % n_] + 1, n_);
-}
-
-std::vector<Cut> CutSearch::first(int n) && {
-  if (const auto sides = sides_of(outline_.turn)) {
-    between_sides(*sides);
-  } else {
-    const auto concave = std::ranges::find_if(outline_.turn, [](int t) { return t < 0; });
-    const int from = static_cast<int>(concave - outline_.turn.begin());
-    for (int k = 2; k <= n_ - 2 && from < n_; ++k) try_ends(from, (from + k) % n_);
-  }
-  const auto end = cuts_.begin() + std::min<std::ptrdiff_t>(n, std::ssize(cuts_));
-  std::partial_sort(cuts_.begin(), end, cuts_.end());
-  cuts_.erase(end, cuts_.end());
-  return std::move(cuts_);
-}
-
-/// Cuts that leave a pentagon.
-void CutSearch::between_sides(const PolygonSides& sides) {
-  const auto& s = sides.edges;
-  const int n = static_cast<int>(s.size());
-  if (n < 6) return;
-  std::vector<int> start{sides.start};
-  for (int i = 1; i < 2 * n; ++i) start.push_back(start.back() + s[(i - 1) % n]);
-  for (int i = 0; i < (n == 6 ? 3 : n); ++i)
-    for (int a = 1; a < s[i]; ++a)
-      for (int b = 1; b < s[(i + 3) % n]; ++b) try_ends((start[i] + a) % n_, (start[i + 3] + b) % n_);
-}
-
-void CutSearch::try_ends(int from, int to) {
-  if (outline_.turn[to] > 0) return;
-  const double delta = 0.5 * (outline_.delta[from] + outline_.delta[to]);
-  const Vec2 a = outline_.places[from], b = outline_.places[to];
-  const double length = norm(a - b) / delta;
-  const int most = static_cast<int>(std::min(1.0 * n_, length / kShortestEdge));
-  int least = std::max(1, static_cast<int>(std::ceil(length / kLongestEdge)));
-  if ((least + to - from + n_) % 2 != 0) ++least;
-  const int all_from = 2 - outline_.turn[from], all_to = 2 - outline_.turn[to];
-  for (int at_from = 1; at_from < all_from; ++at_from)
-    for (int at_to = 1; at_to < all_to; ++at_to) {
-      const PartSides one = part(from, to, 2 - at_from, 2 - at_to),
-                      other = part(to, from, 2 - all_to + at_to, 2 - all_from + at_from);
-      if (bound_of(one.corners()) + bound_of(other.corners()) > most_) continue;
-      for (int cut = least; cut <= most; cut += 2) {
-        const int irregular_one = one.least(cut);
-        if (irregular_one < 0 || irregular_one > most_) continue;
-        const int irregular_other = other.least(cut), irregular = irregular_one + irregular_other;
-        if (irregular_other >= 0 && irregular <= most_)
-          cuts_.push_back({from, at_from, at_to, to, cut, irregular, strain_of(a, b, cut, delta)});
-      }
-    }
-}
-
-PartSides CutSearch::part(int from, int to, int turn_from, int turn_to) const {
-  PartSides sides(turn_from);
-  int left = (to - from + n_) % n_;
-  for (int at = from; to_turn_[at] < left;) {
-    const int step = to_turn_[at];
-    at = (at + step) % n_, left -= step;
-    sides.go(step, outline_.turn[at]);
-  }
-  sides.go(left, turn_to);
-  return sides;
-}
 
 /// Makes outlines of pieces of another one.
 struct OutlineMaker {

@@ -20,16 +20,82 @@ class BlockCutter {
         block_(static_cast<int>(block)),
         place_(place) {}
 
-  QuadBlock cut();
+  QuadBlock cut() {
+    add_boundary();
+    add_held();
+    result_.mesh.n_boundary = static_cast<int>(result_.mesh.points.size());
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      const auto corners = all_.corners(elements_[i]);
+      std::array<int, 4> points;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const int v = corners[k];
+        points[k] = copy_[4 * i + k];
+        if (points[k] >= 0) continue;
+        if (place_[v] < 0) place_[v] = add_point(v);
+        points[k] = place_[v];
+      }
+      if (corners.size() == 4)
+        result_.mesh.quads.push_back(points);
+      else
+        result_.mesh.triangles.push_back({points[0], points[1], points[2]});
+    }
+    return std::move(result_);
+  }
 
  private:
   /// A corner at a held vertex, with the ends of its two sides.
   struct HeldCorner {
     int vertex, next, before, corner;
   };
-  void add_boundary();
-  void add_held();
-  int add_point(int v);
+
+  void add_boundary() {
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      const auto corners = all_.corners(elements_[i]);
+      const std::size_t n = corners.size();
+      for (std::size_t k = 0; k < n; ++k) {
+        const int v = corners[k];
+        if (blocks_.owner(v) != block_) {
+          held_.push_back({v, corners[(k + 1) % n], corners[(k + n - 1) % n], static_cast<int>(4 * i + k)});
+        } else if (v < whole_.n_boundary && place_[v] < 0) {
+          place_[v] = add_point(v);
+          result_.whole.push_back(v);
+        }
+      }
+    }
+    result_.first_held = static_cast<int>(result_.mesh.points.size());
+  }
+
+  /// A point for each fan: corners that follow each other across a side belong to one.
+  void add_held() {
+    copy_.assign(4 * elements_.size(), -1);
+    std::ranges::sort(held_, {}, [](const HeldCorner& c) { return std::pair(c.vertex, c.corner); });
+    for (auto begin = held_.begin(); begin != held_.end();) {
+      const auto end =
+          std::find_if(begin, held_.end(), [&](const auto& c) { return c.vertex != begin->vertex; });
+      for (auto c = begin; c != end; ++c) {
+        if (copy_[c->corner] >= 0) continue;
+        const int point = add_point(c->vertex);
+        result_.whole.push_back(c->vertex);
+        const auto walk = [&](int HeldCorner::*to, int HeldCorner::*from) {
+          for (auto at = c; at != end;) {
+            copy_[at->corner] = point;
+            const int side = (*at).*to;
+            at = std::find_if(begin, end, [&](const HeldCorner& other) {
+              return other.*from == side && copy_[other.corner] < 0;
+            });
+          }
+        };
+        walk(&HeldCorner::before, &HeldCorner::next);
+        walk(&HeldCorner::next, &HeldCorner::before);
+      }
+      begin = end;
+    }
+  }
+
+  int add_point(int v) {
+    result_.mesh.points.push_back(whole_.points[v]);
+    return static_cast<int>(result_.mesh.points.size()) - 1;
+  }
 
   const QuadPatch& whole_;
   Elements all_;
@@ -41,77 +107,6 @@ class BlockCutter {
   std::vector<int> copy_;  ///< by 4 * place of the element + corner: the point, where the vertex is held
   QuadBlock result_;
 };
-
-int BlockCutter::add_point(int v) {
-  result_.mesh.points.push_back(whole_.points[v]);
-  return static_cast<int>(result_.mesh.points.size()) - 1;
-}
-
-void BlockCutter::add_boundary() {
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const auto corners = all_.corners(elements_[i]);
-    const std::size_t n = corners.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const int v = corners[k];
-      if (blocks_.owner(v) != block_) {
-        held_.push_back({v, corners[(k + 1) % n], corners[(k + n - 1) % n], static_cast<int>(4 * i + k)});
-      } else if (v < whole_.n_boundary && place_[v] < 0) {
-        place_[v] = add_point(v);
-        result_.whole.push_back(v);
-      }
-    }
-  }
-  result_.first_held = static_cast<int>(result_.mesh.points.size());
-}
-
-/// A point for each fan: corners that follow each other across a side belong to one.
-void BlockCutter::add_held() {
-  copy_.assign(4 * elements_.size(), -1);
-  std::ranges::sort(held_, {}, [](const HeldCorner& c) { return std::pair(c.vertex, c.corner); });
-  for (auto begin = held_.begin(); begin != held_.end();) {
-    const auto end =
-        std::find_if(begin, held_.end(), [&](const auto& c) { return c.vertex != begin->vertex; });
-    for (auto c = begin; c != end; ++c) {
-      if (copy_[c->corner] >= 0) continue;
-      const int point = add_point(c->vertex);
-      result_.whole.push_back(c->vertex);
-      const auto walk = [&](int HeldCorner::*to, int HeldCorner::*from) {
-        for (auto at = c; at != end;) {
-          copy_[at->corner] = point;
-          const int side = (*at).*to;
-          at = std::find_if(begin, end, [&](const HeldCorner& other) {
-            return other.*from == side && copy_[other.corner] < 0;
-          });
-        }
-      };
-      walk(&HeldCorner::before, &HeldCorner::next);
-      walk(&HeldCorner::next, &HeldCorner::before);
-    }
-    begin = end;
-  }
-}
-
-QuadBlock BlockCutter::cut() {
-  add_boundary();
-  add_held();
-  result_.mesh.n_boundary = static_cast<int>(result_.mesh.points.size());
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const auto corners = all_.corners(elements_[i]);
-    std::array<int, 4> points;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const int v = corners[k];
-      points[k] = copy_[4 * i + k];
-      if (points[k] >= 0) continue;
-      if (place_[v] < 0) place_[v] = add_point(v);
-      points[k] = place_[v];
-    }
-    if (corners.size() == 4)
-      result_.mesh.quads.push_back(points);
-    else
-      result_.mesh.triangles.push_back({points[0], points[1], points[2]});
-  }
-  return std::move(result_);
-}
 
 }  // namespace
 
