@@ -1,16 +1,247 @@
 #include "fields/background_mesh.h"
 
-#include <algorithm>
-#include <utility>
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_criteria_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/cancel.h"
 #include "base/predicates.h"
 #include "delquad/error.h"
-#include "fields/refine_patch.h"
+#include "delquad/mesh.h"
 #include "fields/triangle_tree.h"
 
 namespace delquad {
 
 namespace {
+
+// Least squared sine of an angle: 20.7 degrees, for which refinement is known to end (corners of less
+// excepted).
+constexpr double kShape = 0.125;
+// Refinement stops at this many vertices for each of the boundary's, plus a few: it normally needs less than
+// half, and what is left is still a triangulation, only with worse angles.
+constexpr std::size_t kMostGrowth = 8, kMostExtra = 1000;
+
+struct VertexIndex {
+  int value = -1;  ///< -1: made by refinement
+};
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexInfo = CGAL::Triangulation_vertex_base_with_info_2<VertexIndex, Kernel>;
+using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel, VertexInfo>;
+using FaceInfo = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using FaceConstraint = CGAL::Constrained_Delaunay_triangulation_face_base_2<
+    Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfo>>;
+using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel, FaceConstraint>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
+
+// Both sides of a slit are some 1e-6 of its edges apart, and refinement leaves some of these shorter.
+constexpr double kSlit = 3e-5;
+// Steps: far more than faces are dropped, or edges listed, one after the other.
+constexpr int kMostInVain = 10000;
+
+/// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. What lies
+/// across a slit does not count: where slits turn or cross, vertices on one side are in the circles of the
+/// other's edges, and both would be split down to the slit's width in turn.
+struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
+  using Gabriel = CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>;
+  using Gabriel::operator();
+
+  bool operator()(const Cdt& cdt, const Cdt::Face_handle& f, int i) const {
+    return conforms(cdt, f, i) && conforms(cdt, f->neighbor(i), cdt.mirror_index(f, i));
+  }
+  bool operator()(const Cdt& cdt, const Cdt::Vertex_handle& a, const Cdt::Vertex_handle& b) const {
+    Cdt::Face_handle f;
+    int i = 0;
+    cdt.is_edge(a, b, f, i);
+    return (*this)(cdt, f, i);
+  }
+
+ private:
+  bool conforms(const Cdt& cdt, const Cdt::Face_handle& f, int i) const {
+    const Cdt::Vertex_handle apex = f->vertex(i), a = f->vertex(Cdt::cw(i)), b = f->vertex(Cdt::ccw(i));
+    if (cdt.is_infinite(apex) || Gabriel::operator()(cdt, a, b, apex->point())) return true;
+    const auto side = b->point() - a->point(), to = apex->point() - a->point();
+    const double height = std::abs(side.x() * to.y() - side.y() * to.x());  // times the side
+    return !f->is_in_domain() && height <= kSlit * side.squared_length();
+  }
+};
+
+/// CGAL::Delaunay_mesher_2 of a marked domain, with a test of one's own.
+template <class Test>
+class Refiner {
+ public:
+  explicit Refiner(Cdt& cdt)
+      : clusters_(cdt),
+        edges_(cdt, clusters_, nothing_),
+        faces_(cdt, criteria_, edges_),
+        visitor_(faces_, edges_, no_visitor_) {
+    clusters_.create_clusters();
+    edges_.scan_triangulation();
+    faces_.scan_triangulation();
+  }
+  /// False where nothing is left to do.
+  bool step() { return faces_.try_to_insert_one_point(visitor_); }
+
+ private:
+  using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, Test>;
+  using Faces = CGAL::Mesh_2::Refine_faces<Cdt, Criteria, Edges>;
+
+  Criteria criteria_{kShape};
+  CGAL::Null_mesher_level nothing_;
+  CGAL::Null_mesh_visitor no_visitor_;
+  CGAL::Mesh_2::Clusters<Cdt> clusters_;
+  Edges edges_;
+  Faces faces_;
+  CGAL::Mesh_2::Refine_edges_visitor_from_faces<Faces> visitor_;
+};
+
+std::vector<Cdt::Vertex_handle> insert_boundary(Cdt& cdt, const PatchBoundary& patch) {
+  std::vector<std::pair<Kernel::Point_2, VertexIndex>> tagged;
+  for (const Vec2 p : patch.points) tagged.push_back({{p.x, p.y}, {static_cast<int>(tagged.size())}});
+  cdt.insert(tagged.begin(), tagged.end());
+  std::vector<Cdt::Vertex_handle> handle(patch.points.size());
+  for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) handle[v->info().value] = v;
+  for (std::size_t i = 0; i < handle.size(); ++i) {
+    if (handle[i] != nullptr) continue;
+    throw InputError(
+        fmt::format("two boundary points coincide at ({}, {})", patch.points[i].x, patch.points[i].y));
+  }
+  for (const auto& [i, j] : patch.edges) {
+    const Vec2 a = patch.points[i], b = patch.points[j];
+    const auto bad_edge = [a, b] {
+      return InputError(fmt::format("the boundary edge ({}, {}) - ({}, {}) meets another edge or point", a.x,
+                                    a.y, b.x, b.y));
+    };
+    try {
+      cdt.insert_constraint(handle[i], handle[j]);
+    } catch (const Cdt::Intersection_of_constraints_exception&) {
+      throw bad_edge();
+    }
+    if (!cdt.is_edge(handle[i], handle[j])) throw bad_edge();
+  }
+  return handle;
+}
+
+/// Marks the faces of the patch: those to the left of its edges and all that can be reached from there.
+/// Throws InputError where that is so for both sides of an edge, or for none.
+void mark_domain(Cdt& cdt, const PatchBoundary& patch, const std::vector<Cdt::Vertex_handle>& handle) {
+  std::vector<Cdt::Face_handle> stack;
+  const auto enter = [&](Cdt::Face_handle f) {
+    if (cdt.is_infinite(f) || f->is_in_domain()) return;
+    f->set_in_domain(true);
+    stack.push_back(f);
+  };
+  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
+  const auto face_beside = [&](int a, int b) {
+    Cdt::Face_handle f;
+    int side = 0;
+    cdt.is_edge(handle[a], handle[b], f, side);
+    return f->vertex(Cdt::ccw(side)) == handle[a] ? f : f->neighbor(side);
+  };
+  for (const auto& [a, b] : patch.edges) enter(face_beside(a, b));
+  while (!stack.empty()) {
+    const Cdt::Face_handle f = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      if (!f->is_constrained(k)) enter(f->neighbor(k));
+    }
+  }
+  for (const auto& [a, b] : patch.edges) {
+    if (face_beside(a, b)->is_in_domain() && !face_beside(b, a)->is_in_domain()) continue;
+    const Vec2 p = patch.points[a], q = patch.points[b];
+    throw InputError(fmt::format(
+        "the boundary edge ({}, {}) - ({}, {}) runs the wrong way round: expected the patch on its left only",
+        p.x, p.y, q.x, q.y));
+  }
+}
+
+/// Numbers the faces of the patch so that most are near the one before.
+std::vector<Cdt::Face_handle> number_faces(Cdt& cdt) {
+  std::vector<Cdt::Face_handle> order, stack;
+  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = -1;
+  for (auto first = cdt.finite_faces_begin(); first != cdt.finite_faces_end(); ++first) {
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const Cdt::Face_handle f = stack.back();
+      stack.pop_back();
+      if (!f->is_in_domain() || f->info() >= 0) continue;
+      f->info() = static_cast<int>(order.size());
+      order.push_back(f);
+      for (int k = 0; k < 3; ++k) stack.push_back(f->neighbor(k));
+    }
+  }
+  return order;
+}
+
+TriPatch extract(Cdt& cdt, const PatchBoundary& patch) {
+  TriPatch tri;
+  tri.points = patch.points;
+  tri.n_boundary = static_cast<int>(patch.points.size());
+  for (const Cdt::Face_handle f : number_faces(cdt)) {
+    auto& vertices = tri.triangles.emplace_back();
+    auto& neighbours = tri.neighbours.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto v = f->vertex(k);
+      if (v->info().value < 0) {
+        v->info().value = static_cast<int>(tri.points.size());
+        tri.points.push_back({v->point().x(), v->point().y()});
+      }
+      vertices[k] = v->info().value;
+      neighbours[k] = f->neighbor(k)->info();
+    }
+  }
+  return tri;
+}
+
+/// Whether the patch is on both sides of an edge, or passes a node twice.
+bool has_slits(const PatchBoundary& patch) {
+  std::vector<int> nodes = patch.point_node;
+  std::ranges::sort(nodes);
+  return std::ranges::adjacent_find(nodes) != nodes.end();
+}
+
+/// None where so many steps add nothing: slivers inside may keep the weaker test from its end.
+template <class Test>
+std::optional<TriPatch> refined(const PatchBoundary& patch,
+                                int most_in_vain = std::numeric_limits<int>::max()) {
+  Cdt cdt;
+  const auto handle = insert_boundary(cdt, patch);
+  mark_domain(cdt, patch, handle);
+  Refiner<Test> refiner(cdt);
+  const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
+  int in_vain = 0;
+  for (std::size_t n = cdt.number_of_vertices(); n < most && refiner.step();) {
+    check_cancelled();
+    const std::size_t before = std::exchange(n, cdt.number_of_vertices());
+    in_vain = n > before ? 0 : in_vain + 1;
+    if (in_vain == most_in_vain) return std::nullopt;
+  }
+  return extract(cdt, patch);
+}
+
+/// A triangulation of the patch with few small angles, as coarse as its boundary edges allow, which may be
+/// split. The boundary's points first, in their order. Throws InputError where the boundary crosses itself.
+TriPatch refine_patch(const PatchBoundary& patch) {
+  if (has_slits(patch))
+    if (auto tri = refined<GabrielBesideSlits>(patch, kMostInVain)) return *std::move(tri);
+  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
+}
 
 // A walk this long costs more than asking the tree; it also ends the cycles possible where the triangulation
 // is not Delaunay (next to boundary edges).

@@ -6,17 +6,58 @@
 #include <map>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/cancel.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
+#include "fields/background_mesh.h"
 #include "fields/cross_diffusion.h"
 #include "fields/sample_triangle.h"
 #include "fields/sides.h"
 #include "fields/singularities.h"
-#include "fields/size_connection.h"
 
 namespace delquad {
 
 namespace {
+
+/// How a cross turns along a grid whose edges have the length delta.
+///
+/// A frame is that of a grid of squares of side delta exactly when it is parallel in the metric
+/// |du|^2/delta^2: grad theta = J grad log delta, J turning by a quarter counterclockwise. Here log delta is
+/// linear on each triangle of a background mesh.
+class SizeConnection {
+ public:
+  SizeConnection(const TriPatch& tri, const ParametricSize& size);
+
+  double log_size(int vertex) const { return log_size_[vertex]; }
+  /// grad log delta in a triangle.
+  Vec2 gradient(int t) const { return gradient_[t]; }
+  /// By how much theta of a parallel cross turns along d, inside triangle t (radians).
+  double turn(int t, Vec2 d) const { return cross(gradient_[t], d); }
+  /// Turn of 4 theta from the triangle's centroid to the middles of its sides (opposite to each vertex).
+  const std::vector<std::array<double, 3>>& phase_turns() const { return phase_turns_; }
+
+ private:
+  std::vector<double> log_size_;
+  std::vector<Vec2> gradient_;
+  std::vector<std::array<double, 3>> phase_turns_;
+};
+
+SizeConnection::SizeConnection(const TriPatch& tri, const ParametricSize& size) {
+  int hint = -1;
+  for (const Vec2 u : tri.points) log_size_.push_back(std::log(size.at(u, hint)));
+  gradient_.reserve(tri.triangles.size());
+  phase_turns_.reserve(tri.triangles.size());
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+    const auto& v = tri.triangles[t];
+    const Corners x = corners_of(tri, v), middle = middles(x);
+    gradient_.push_back(slope(x, {log_size_[v[0]], log_size_[v[1]], log_size_[v[2]]}));
+    const Vec2 centroid = (1.0 / 3) * (x[0] + x[1] + x[2]);
+    auto& turns = phase_turns_.emplace_back();
+    for (int k = 0; k < 3; ++k) turns[k] = 4 * turn(static_cast<int>(t), middle[k] - centroid);
+  }
+}
 
 /// Times of diffusion, in elements (pairs of triangles) of the background mesh, from the first step to the
 /// last: the singularities find their places first within their neighbourhood, then to an element.

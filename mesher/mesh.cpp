@@ -1,8 +1,16 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "base/box.h"
 #include "base/context.h"
+#include "base/nearest_name.h"
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
+#include "features/crosses/size_aware.h"
+#include "features/layers/planar_layers.h"
 #include "features/scaling/scale_sizes.h"
 #include "io/cases/read_problem.h"
 #include "mesher/number_of_quads.h"
@@ -10,6 +18,10 @@
 #include "mesher/refine_unsound.h"
 #include "mesher/runner.h"
 #include "mesher/stages.h"
+#include "metrics/judgement/soundness.h"
+#include "metrics/metrics.h"
+#include "metrics/surface/surface_report.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 namespace {
@@ -165,6 +177,71 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
   const RunScope running(settings_of(context));
   Steps steps(context, word.stages.size() + 2);
   return mesh_now(prepare_now(std::move(problem), steps), word, steps);
+}
+
+const std::vector<Quality>& quality_registry() {
+  static const std::vector<Quality> registry = {
+      {"fast", "DB", CrossKind::kBoundary},
+      {"good", "DBCO", CrossKind::kSizeAware},
+      {"best", "DBCQO", CrossKind::kSizeAware},
+  };
+  return registry;
+}
+
+const Quality* find_quality(const std::string& name) {
+  const auto at = std::ranges::find(quality_registry(), name, &Quality::name);
+  return at == quality_registry().end() ? nullptr : &*at;
+}
+
+const Quality& quality_named(const std::string& name) {
+  if (const Quality* quality = find_quality(name)) return *quality;
+  std::vector<std::string> names;
+  for (const Quality& q : quality_registry()) names.push_back(q.name);
+  throw InputError(fmt::format("quality '{}': expected one of {}{}", name.substr(0, 40),
+                               fmt::join(names, ", "), suggestion(name, names)));
+}
+
+const Preparation* Prepared::operator->() const { return made_.get(); }
+bool Prepared::is_surface() const { return made_->surface != nullptr; }
+std::size_t Prepared::n_patches() const { return made_->patches.size(); }
+const PatchBoundary& Prepared::patch(std::size_t i) const { return made_->patches.at(i).boundary; }
+const Mesh& Prepared::fine() const { return made_->surface->whole().fine; }
+const std::vector<SurfaceCut>& Prepared::cuts() const { return made_->surface->cuts; }
+std::vector<SharpCorner> Prepared::sharp_corners() const { return made_->sharp_corners(); }
+MapReport Prepared::maps() const { return report_maps(maps_of(*made_->surface)); }
+double Prepared::row_ends() const { return expected_row_ends(*made_); }
+
+const TriPatch* Prepared::background() const {
+  return made_->plane.background ? &made_->plane.background->triangles() : nullptr;
+}
+
+std::optional<Cross> Prepared::cross_at(Vec2 u, int& hint) const {
+  const BackgroundMesh& background = *made_->plane.background;
+  const auto [t, b] = background.locate(u, hint);  // of the place that is nearest
+  const TriPatch& tri = background.triangles();
+  const auto& v = tri.triangles[t];
+  const Vec2 nearest = b[0] * tri.points[v[0]] + b[1] * tri.points[v[1]] + b[2] * tri.points[v[2]];
+  constexpr double kRounding = 1e-9;
+  if (norm(nearest - u) > kRounding * (norm(u) + norm(tri.points[v[1]] - tri.points[v[0]]))) return {};
+  int anywhere = -1;
+  return made_->patches[background.triangle_patch()[t]].cross->at(u, anywhere);
+}
+
+MeshMetrics Prepared::metrics(const Mesh& made) const {
+  return evaluate_metrics(made, made_->size.field.get(), made_->size.asked.get(), made_->settings.options,
+                          sorted_half_edges(made), quads_in_layers(*made_, made));
+}
+
+MeshResult Prepared::measure(Mesh of_others) const {
+  MeshResult result;
+  result.mesh = std::move(of_others);
+  result.metrics = evaluate_metrics(result.mesh, made_->size.field.get(), made_->size.asked.get(),
+                                    made_->settings.options);
+  result.soundness = check_elements(*made_, result.mesh);
+  result.bad_elsewhere = static_cast<int>(
+      std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));
+  result.prepared = *this;
+  return result;
 }
 
 }  // namespace delquad

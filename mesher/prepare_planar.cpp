@@ -13,7 +13,6 @@
 #include "features/layers/planar_layers.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/fine_spots.h"
-#include "features/sizes/gap_warning.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "fields/fields.h"

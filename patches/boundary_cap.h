@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -44,5 +45,29 @@ std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
   if (!caps.empty()) boundary = make_boundary(loops);
   return caps;
 }
+
+/// A cone is laid flat by a cut to its tip. Where it is pointed, the corner there takes one quad, but both of
+/// its sides are the same, and that quad would meet itself. Such corners are cut off the boundary, at the
+/// first node of the cut from which enough edges go around the cone; two quads take their place. In the
+/// boundary three points stand instead of the tip, so that the number of its edges keeps its parity.
+/// `add_node` makes a node at a point of the parameter plane.
+std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node);
+
+/// How a cap gets its nodes.
+struct CapNodes {
+  std::function<bool(int node)> may_be_cut;  ///< corners of the model
+  std::function<Vec3(int node)> place;
+  std::function<Vec3(const Vec3&, Vec2)> to_face;  ///< a point near the face, and about where in the plane
+  std::function<Vec3(Vec2)> normal;                ///< of the face, any length
+  std::function<int(const Vec3&)> add;             ///< returns the node
+};
+
+/// Cuts sharp corners off a boundary, as far as the two curves are nearer to each other than half an edge:
+/// there the parameter plane may be less exact than they are apart, and there is one good mesh only. A quad
+/// fills the corner, whose fourth vertex is so far inside that its other angles are alike, and two rows of
+/// quads lie between nodes that are opposite each other; the cap ends where they are not. In the boundary one
+/// point stands instead of all that is cut off, halfway between the last two nodes. Corners whose curves end
+/// at the first node are left alone.
+std::vector<BoundaryCap> cap_corners(PatchBoundary& boundary, const CapNodes& nodes);
 
 }  // namespace delquad

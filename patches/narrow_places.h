@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "delquad/mesh.h"
 #include "patches/across_view.h"
 #include "patches/curve_nodes.h"
 
@@ -12,5 +13,11 @@ namespace delquad {
 /// curves that face none are groups of their own.
 std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
                                      const AcrossView& across, const SizeOnLine& size);
+
+/// Adds seeds where single edges across a narrow place cannot be: a mesh of quads has an even number of edges
+/// around either side of such an edge, but nodes that lie opposite each other may cut off an odd number. A
+/// vertex halfway, and so two rows of quads instead of one, puts it right. In a sharp corner that is always
+/// so: the one quad that fits into it has its fourth vertex inside.
+void seed_narrow_places(PatchBoundary& boundary);
 
 }  // namespace delquad

@@ -54,4 +54,8 @@ struct Counters<RecombineSummary> {
 /// leaves room for one odd component too many, which is where the leftover comes from.
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr);
 
+/// Cuts every interior side that joins two boundary points at its middle: its two triangles become four.
+/// Returns how many sides were cut; the new points come last. The number of triangles keeps its parity.
+int split_spanning_sides(TriPatch& tri);
+
 }  // namespace delquad

@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
 
 #include "algorithms/cleanup/edit_in_blocks.h"
-#include "algorithms/regularity/regularity_process.h"
+#include "algorithms/regularity/cavity.h"
+#include "algorithms/regularity/patterns.h"
 #include "base/cancel.h"
+#include "base/marks.h"
+#include "geometry/mesh/quad_blocks.h"
 #include "geometry/mesh/quad_corners.h"
+#include "smoothing/relocation/element_quality.h"
+#include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
 
@@ -41,255 +51,308 @@ constexpr double kHopelessLoss = 1.6;
 /// As in CleanupProcess: the part of an edge below which a move calls for no more, in the end, too.
 constexpr double kRelaxed = 0.08, kRelaxedAtLast = 0.02;
 
-}  // namespace
+/// The state and the steps of one make_regular().
+class RegularityProcess {
+ public:
+  /// Block and size outlive this object.
+  RegularityProcess(const QuadBlock& block, const ParametricSize& size, const RegularityOptions& options)
+      : block_(block),
+        mesh_(block.mesh, block.first_held),
+        energy_(mesh_),
+        relocation_(mesh_, size),
+        options_(options),
+        cavity_(mesh_, energy_) {}
 
-RegularityProcess::RegularityProcess(const QuadBlock& block, const ParametricSize& size,
-                                     const RegularityOptions& options)
-    : block_(block),
-      mesh_(block.mesh, block.first_held),
-      energy_(mesh_),
-      relocation_(mesh_, size),
-      options_(options),
-      cavity_(mesh_, energy_) {}
-
-void RegularityProcess::run() {
-  relocation_.keep_convex_corners();
-  relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
-  for (int round = 0; round < options_.rounds; ++round) {
-    tolerance_ =
-        options_.rounds > 1 ? options_.tolerance * round / (options_.rounds - 1) : options_.tolerance;
-    quads_per_gain_ =
-        round + 1 < options_.rounds ? kQuadsPerGain * std::pow(kMoreQuads, round) : options_.quads;
-    work_.clear();
-    listed_.assign(mesh_.vertex_slots(), 0);
-    for (int v = 0; v < mesh_.vertex_slots(); ++v)
-      if (block_.is_near(v)) list(v);
-    while (!work_.empty()) {
-      visiting_.swap(work_);
+  void run() {
+    relocation_.keep_convex_corners();
+    relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
+    for (int round = 0; round < options_.rounds; ++round) {
+      tolerance_ =
+          options_.rounds > 1 ? options_.tolerance * round / (options_.rounds - 1) : options_.tolerance;
+      quads_per_gain_ =
+          round + 1 < options_.rounds ? kQuadsPerGain * std::pow(kMoreQuads, round) : options_.quads;
       work_.clear();
-      for (const int v : visiting_) listed_[v] = 0;
-      for (const int v : visiting_)
-        if (mesh_.vertex_alive(v) && energy_.of(v) > 0) visit(v);
+      listed_.assign(mesh_.vertex_slots(), 0);
+      for (int v = 0; v < mesh_.vertex_slots(); ++v)
+        if (block_.is_near(v)) list(v);
+      while (!work_.empty()) {
+        visiting_.swap(work_);
+        work_.clear();
+        for (const int v : visiting_) listed_[v] = 0;
+        for (const int v : visiting_)
+          if (mesh_.vertex_alive(v) && energy_.of(v) > 0) visit(v);
+      }
     }
-  }
-  if (summary_.accepted > 0) {
-    relocation_.activate_all(block_);
-    summary_.relocated += relocation_.relax(kRelaxedAtLast, 30);
-    summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
-  }
-  summary_.looks = relocation_.looks();
-}
-
-void RegularityProcess::list(int v) {
-  listed_.resize(mesh_.vertex_slots(), 0);
-  if (listed_[v] || !mesh_.vertex_alive(v) || energy_.of(v) == 0) return;
-  listed_[v] = 1;
-  work_.push_back(v);
-}
-
-/// Irregular vertices around v, as far as quads go from vertex to vertex.
-void RegularityProcess::find_near(int v) {
-  near_.clear();
-  vertices_met_.begin(mesh_.vertex_slots());
-  from_.resize(mesh_.vertex_slots());
-  vertices_met_.meet(v);
-  std::vector<int> queue{v};
-  from_[v] = v;
-  const std::size_t most = kMostMet * static_cast<std::size_t>(options_.quads);
-  for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
-    const int at = queue[i];
-    const auto reach = [&](int w) {
-      if (mesh_.held(w) || !vertices_met_.meet(w)) return;
-      from_[w] = at;
-      queue.push_back(w);
-      if (energy_.of(w) > 0) near_.push_back(w);
-    };
-    mesh_.for_each_out(at, [&](int h) {
-      reach(mesh_.target(h));
-      reach(mesh_.target(mesh_.next(h)));
-      reach(mesh_.origin(mesh_.prev(h)));
-    });
-    if (near_.size() >= kNear) break;
-  }
-  if (near_.size() > kNear) near_.resize(kNear);
-}
-
-/// Adds the quads around `from` and those on the way to the visited vertex.
-bool RegularityProcess::add_path(int from) {
-  if (!cavity_.add_around(from)) return false;
-  bool good = true;
-  for (int v = from; from_[v] != v && good; v = from_[v])
-    mesh_.for_each_out(v, [&](int h) {
-      const int e = QuadTopology::element(h);
-      bool on_way = false;
-      for (int k = 0; k < 4; ++k) on_way |= mesh_.corner(e, k) == from_[v];
-      if (on_way) good = good && cavity_.add(e);
-    });
-  return good;
-}
-
-/// Makes a candidate of the cavity, or of it with rings of quads more, if it is one.
-void RegularityProcess::consider() {
-  for (int ring = 0; ring <= kMostRings; ++ring) {
-    if (!cavity_.close()) return;
-    const int irregular = cavity_.irregular();
-    const double n = static_cast<double>(cavity_.elements().size());
-    const auto pays = [&](int gain) { return gain > 0 && n <= gain * quads_per_gain_; };
-    if (!pays(irregular - std::abs(4 - cavity_.corners()))) return;
-    const std::uint64_t key = cavity_.key();
-    if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
-    const auto [at, is_new] = known_.try_emplace(key);
-    Known& known = at->second;
-    std::optional<Pattern> pattern;
-    if (is_new) {
-      pattern = best_pattern(outline(), irregular - 1);
-      known.least = pattern ? irregular_vertices(*pattern) : -1;
+    if (summary_.accepted > 0) {
+      relocation_.activate_all(block_);
+      summary_.relocated += relocation_.relax(kRelaxedAtLast, 30);
+      summary_.relocated += relocation_.lift_worst(kCleanupFloorEta, 10);
     }
-    if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
-      ++summary_.cavities;
-      if (known.loss > tolerance_ || !pays(gain)) return;
-      candidates_.push_back({(n + kQuadsPerIrregular * known.least) / gain,
-                             gain,
-                             key,
-                             {cavity_.elements().begin(), cavity_.elements().end()},
-                             std::move(pattern)});
-      return;
+    summary_.looks = relocation_.looks();
+  }
+
+  QuadPatch result() const { return mesh_.to_patch(); }
+  const RegularitySummary& summary() const { return summary_; }
+
+ private:
+  /// A cavity that may be filled with fewer irregular vertices.
+  struct Candidate {
+    double promise;  ///< the less, the sooner it is tried
+    int gain;
+    std::uint64_t key;
+    std::vector<int> elements;
+    std::optional<Pattern> pattern;  ///< none where it was not sought in this visit
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+      return a.promise != b.promise ? a.promise < b.promise : a.key < b.key;
     }
-    for (const int h : cavity_.rim())
-      if (!cavity_.add_around(mesh_.origin(h))) return;
-  }
-}
+  };
+  /// Of elements_.
+  struct Quality {
+    double mean = 0;  ///< of their values
+    double least_sine = 1;
+    double longest = 0;  ///< side, over delta'
+    double crowding = 0;
+    int n = 0;
+  };
+  /// What is known of a cavity.
+  struct Known {
+    int least = -1;  ///< irregular vertices of its patterns; negative: it has none
+    /// That a fill brought, for each irregular vertex less.
+    double loss = -std::numeric_limits<double>::infinity();
+  };
 
-Outline RegularityProcess::outline() const {
-  Outline outline;
-  for (const int h : cavity_.rim()) {
-    outline.places.push_back(mesh_.point(mesh_.origin(h)));
-    outline.delta.push_back(relocation_.delta(mesh_.origin(h)));
+  void list(int v) {
+    listed_.resize(mesh_.vertex_slots(), 0);
+    if (listed_[v] || !mesh_.vertex_alive(v) || energy_.of(v) == 0) return;
+    listed_[v] = 1;
+    work_.push_back(v);
   }
-  outline.turn.assign(cavity_.turns().begin(), cavity_.turns().end());
-  return outline;
-}
 
-void RegularityProcess::visit(int v) {
-  check_cancelled();
-  find_near(v);
-  candidates_.clear();
-  cavity_.begin(options_.quads);
-  if (cavity_.add_around(v)) consider();
-  for (std::size_t j = 0; j < near_.size(); ++j) {
+  void visit(int v) {
+    check_cancelled();
+    find_near(v);
+    candidates_.clear();
     cavity_.begin(options_.quads);
-    if (cavity_.add_around(v) && add_path(near_[j])) consider();
-    if (j == 0) continue;
+    if (cavity_.add_around(v)) consider();
+    for (std::size_t j = 0; j < near_.size(); ++j) {
+      cavity_.begin(options_.quads);
+      if (cavity_.add_around(v) && add_path(near_[j])) consider();
+      if (j == 0) continue;
+      cavity_.begin(options_.quads);
+      bool good = cavity_.add_around(v);
+      for (std::size_t i = 0; i <= j && good; ++i) good = add_path(near_[i]);
+      if (good) consider();
+    }
+    std::ranges::sort(candidates_, std::less<>());
+    const long long tried = summary_.tried;
+    for (Candidate& candidate : candidates_) {
+      if (attempt(candidate)) return accept();
+      if (summary_.tried == tried + kMostTrials) return;
+    }
+  }
+
+  /// Irregular vertices around v, as far as quads go from vertex to vertex.
+  void find_near(int v) {
+    near_.clear();
+    vertices_met_.begin(mesh_.vertex_slots());
+    from_.resize(mesh_.vertex_slots());
+    vertices_met_.meet(v);
+    std::vector<int> queue{v};
+    from_[v] = v;
+    const std::size_t most = kMostMet * static_cast<std::size_t>(options_.quads);
+    for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
+      const int at = queue[i];
+      const auto reach = [&](int w) {
+        if (mesh_.held(w) || !vertices_met_.meet(w)) return;
+        from_[w] = at;
+        queue.push_back(w);
+        if (energy_.of(w) > 0) near_.push_back(w);
+      };
+      mesh_.for_each_out(at, [&](int h) {
+        reach(mesh_.target(h));
+        reach(mesh_.target(mesh_.next(h)));
+        reach(mesh_.origin(mesh_.prev(h)));
+      });
+      if (near_.size() >= kNear) break;
+    }
+    if (near_.size() > kNear) near_.resize(kNear);
+  }
+
+  /// Adds the quads around `from` and those on the way to the visited vertex.
+  bool add_path(int from) {
+    if (!cavity_.add_around(from)) return false;
+    bool good = true;
+    for (int v = from; from_[v] != v && good; v = from_[v])
+      mesh_.for_each_out(v, [&](int h) {
+        const int e = QuadTopology::element(h);
+        bool on_way = false;
+        for (int k = 0; k < 4; ++k) on_way |= mesh_.corner(e, k) == from_[v];
+        if (on_way) good = good && cavity_.add(e);
+      });
+    return good;
+  }
+
+  /// Makes a candidate of the cavity, or of it with rings of quads more, if it is one.
+  void consider() {
+    for (int ring = 0; ring <= kMostRings; ++ring) {
+      if (!cavity_.close()) return;
+      const int irregular = cavity_.irregular();
+      const double n = static_cast<double>(cavity_.elements().size());
+      const auto pays = [&](int gain) { return gain > 0 && n <= gain * quads_per_gain_; };
+      if (!pays(irregular - std::abs(4 - cavity_.corners()))) return;
+      const std::uint64_t key = cavity_.key();
+      if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
+      const auto [at, is_new] = known_.try_emplace(key);
+      Known& known = at->second;
+      std::optional<Pattern> pattern;
+      if (is_new) {
+        pattern = best_pattern(outline(), irregular - 1);
+        known.least = pattern ? irregular_vertices(*pattern) : -1;
+      }
+      if (const int gain = irregular - known.least; known.least >= 0 && gain > 0) {
+        ++summary_.cavities;
+        if (known.loss > tolerance_ || !pays(gain)) return;
+        candidates_.push_back({(n + kQuadsPerIrregular * known.least) / gain,
+                               gain,
+                               key,
+                               {cavity_.elements().begin(), cavity_.elements().end()},
+                               std::move(pattern)});
+        return;
+      }
+      for (const int h : cavity_.rim())
+        if (!cavity_.add_around(mesh_.origin(h))) return;
+    }
+  }
+
+  Outline outline() const {
+    Outline outline;
+    for (const int h : cavity_.rim()) {
+      outline.places.push_back(mesh_.point(mesh_.origin(h)));
+      outline.delta.push_back(relocation_.delta(mesh_.origin(h)));
+    }
+    outline.turn.assign(cavity_.turns().begin(), cavity_.turns().end());
+    return outline;
+  }
+
+  /// Fills a cavity with its best pattern; takes all back where that costs too much.
+  bool attempt(Candidate& candidate) {
     cavity_.begin(options_.quads);
-    bool good = cavity_.add_around(v);
-    for (std::size_t i = 0; i <= j && good; ++i) good = add_path(near_[i]);
-    if (good) consider();
-  }
-  std::ranges::sort(candidates_, std::less<>());
-  const long long tried = summary_.tried;
-  for (Candidate& candidate : candidates_) {
-    if (attempt(candidate)) return accept();
-    if (summary_.tried == tried + kMostTrials) return;
-  }
-}
+    for (const int e : candidate.elements) cavity_.add(e);
+    if (!cavity_.close()) return false;
+    const Outline rim = outline();
+    Known& known = known_[candidate.key];
+    if (!candidate.pattern) candidate.pattern = best_pattern(rim, known.least);
+    known.loss = std::numeric_limits<double>::infinity();
+    if (!candidate.pattern) return false;
+    collect_region();
+    const std::size_t n_outer = region_.size();
+    for (const int v : cavity_.vertices())
+      if (cavity_.is_inside(v)) region_.push_back(v);
+    collect_elements();
+    const Quality before = quality();
+    region_.resize(n_outer);
 
-/// The vertices of the rim and of the quads around it; those within are others before and after.
-void RegularityProcess::collect_region() {
-  region_.clear();
-  vertices_met_.begin(mesh_.vertex_slots());
-  for (const int h : cavity_.rim())
-    mesh_.for_each_out(mesh_.origin(h), [&](int g) {
-      const int e = QuadTopology::element(g);
-      for (int k = 0; k < 4; ++k)
-        if (const int v = mesh_.corner(e, k); v >= 0 && !cavity_.is_inside(v) && vertices_met_.meet(v))
-          region_.push_back(v);
-    });
-}
-
-void RegularityProcess::collect_elements() {
-  elements_.clear();
-  elements_met_.begin(mesh_.element_slots());
-  for_each_element_around(mesh_, region_, elements_met_, [&](int e) { elements_.push_back(e); });
-}
-
-RegularityProcess::Quality RegularityProcess::quality() const {
-  ElementQuality total;
-  for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
-  const int n = static_cast<int>(elements_.size());
-  return {total.value / std::max(n, 1), total.least_sine, total.longest, total.crowding, n};
-}
-
-/// Relocates the region; whether the loss of the mean gets as small as allowed.
-bool RegularityProcess::settles(const Quality& before, double allowed, double& loss) {
-  const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
-  const double longest = std::max(before.longest, kLongestSide);
-  const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
-  double last_loss = 0, last_sine = 0;
-  const auto is_slow = [](double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; };
-  for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
-    if (sweep == 1) ++summary_.tried;
-    if (sweep > 0)
-      for (const int v : region_) relocation_.step(v);
-    const Quality after = quality();
-    loss = before.mean - after.mean;
-    if (after.least_sine >= least && after.longest <= longest && after.crowding <= before.crowding &&
-        loss <= allowed)
+    const PatternMesh fill = mesh_pattern(rim, *candidate.pattern);
+    const auto start = mesh_.mark();
+    const int first = mesh_.vertex_slots();
+    if (!mesh_.refill(cavity_.elements(), cavity_.rim(), fill.inside, fill.quads)) return false;
+    relocation_.adopt_new_vertices(first);
+    region_.insert(region_.begin(), fill.inside.size(), 0);
+    std::iota(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(fill.inside.size()), first);
+    collect_elements();
+    double loss = 0;
+    if (settles(before, tolerance_ * candidate.gain / before.n, loss)) {
+      ++summary_.accepted;
+      summary_.grids += candidate.pattern->kind == Pattern::kGrid ? 1 : 0;
       return true;
-    if (loss > hopeless) return false;
-    if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
-    if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;
-    last_loss = loss, last_sine = after.least_sine;
+    }
+    known.loss = loss * before.n / candidate.gain;
+    mesh_.rollback(start);
+    return false;
   }
-  // A corner gets no better where more may be lost.
-  if (loss <= allowed) loss = std::numeric_limits<double>::infinity();
-  return false;
-}
 
-/// Fills a cavity with its best pattern; takes all back where that costs too much.
-bool RegularityProcess::attempt(Candidate& candidate) {
-  cavity_.begin(options_.quads);
-  for (const int e : candidate.elements) cavity_.add(e);
-  if (!cavity_.close()) return false;
-  const Outline rim = outline();
-  Known& known = known_[candidate.key];
-  if (!candidate.pattern) candidate.pattern = best_pattern(rim, known.least);
-  known.loss = std::numeric_limits<double>::infinity();
-  if (!candidate.pattern) return false;
-  collect_region();
-  const std::size_t n_outer = region_.size();
-  for (const int v : cavity_.vertices())
-    if (cavity_.is_inside(v)) region_.push_back(v);
-  collect_elements();
-  const Quality before = quality();
-  region_.resize(n_outer);
-
-  const PatternMesh fill = mesh_pattern(rim, *candidate.pattern);
-  const auto start = mesh_.mark();
-  const int first = mesh_.vertex_slots();
-  if (!mesh_.refill(cavity_.elements(), cavity_.rim(), fill.inside, fill.quads)) return false;
-  relocation_.adopt_new_vertices(first);
-  region_.insert(region_.begin(), fill.inside.size(), 0);
-  std::iota(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(fill.inside.size()), first);
-  collect_elements();
-  double loss = 0;
-  if (settles(before, tolerance_ * candidate.gain / before.n, loss)) {
-    ++summary_.accepted;
-    summary_.grids += candidate.pattern->kind == Pattern::kGrid ? 1 : 0;
-    return true;
+  /// The vertices of the rim and of the quads around it; those within are others before and after.
+  void collect_region() {
+    region_.clear();
+    vertices_met_.begin(mesh_.vertex_slots());
+    for (const int h : cavity_.rim())
+      mesh_.for_each_out(mesh_.origin(h), [&](int g) {
+        const int e = QuadTopology::element(g);
+        for (int k = 0; k < 4; ++k)
+          if (const int v = mesh_.corner(e, k); v >= 0 && !cavity_.is_inside(v) && vertices_met_.meet(v))
+            region_.push_back(v);
+      });
   }
-  known.loss = loss * before.n / candidate.gain;
-  mesh_.rollback(start);
-  return false;
-}
 
-void RegularityProcess::accept() {
-  mesh_.commit();
-  for (const int v : region_) {
-    relocation_.activate(v);
-    list(v);
+  /// Relocates the region; whether the loss of the mean gets as small as allowed.
+  bool settles(const Quality& before, double allowed, double& loss) {
+    const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+    const double longest = std::max(before.longest, kLongestSide);
+    const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
+    double last_loss = 0, last_sine = 0;
+    const auto is_slow = [](double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; };
+    for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
+      if (sweep == 1) ++summary_.tried;
+      if (sweep > 0)
+        for (const int v : region_) relocation_.step(v);
+      const Quality after = quality();
+      loss = before.mean - after.mean;
+      if (after.least_sine >= least && after.longest <= longest && after.crowding <= before.crowding &&
+          loss <= allowed)
+        return true;
+      if (loss > hopeless) return false;
+      if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
+      if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;
+      last_loss = loss, last_sine = after.least_sine;
+    }
+    // A corner gets no better where more may be lost.
+    if (loss <= allowed) loss = std::numeric_limits<double>::infinity();
+    return false;
   }
-  relocation_.relax(kRelaxed, 3);
-}
+
+  void collect_elements() {
+    elements_.clear();
+    elements_met_.begin(mesh_.element_slots());
+    for_each_element_around(mesh_, region_, elements_met_, [&](int e) { elements_.push_back(e); });
+  }
+
+  Quality quality() const {
+    ElementQuality total;
+    for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
+    const int n = static_cast<int>(elements_.size());
+    return {total.value / std::max(n, 1), total.least_sine, total.longest, total.crowding, n};
+  }
+
+  void accept() {
+    mesh_.commit();
+    for (const int v : region_) {
+      relocation_.activate(v);
+      list(v);
+    }
+    relocation_.relax(kRelaxed, 3);
+  }
+
+  const QuadBlock& block_;
+  QuadTopology mesh_;
+  ValenceEnergy energy_;
+  QuadRelocation relocation_;
+  RegularityOptions options_;
+  Cavity cavity_;
+  double tolerance_ = 0;              ///< of this round
+  double quads_per_gain_ = 0;         ///< of this round's cavities, at most
+  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next
+  std::vector<char> listed_;          ///< by vertex: in work_
+  std::vector<int> near_;             ///< irregular vertices near the visited one, the nearest first
+  std::vector<int> from_;             ///< by vertex met: where the search came from
+  std::vector<Candidate> candidates_;
+  std::unordered_map<std::uint64_t, Known> known_;  ///< by Cavity::key()
+  std::vector<int> region_;                         ///< vertices that move
+  std::vector<int> elements_;                       ///< around these
+  Marks elements_met_, vertices_met_;
+  RegularitySummary summary_;
+};
+
+}  // namespace
 
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size, const RegularityOptions& options,
                        RegularitySummary* summary) {

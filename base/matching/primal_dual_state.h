@@ -1,14 +1,86 @@
 #pragma once
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <new>
 #include <vector>
 
-#include "base/huge_pages.h"
-#include "base/matching/shared_pool.h"
-
 namespace delquad {
+
+/// Items that go by numbers, which several threads may make and drop at once. An item stays where it is, and
+/// belongs to whoever made it; what is dropped is used again. Which number an item gets depends on the
+/// threads: nothing else may depend on it.
+template <class Item>
+class SharedPool {
+ public:
+  /// At most this many items live at any time.
+  explicit SharedPool(std::size_t most) : chunks_(most / kChunk + 1) {}
+
+  Item& operator[](int i) { return chunks_[static_cast<std::size_t>(i) / kChunk][i % kChunk]; }
+  const Item& operator[](int i) const { return chunks_[static_cast<std::size_t>(i) / kChunk][i % kChunk]; }
+
+  int make() {
+    const std::lock_guard lock(mutex_);
+    if (!unused_.empty()) {
+      const int i = unused_.back();
+      unused_.pop_back();
+      return i;
+    }
+    auto& chunk = chunks_[static_cast<std::size_t>(made_) / kChunk];
+    if (!chunk) chunk = std::make_unique<Item[]>(kChunk);
+    return made_++;
+  }
+
+  void drop(int i) {
+    const std::lock_guard lock(mutex_);
+    unused_.push_back(i);
+  }
+
+ private:
+  static constexpr int kChunk = 1024;
+  std::vector<std::unique_ptr<Item[]>> chunks_;
+  std::vector<int> unused_;
+  int made_ = 0;
+  std::mutex mutex_;
+};
+
+/// Allocates large arrays that are read in no order on pages of two megabytes, where the system has them:
+/// finding the place of a small page in memory costs about as much as reading from it.
+template <class Item>
+struct HugePageAllocator {
+  using value_type = Item;
+
+  HugePageAllocator() = default;
+  template <class Other>
+  HugePageAllocator(const HugePageAllocator<Other>&) {}
+
+  Item* allocate(std::size_t n) {
+    if (n > std::numeric_limits<std::size_t>::max() / sizeof(Item)) throw std::bad_array_new_length();
+    const std::size_t size = n * sizeof(Item);
+    void* const items = ::operator new(size, alignment(size));
+#ifdef MADV_HUGEPAGE
+    if (size >= kPage) madvise(items, size, MADV_HUGEPAGE);  // a hint: nothing depends on it
+#endif
+    return static_cast<Item*>(items);
+  }
+  void deallocate(Item* items, std::size_t n) { ::operator delete(items, alignment(n * sizeof(Item))); }
+  template <class Other>
+  bool operator==(const HugePageAllocator<Other>&) const {
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kPage = std::size_t{1} << 21;
+  static std::align_val_t alignment(std::size_t size) {
+    return std::align_val_t{size >= kPage ? kPage : alignof(Item)};
+  }
+};
 
 /// Nodes or events after which a loop asks whether the run is cancelled: some milliseconds of work.
 inline constexpr unsigned kPerCheck = 1u << 14;

@@ -1,17 +1,73 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "delquad/model.h"
-#include "features/layers/boundary_graph.h"
 #include "features/layers/curve_layers.h"
-#include "features/layers/wall_track.h"
 #include "geometry/planar/planar_model.h"
 
 namespace delquad {
+
+/// A chain of boundary edges between corners, on which nodes may be placed anew: on its curve, or on the
+/// edges themselves where these were given.
+class WallTrack {
+ public:
+  /// `params`: of the points on the curve; a null curve: the edges.
+  WallTrack(std::vector<Vec2> points, std::shared_ptr<const Curve> curve, std::vector<double> params);
+
+  int n_edges() const { return static_cast<int>(points_.size()) - 1; }
+  double length() const { return length_.back(); }
+  /// A place is an edge's number and the part of it: from 0 to n_edges(). By the length from the first point.
+  double place(double length) const;
+  Vec2 point(double place) const;
+  /// On the curve.
+  double param(double place) const;
+  const std::shared_ptr<const Curve>& curve() const { return curve_; }
+
+ private:
+  static constexpr int kSamples = 16;  // an edge
+
+  std::vector<Vec2> points_;
+  std::shared_ptr<const Curve> curve_;
+  std::vector<double> params_;
+  std::vector<double> length_ = {0};  ///< up to each sample
+};
+
+/// The boundaries of all patches as one: what meets at a node, and which patch has an edge.
+class BoundaryGraph {
+ public:
+  explicit BoundaryGraph(const PlanarDomain& domain);
+
+  /// The patch on the left of the edge, and the edge's index there; images of other patches count, too.
+  std::optional<std::array<int, 2>> edge_from(int a, int b) const;
+  bool is_image(int patch) const { return is_image_[static_cast<std::size_t>(patch)] != 0; }
+  /// Whether the edge lies between a patch and its mirror image.
+  bool is_on_axis(int a, int b) const;
+  /// Whether a piece of the boundary ends there: at corners of more than kLayerCorner, where curves meet or
+  /// other curves follow, at named points and cracks, and where that is so at a periodic or mirror image.
+  bool stops(int node) const { return stops_[static_cast<std::size_t>(node)] != 0; }
+  bool is_on_crack(int node) const { return on_crack_[static_cast<std::size_t>(node)] != 0; }
+
+ private:
+  void find_stops(const PlanarDomain& domain);
+  void share_stops(const PlanarDomain& domain);
+
+  std::map<std::pair<int, int>, std::array<int, 2>> edges_;
+  std::vector<char> is_image_, stops_, on_crack_;
+};
+
+/// Points at which the boundary turns by more than this are corners, radians.
+inline constexpr double kLayerCorner = 20 * 0.017453292519943295;
+
+/// The angle inside of the boundary at a point, in (0, 2 pi).
+double inner_angle(Vec2 before, Vec2 at, Vec2 after);
 
 /// Edges of a patch's boundary, one after the other, that get layers.
 struct LayerChain {

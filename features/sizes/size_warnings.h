@@ -31,4 +31,8 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
 void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
                           std::vector<Warning>& warnings);
 
+/// Tells of the narrowest gap outside of all regions, between curves that do not meet, that is narrower than
+/// a hundredth of the edges there: regions that were meant to lie side by side.
+void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings);
+
 }  // namespace delquad

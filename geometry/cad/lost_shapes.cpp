@@ -30,24 +30,24 @@ namespace delquad::cad {
 
 namespace {
 
-using Entity = Handle(Standard_Transient);
+using Transient = Handle(Standard_Transient);
 
 /// Types of IGES entities that are faces by themselves.
 constexpr std::array kIgesFaces = {143, 144, 510};
 /// Shells and solids of them.
 constexpr std::array kIgesBodies = {186, 514};
 
-int iges_type(const Entity& entity) {
+int iges_type(const Transient& entity) {
   const Handle(IGESData_IGESEntity) iges = Handle(IGESData_IGESEntity)::DownCast(entity);
   return iges.IsNull() ? 0 : iges->TypeNumber();
 }
 
-bool is_face(const Entity& entity) {
+bool is_face(const Transient& entity) {
   return entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)) ||
          std::ranges::count(kIgesFaces, iges_type(entity)) > 0;
 }
 
-bool is_surface_or_body(const Entity& entity) {
+bool is_surface_or_body(const Transient& entity) {
   const Handle(IGESData_IGESEntity) iges = Handle(IGESData_IGESEntity)::DownCast(entity);
   return is_face(entity) || entity->IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet)) ||
          entity->IsKind(STANDARD_TYPE(StepShape_SolidModel)) ||
@@ -73,7 +73,7 @@ class LossFinder {
   LostShapes find() {
     for (const auto& [i, why] : find_unreadable()) add(lost_.damaged, model_->Value(i), why);
     for (int i = 1; i <= model_->NbEntities(); ++i) {
-      const Entity entity = model_->Value(i);
+      const Transient entity = model_->Value(i);
       if (!is_face(entity) || has_face(entity)) continue;
       const Handle(Transfer_Binder) tried = process_->Find(entity);
       if (!tried.IsNull() || is_damaged_)
@@ -82,7 +82,7 @@ class LossFinder {
         add(lost_.unused, entity, "");
     }
     for (int i = 1; i <= reader_.NbRootsForTransfer(); ++i)
-      if (const Entity root = reader_.RootForTransfer(i);
+      if (const Transient root = reader_.RootForTransfer(i);
           !is_face(root) && is_surface_or_body(root) && !has_face(root))
         add(lost_.damaged, root, "");
     for (int i = 1; i <= model_->NbEntities(); ++i)
@@ -96,8 +96,8 @@ class LossFinder {
   std::map<int, std::string> find_unreadable() {
     const Interface_Graph graph(model_);
     std::vector<char> met(model_->NbEntities() + 1, 0);
-    std::vector<Entity> open;
-    const auto meet = [&](const Entity& entity) {
+    std::vector<Transient> open;
+    const auto meet = [&](const Transient& entity) {
       const int number = model_->Number(entity);
       if (number == 0 || met[number]) return;
       met[number] = 1;
@@ -106,7 +106,7 @@ class LossFinder {
     for (int i = 1; i <= model_->NbEntities(); ++i)
       if (is_surface_or_body(model_->Value(i))) meet(model_->Value(i));
     while (!open.empty()) {
-      const Entity entity = open.back();
+      const Transient entity = open.back();
       open.pop_back();
       for (Interface_EntityIterator used = graph.Shareds(entity); used.More(); used.Next())
         meet(used.Value());
@@ -122,7 +122,7 @@ class LossFinder {
   }
 
  private:
-  bool has_face(const Entity& entity) const {
+  bool has_face(const Transient& entity) const {
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, entity);
     return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More();
   }
@@ -131,7 +131,7 @@ class LossFinder {
     return check.HasFailed() ? check.CFail(1) : "";
   }
 
-  void add(std::vector<std::string>& list, const Entity& entity, const std::string& why) {
+  void add(std::vector<std::string>& list, const Transient& entity, const std::string& why) {
     if (!listed_.insert(model_->Number(entity)).second) return;
     const std::string type = entity->DynamicType()->Name();
     list.push_back(fmt::format("{} ({}){}{}", model_->StringLabel(entity)->ToCString(),
@@ -155,7 +155,7 @@ std::map<int, std::string> unreadable_entities(XSControl_Reader& reader) {
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   for (const auto& [i, why] : LossFinder(reader).find_unreadable())
     // Else it is what it refers to that cannot be read.
-    if (why.find("Entity") == std::string::npos)
+    if (why.find("Transient") == std::string::npos)
       by_number.emplace(std::atoi(model->StringLabel(model->Value(i))->ToCString() + 1), why);
   return by_number;
 }

@@ -2,21 +2,87 @@
 
 #include <fmt/format.h>
 
+#include <BRepMesh_Context.hxx>
+#include <BRepMesh_FaceDiscret.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepMesh_MeshAlgoFactory.hxx>
 #include <BRep_Tool.hxx>
+#include <IMeshData_Face.hxx>
+#include <IMeshTools_MeshAlgo.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Shape.hxx>
+
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "base/activity.h"
+#include "base/context.h"
 #include "base/parallel.h"
-#include "geometry/cad/face_mesher.h"
 #include "geometry/cad/watch_kernel.h"
 
 namespace delquad::cad {
 
 namespace {
+
+/// The kernel's own algorithm for a face, with what is said and left out around it.
+class ToldAlgo : public IMeshTools_MeshAlgo {
+ public:
+  ToldAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces,
+           const std::vector<int>& skipped, Run* run)
+      : own_(own), faces_(faces), skipped_(skipped), run_(run) {}
+
+  void Perform(const IMeshData::IFaceHandle& face, const IMeshTools_Parameters& parameters,
+               const Message_ProgressRange& range) override {
+    const int number = faces_.FindIndex(face->GetFace());
+    if (std::ranges::binary_search(skipped_, number)) {
+      face->SetStatus(IMeshData_Failure);
+      return;
+    }
+    const WorksFor works(run_);
+    const DoingFace told(number);
+    own_->Perform(face, parameters, range);
+  }
+
+ private:
+  Handle(IMeshTools_MeshAlgo) own_;
+  const TopTools_IndexedMapOfShape& faces_;
+  const std::vector<int>& skipped_;
+  Run* run_;
+};
+
+class ToldAlgos : public IMeshTools_MeshAlgoFactory {
+ public:
+  ToldAlgos(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped)
+      : faces_(faces), skipped_(skipped) {}
+
+  Handle(IMeshTools_MeshAlgo)
+      GetAlgo(const GeomAbs_SurfaceType type, const IMeshTools_Parameters& parameters) const override {
+    const Handle(IMeshTools_MeshAlgo) own = kernel_.GetAlgo(type, parameters);
+    return own.IsNull() ? own : Handle(IMeshTools_MeshAlgo)(new ToldAlgo(own, faces_, skipped_, run_));
+  }
+
+ private:
+  BRepMesh_MeshAlgoFactory kernel_;
+  const TopTools_IndexedMapOfShape& faces_;
+  const std::vector<int>& skipped_;
+  Run* run_ = current_run();  ///< the kernel's own threads, which ask for algorithms, know of none
+};
+
+/// The kernel's triangulation of a shape, which tells what faces (numbers in the map) it is at (see
+/// activity.h) and does not begin those in `skipped` (ascending).
+void mesh_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces,
+                const IMeshTools_Parameters& parameters, const std::vector<int>& skipped) {
+  const Handle(IMeshTools_Context) context = new BRepMesh_Context();
+  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new ToldAlgos(faces, skipped)));
+  BRepMesh_IncrementalMesh mesher;
+  mesher.SetShape(shape);
+  mesher.ChangeParameters() = parameters;
+  mesher.Perform(context);
+}
 
 /// Area of a face that counts as none, as a fraction of the square of the diagonal.
 constexpr double kNoArea = 1e-14;

@@ -11,7 +11,7 @@
 
 #include "algorithms/recombination/hilbert.h"
 #include "algorithms/recombination/quad_cost.h"
-#include "algorithms/recombination/spanning_sides.h"
+#include "algorithms/recombination/recombine.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"
 #include "tests/support/tri_patches.h"

@@ -7,7 +7,6 @@
 #include "patches/face_corners.h"
 #include "patches/face_nodes.h"
 #include "patches/narrow_places.h"
-#include "patches/narrow_seeds.h"
 #include "tests/support/polygon_face.h"
 
 namespace delquad {
