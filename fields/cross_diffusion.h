@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "fields/sides.h"
+#include "fields/laplace.h"
 
 namespace delquad {
 

@@ -21,4 +21,11 @@ LocalStiffness local_stiffness(const TriPatch& tri, int t);
 void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
                    const std::vector<char>& fixed, std::span<std::vector<double>> columns);
 
+/// A number for each side of a triangulation, in the order of the triangles.
+struct Sides {
+  std::vector<std::array<int, 3>> of_triangle;  ///< the side opposite to each vertex
+  int count = 0;
+};
+Sides number_sides(const TriPatch& tri);
+
 }  // namespace delquad

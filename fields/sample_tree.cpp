@@ -1,4 +1,4 @@
-#include "fields/sample_tree.h"
+#include "fields/sampled_fields.h"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>

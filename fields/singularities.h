@@ -5,7 +5,7 @@
 
 #include "fields/background_mesh.h"
 #include "fields/fields.h"
-#include "fields/sides.h"
+#include "fields/laplace.h"
 
 namespace delquad {
 

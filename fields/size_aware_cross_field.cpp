@@ -13,8 +13,8 @@
 #include "delquad/mesh.h"
 #include "fields/background_mesh.h"
 #include "fields/cross_diffusion.h"
+#include "fields/laplace.h"
 #include "fields/sample_triangle.h"
-#include "fields/sides.h"
 #include "fields/singularities.h"
 
 namespace delquad {

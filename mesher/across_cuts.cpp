@@ -1,4 +1,4 @@
-#include "mesher/across_cuts.h"
+#include "mesher/finish_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
+#include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "mesher/better_mesh.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 
 namespace delquad {
 namespace {
@@ -49,8 +49,7 @@ class FacetProjector final : public SurfaceProjector {
       // With the face's points only.
       std::vector<int> used;
       for (const auto& v : of_face) used.insert(used.end(), v.begin(), v.end());
-      std::ranges::sort(used);
-      used.erase(std::unique(used.begin(), used.end()), used.end());
+      sort_unique(used);
       auto& points = points_.emplace_back();
       for (const int v : used) points.push_back(fine.points[v]);
       for (auto& triangle : of_face)

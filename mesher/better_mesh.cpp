@@ -1,4 +1,4 @@
-#include "mesher/better_mesh.h"
+#include "mesher/finish_steps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mesher/check_problem.h"
+#include "mesher/prepare.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,28 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "mesher/repair_options.h"
+#include "base/counters.h"
+#include "delquad/options.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 
 namespace delquad {
+
+/// What is done beside the stages of a pipeline: see finish_steps().
+struct RepairOptions {
+  bool part_twins = true;
+  bool lift_bad_quads = true;
+  bool flat_corners = true;
+  bool across_cuts = true;
+  bool refine_unsound = true;
+  bool keep_given = true;  ///< see hold_worst() in stages.cpp, too
+};
+
+OptionGroup repair_group();
+RepairOptions repair_options(const Options& options);
 
 /// When a finish step runs, and on what.
 enum class FinishAt {
@@ -55,5 +71,55 @@ MeshWorth worth_of(const RunResult& measured);
 /// of "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
 void note_worth(const char* step, const MeshWorth& before, const MeshWorth& after, Summaries& summaries);
+
+/// Whether faces were cut for a word with such stages, which begin from quads, so that it sees too little:
+/// those that fill cavities, none across a cut. Of a given mesh nodes on cuts can move along these only,
+/// whatever the stage.
+bool are_cuts_in_the_way(const PreparedProblem& prepared, const std::vector<const Stage*>& of_quads);
+
+/// Runs the stages that begin from quads once more with other cuts, in faces that have cuts. The mesh that
+/// they made is replaced where that is better; it has no lines on cuts then. Returns whether it was.
+bool run_across_cuts(Finishing& on);
+
+/// What refine_unsound() did.
+struct RefinementSummary {
+  int rounds = 0;  ///< how often the problem was meshed anew
+  int spots = 0;   ///< places around which the size is smaller
+};
+
+template <>
+struct Counters<RefinementSummary> {
+  using S = RefinementSummary;
+  static constexpr const char* step = "refine_unsound";
+  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
+};
+
+/// prepare_problem() of the same problem.
+using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
+
+/// Where the mesh of a surface is not sound, the size is too large for what is there: halves it around these
+/// places and meshes anew, as long as there get fewer such places, but no more quads than a budget allows;
+/// where that does not help, sharp edges there become features. `prepared` and `result` become those of the
+/// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
+/// more, and where the problem says keep_going, faces with such places are left out if others remain.
+void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+                    RunResult& result);
+
+/// Whether what was made of a given mesh is worse: not sound where that was, or else with a worse worst angle
+/// (eta), a shorter shortest edge (in sizes) or a larger aspect, with a number of quads that differs by more
+/// than a tenth, or with none of eta mean, eta worst and d4 better and one of them worse.
+bool is_worse(const RunResult& after, const RunResult& before);
+
+/// Whether it is not worse, and the sum of eta mean, eta worst and the share of regular vertices is larger.
+bool is_better(const RunResult& after, const RunResult& before);
+
+/// Whether there are fewer irregular vertices, and edges are as near to their size.
+bool is_more_regular(const RunResult& after, const RunResult& before);
+
+/// Whether the worst eta is above this or what it was.
+bool keeps_worst_eta(double eta, const RunResult& after, const RunResult& before);
+
+/// Takes another mesh and what is measured of it.
+void take_mesh(RunResult&& from, RunResult& result);
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include "base/box.h"
 #include "delquad/mesher.h"
 #include "features/curves/mesh_planar_curves.h"
+#include "features/curves/surface_input.h"
 #include "features/given/given_domain.h"
 #include "features/given/given_surface.h"
 #include "features/given/named_domain.h"
@@ -14,7 +15,6 @@
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/model_report.h"
 #include "io/cases/read_problem.h"
-#include "mesher/surface_input.h"
 
 namespace delquad {
 namespace {

@@ -10,15 +10,15 @@
 #include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/insertion_options.h"
+#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/regularity/regularity.h"
-#include "algorithms/treatment/recombination_options.h"
+#include "algorithms/treatment/treatment.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "features/sizes/curve_options.h"
-#include "mesher/repair_options.h"
+#include "mesher/finish_steps.h"
 #include "metrics/judgement/poor_quads.h"
-#include "smoothing/cvt/cvt_options.h"
+#include "smoothing/cvt/smooth_points.h"
 #include "smoothing/optimisation/optimisation_options.h"
 
 namespace delquad {

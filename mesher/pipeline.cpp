@@ -10,9 +10,8 @@
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirrored_surface.h"
-#include "mesher/check_problem.h"
 #include "mesher/finish_steps.h"
-#include "mesher/model_steps.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "delquad/mesher.h"
+#include "features/given/given_surface.h"
+#include "geometry/surface/surface_model.h"
 #include "patches/prepared.h"
 
 namespace delquad {
@@ -21,5 +26,47 @@ Refinement as_read(const PreparedProblem& prepared);
 /// fields that cannot be meshed, and for a size that would need more than problem.max_elements, with the
 /// estimate, before that work begins. `refinement`: of surfaces and of planar models of curves.
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement = {});
+
+/// A model on its way to patches: planar curves, lines and meshes; surfaces; meshes in space that were given.
+class ModelSteps {
+ public:
+  virtual ~ModelSteps() = default;
+  /// The model, and the size that it asks for.
+  virtual void read(PreparedProblem& p) = 0;
+  virtual bool is_surface() const = 0;
+  /// The maps of a surface's faces into the plane.
+  virtual void flatten(PreparedProblem&) {}
+  /// Curves, and the patches' boundaries.
+  virtual void mesh_curves(PreparedProblem& p) = 0;
+  /// Patches, with their crosses and sizes.
+  virtual void make_patches(PreparedProblem& p) = 0;
+};
+
+std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Refinement& refinement);
+std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Refinement& refinement);
+std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given);
+
+/// All of them in turn.
+PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model);
+
+/// Throws InputError, saying what is wrong and where, for a problem that makes no sense, whatever its model
+/// is found to be: meshes that cannot be read (see require_readable()), models with nothing in them, numbers
+/// out of range, and things that contradict each other.
+void check_problem(const MeshProblem& problem);
+
+/// Of a model whose loose lines are imprinted: faces flattened, curves meshed once each, all patches even;
+/// cross field and size on each patch. Refuses sizes that would need more than problem.max_elements through
+/// `check_count`. Throws InputError naming faces that cannot be meshed, unless problem.keep_going leaves them
+/// out and others remain.
+PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
+                                std::shared_ptr<const SizeField> size,
+                                const std::function<void(double quads)>& check_count,
+                                const Refinement& refinement = {});
+
+/// The same of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along
+/// sides of elements, and the elements within. `given`: its curves and regions.
+PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
+                                      std::shared_ptr<const SizeField> size,
+                                      const std::function<void(double quads)>& check_count);
 
 }  // namespace delquad

@@ -17,8 +17,8 @@
 #include "features/sizes/size_warnings.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
-#include "geometry/planar/boundary_report.h"
-#include "mesher/model_steps.h"
+#include "geometry/planar/check_lines.h"
+#include "mesher/prepare.h"
 
 namespace delquad {
 namespace {

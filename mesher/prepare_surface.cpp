@@ -1,4 +1,3 @@
-#include "mesher/prepare_surface.h"
 
 #include <fmt/format.h>
 
@@ -6,13 +5,14 @@
 #include <optional>
 #include <utility>
 
-#include "algorithms/treatment/recombination_options.h"
+#include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/parallel.h"
 #include "features/crosses/size_aware.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_surface_curves.h"
+#include "features/curves/surface_input.h"
 #include "features/embedded/imprint.h"
 #include "features/given/given_domain.h"
 #include "features/given/given_surface.h"
@@ -28,8 +28,7 @@
 #include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "mesher/model_steps.h"
-#include "mesher/surface_input.h"
+#include "mesher/prepare.h"
 
 namespace delquad {
 namespace {

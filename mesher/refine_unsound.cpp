@@ -1,4 +1,3 @@
-#include "mesher/refine_unsound.h"
 
 #include <fmt/format.h>
 

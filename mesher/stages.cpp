@@ -1,4 +1,4 @@
-#include "mesher/stages.h"
+#include "mesher/runner.h"
 
 #include <fmt/format.h>
 
@@ -9,24 +9,21 @@
 #include <stdexcept>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/insertion_options.h"
+#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
-#include "algorithms/insertion/packing.h"
-#include "algorithms/recombination/greedy.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
-#include "algorithms/treatment/degree_treatment.h"
-#include "algorithms/treatment/recombination_options.h"
+#include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
-#include "mesher/repair_options.h"
+#include "mesher/finish_steps.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 #include "patches/places_inside.h"
-#include "smoothing/cvt/cvt_options.h"
+#include "smoothing/cvt/smooth_points.h"
 #include "smoothing/optimisation/planar_tracks.h"
-#include "smoothing/optimisation/untangle_flat.h"
+#include "smoothing/optimisation/track_optimisation.h"
 #include "smoothing/surface/surface_tracks.h"
 
 namespace delquad {
@@ -37,7 +34,7 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
                    PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   FrontalSummary summary;
-  FrontalOptions options = insertion_options(in.options).frontal;
+  FrontalOptions options = insertion_options(in.options);
   options.max_points = in.max_points;
   patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
   patch.form = PatchForm::kTriangles;
@@ -297,12 +294,10 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
 std::deque<Stage>& stages() {
   static std::deque<Stage> all = {
       insertion_stage('F', "L2 insertion", [](const Options&) { return make_l2_frontal(); }),
-      insertion_stage(
-          'D', "L-infinity insertion",
-          [](const Options& options) { return make_linf_delquad(insertion_options(options).linf); }),
+      insertion_stage('D', "L-infinity insertion", [](const Options&) { return make_linf_delquad(); }),
       {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
-         insert_points(mesh_packing, *make_linf_delquad(insertion_options(in.options).linf), in, patch, log);
+         insert_points(mesh_packing, *make_linf_delquad(), in, patch, log);
        }},
       {'L', "Lp-CVT smoothing", PatchForm::kTriangles, PatchForm::kTriangles, smooth_triangles},
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},

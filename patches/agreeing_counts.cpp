@@ -1,4 +1,4 @@
-#include "patches/agreeing_counts.h"
+#include "patches/even_counts.h"
 
 #include <algorithm>
 #include <array>

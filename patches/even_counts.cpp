@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/disjoint_sets.h"
-#include "base/matching/t_join.h"
+#include "base/matching/edge_counts.h"
 
 namespace delquad {
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
+#include "base/matching/edge_counts.h"
 #include "base/matching/matching.h"
 #include "patches/curve_nodes.h"
+#include "patches/surface_curves.h"
 
 namespace delquad {
 
@@ -23,5 +26,18 @@ double cost_of_change(int n, const CurveDemand& curve);
 std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
                              const MatchingSolver& solver, std::vector<int>& odd_patches,
                              ChangeCost cost = cost_of_change);
+
+/// The sums that are zero around patches which quads without irregular vertices can fill. With the turns at
+/// its corners (a right angle for each quad less than two), the boundary of a disk comes back to its
+/// beginning in the grid, along both axes, and so does a hole with four concave corners; both loops of a ring
+/// lead equally far. Patches whose corners make irregular vertices necessary have no sums: these find their
+/// places so that rows need not end.
+std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
+
+/// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
+/// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
+void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
+                     const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
+                     std::vector<int>& counts);
 
 }  // namespace delquad

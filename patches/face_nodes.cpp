@@ -1,4 +1,4 @@
-#include "patches/face_nodes.h"
+#include "patches/across_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "base/counters.h"
+#include "delquad/extend.h"
+#include "patches/prepared.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
@@ -17,5 +21,32 @@ namespace delquad {
 std::vector<Vec3> places_inside(const SurfacePatch& patch, const SurfaceModel& model,
                                 std::span<const Vec2> points, const std::vector<std::array<int, 2>>& sides,
                                 const std::vector<Vec3>& nodes);
+
+inline const std::vector<Vec2>& points_of(const PatchMesh& patch) {
+  return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
+}
+
+/// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.
+std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
+                                const std::vector<Vec3>& nodes);
+
+/// What a word has made of all patches so far.
+struct AllPatches {
+  const PreparedProblem& prepared;
+  const Options& options;
+  std::vector<PatchMesh>& patches;
+  const std::vector<char>& left_out;  ///< by patch
+  SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
+  bool began_from_quads = false;      ///< that were given
+};
+
+/// Patches of quads that are not left out get the places of their points inside, where they have none yet.
+void place_inside(const AllPatches& all);
+
+/// Adds what a step counted to the log.
+template <class Summary>
+void add_summary(StageLog& log, const Summary& summary) {
+  log.summaries.add(Counters<Summary>::step, fields_of(summary));
+}
 
 }  // namespace delquad

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "algorithms/cleanup/edit_in_blocks.h"
-#include "algorithms/treatment/move_queue.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/cancel.h"
 #include "base/marks.h"
+#include "base/option_table.h"
 #include "geometry/mesh/quad_blocks.h"
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
-#include "smoothing/relocation/short_edges.h"
+#include "smoothing/relocation/untangling.h"
 
 namespace delquad {
 
@@ -286,5 +286,26 @@ QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const Clea
                    CleanupSummary* summary) {
   return edit_in_blocks<CleanupProcess>(mesh, size, options, summary);
 }
+
+namespace {
+
+const OptionTable<CleanupOptions>& table() {
+  static const auto all =
+      OptionTable<CleanupOptions>("cleanup", "options of C")
+          .add({.name = "rounds", .help = "of annealing; 0: greedy only", .least = 0, .most = 1e6},
+               &CleanupOptions::rounds)
+          .add({.name = "tolerance",
+                .help = "what an edit may cost in the first round",
+                .above = 0,
+                .most = 1},
+               &CleanupOptions::tolerance)
+          .add({.name = "seed", .help = "of the annealing", .least = 0}, &CleanupOptions::seed);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup cleanup_group() { return table().group(); }
+CleanupOptions cleanup_options(const Options& options) { return table().read(options); }
 
 }  // namespace delquad

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/counters.h"
-#include "patches/all_patches.h"
+#include "patches/places_inside.h"
 
 namespace delquad {
 

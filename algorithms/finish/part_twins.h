@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/counters.h"
-#include "patches/all_patches.h"
+#include "patches/places_inside.h"
 
 namespace delquad {
 

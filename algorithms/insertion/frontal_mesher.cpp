@@ -6,6 +6,7 @@
 
 #include "algorithms/insertion/vertex_fields.h"
 #include "base/cancel.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/mesh/constrained_delaunay.h"
@@ -274,7 +275,27 @@ class FrontalMesher {
   FrontalSummary summary_;
 };
 
+/// Outside of its range the front never ends, or nothing can be inserted.
+const OptionTable<FrontalOptions>& insertion_table() {
+  static const auto all = OptionTable<FrontalOptions>("insertion", "options of F, D and P")
+                              .add({.name = "h_max",
+                                    .help = "size of the triangles' circles that count as resolved",
+                                    .least = 1.1,
+                                    .most = 3,
+                                    .absent = "the strategy's own"},
+                                   &FrontalOptions::h_max)
+                              .add({.name = "rejection",
+                                    .help = "least distance between points, in sizes",
+                                    .above = 0,
+                                    .most = 0.95},
+                                   &FrontalOptions::rejection);
+  return all;
+}
+
 }  // namespace
+
+OptionGroup insertion_group() { return insertion_table().group(); }
+FrontalOptions insertion_options(const Options& options) { return insertion_table().read(options); }
 
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {

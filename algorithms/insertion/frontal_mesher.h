@@ -4,12 +4,14 @@
 #include "delquad/extend.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
+#include "delquad/options.h"
 
 namespace delquad {
 
 /// Points whose height above a boundary edge is below this times delta' are refused.
 inline constexpr double kBoundaryHeight = 0.5;
 
+/// What insertion (F, D, P) can be told.
 struct FrontalOptions {
   /// A triangle is resolved when its dimensionless size is at most h_max (1: ideal). 0: the strategy's own
   /// default.
@@ -19,6 +21,9 @@ struct FrontalOptions {
   /// The most points to insert; the summary says when it stopped the mesher.
   long long max_points = 200'000'000;
 };
+
+OptionGroup insertion_group();
+FrontalOptions insertion_options(const Options& options);
 
 enum class FrontalTermination { kResolved, kMaxPoints };
 
@@ -60,6 +65,18 @@ TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& place
 
 /// The same, from a constrained Delaunay triangulation that may have points inside already.
 TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options = {},
+                      FrontalSummary* summary = nullptr);
+
+/// P: packs vertices along the cross, then fills what is left by the frontal mesher with `filler`.
+///
+/// First in, first out from the boundary's points, each vertex proposes its four neighbours in a grid: one
+/// step of length delta' along each direction of the cross, by the midpoint rule. A proposal is refused
+/// outside the domain and by the same tests as in mesh_frontal(). A vertex knows of no front and no
+/// triangles, so that legs and diagonals of half squares cannot be taken for each other.
+///
+/// After the packing of parallelograms in Gmsh (algorithm 9).
+TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 

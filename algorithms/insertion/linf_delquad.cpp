@@ -19,11 +19,10 @@ constexpr double kShortestLeg = 0.79;
 /// ideal triangle is half a square of side delta'.
 ///
 /// Differs from the paper: the point is B(rho), rho = delta' clamped by the circumsquares' rho instead of the
-/// printed t (whose min and max are exchanged); the lower clamp is an option; nearly aligned edges keep their
+/// printed t (whose min and max are exchanged); there is no lower clamp; nearly aligned edges keep their
 /// right angle.
 class LinfDelquad final : public PointPlacement {
  public:
-  explicit LinfDelquad(const LinfOptions& options) : options_(options) {}
   std::string name() const override { return "L-infinity Delquad"; }
   double default_h_max() const override { return 1.4; }
 
@@ -36,7 +35,7 @@ class LinfDelquad final : public PointPlacement {
     const Vec2 apex = e.to_local(edge.apex);
     Candidates points;
     if (std::abs(e.beta) > kAlignedSlope * e.alpha) {
-      points.add(e.to_global(bisector_point(e, distance(e, apex, edge))));
+      points.add(e.to_global(bisector_point(e, distance(e, apex, edge.delta))));
       return points;
     }
     // Above P and above Q are the two ends of the bisector's tilted branch for either sign of beta.
@@ -47,7 +46,7 @@ class LinfDelquad final : public PointPlacement {
     for (const bool at_p : {above_p, !above_p}) {
       CanonicalEdge side = e;
       side.beta = std::copysign(e.beta, at_p ? 1.0 : -1.0);
-      const double rho = distance(side, apex, edge);
+      const double rho = distance(side, apex, edge.delta);
       const double x = std::min(e.alpha, rho - e.alpha);
       if (x < 0) continue;
       points.add(e.to_global({at_p ? -x : x, rho + (at_p ? -e.beta : e.beta)}));
@@ -61,12 +60,8 @@ class LinfDelquad final : public PointPlacement {
  private:
   static constexpr double kAlignedNoise = 1e-9;
 
-  double distance(const CanonicalEdge& e, Vec2 apex, const FrontEdge& edge) const {
-    double rho = edge.delta;
-    if (options_.lower_clamp && edge.resolved_apex)
-      rho = std::max(rho, branch_exit(e, e.to_local(*edge.resolved_apex)));
-    rho = std::max(rho, kShortestLeg * e.length());
-    return std::min(rho, circumradius_on_branch(e, apex));
+  static double distance(const CanonicalEdge& e, Vec2 apex, double delta) {
+    return std::min(std::max(delta, kShortestLeg * e.length()), circumradius_on_branch(e, apex));
   }
 
   /// Circumcentre of a very flat active triangle: it lies on the bisector's straight part.
@@ -74,14 +69,10 @@ class LinfDelquad final : public PointPlacement {
     const double slack = e.alpha - std::abs(e.beta);
     return e.to_global({0, std::clamp(apex.y - e.alpha, -slack, slack)});
   }
-
-  LinfOptions options_;
 };
 
 }  // namespace
 
-std::unique_ptr<PointPlacement> make_linf_delquad(const LinfOptions& options) {
-  return std::make_unique<LinfDelquad>(options);
-}
+std::unique_ptr<PointPlacement> make_linf_delquad() { return std::make_unique<LinfDelquad>(); }
 
 }  // namespace delquad

@@ -33,14 +33,4 @@ double circumradius_on_branch(const CanonicalEdge& edge, Vec2 apex) {
   return std::max((edge.alpha - along) / 2, (apex.y + b) / 2);
 }
 
-double branch_exit(const CanonicalEdge& edge, Vec2 opposite_apex) {
-  const double b = std::abs(edge.beta);
-  const double along = std::copysign(opposite_apex.x, edge.beta * opposite_apex.x);
-  if (along < -edge.alpha) return 0;
-  if (along > edge.alpha) return 2 * b;
-  const double slack = edge.alpha - b;
-  const double y0 = std::clamp(opposite_apex.y + edge.alpha, -slack, slack);
-  return std::min(2 * edge.alpha, edge.alpha + b + y0);
-}
-
 }  // namespace delquad

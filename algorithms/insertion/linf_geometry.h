@@ -50,8 +50,4 @@ Vec2 bisector_point(const CanonicalEdge& edge, double rho);
 /// branch of the bisector; infinity when there is none.
 double circumradius_on_branch(const CanonicalEdge& edge, Vec2 apex);
 
-/// rho at which the upper branch leaves the circumsquare of the triangle on the other side of PQ; 0: it never
-/// bounds.
-double branch_exit(const CanonicalEdge& edge, Vec2 opposite_apex);
-
 }  // namespace delquad

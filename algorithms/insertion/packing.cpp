@@ -1,4 +1,4 @@
-#include "algorithms/insertion/packing.h"
+#include "algorithms/insertion/frontal_mesher.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "algorithms/recombination/boundary_repair.h"
+#include "algorithms/recombination/recombine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "algorithms/recombination/quad_cost.h"
+#include "algorithms/recombination/dual_graph.h"
 #include "base/cancel.h"
 
 namespace delquad {

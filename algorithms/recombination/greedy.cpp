@@ -1,10 +1,10 @@
-#include "algorithms/recombination/greedy.h"
+#include "algorithms/recombination/recombine.h"
 
 #include <algorithm>
 #include <tuple>
 #include <vector>
 
-#include "algorithms/recombination/quad_cost.h"
+#include "algorithms/recombination/dual_graph.h"
 #include "base/stopwatch.h"
 #include "geometry/mesh/tri_topology.h"
 

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algorithms/recombination/boundary_repair.h"
 #include "algorithms/recombination/dual_graph.h"
 #include "base/parallel_collect.h"
 #include "geometry/mesh/tri_topology.h"

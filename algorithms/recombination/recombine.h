@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "base/counters.h"
 #include "base/matching/matching.h"
 #include "delquad/mesh.h"
@@ -57,5 +60,41 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
 /// Cuts every interior side that joins two boundary points at its middle: its two triangles become four.
 /// Returns how many sides were cut; the new points come last. The number of triangles keeps its parity.
 int split_spanning_sides(TriPatch& tri);
+
+/// Which pairs of triangles may become quads.
+struct GreedyOptions {
+  double least_eta = 0.1;     ///< of a merged quad, above 0
+  bool longest_side = false;  ///< only across a side that is the longest of both triangles
+  /// A triangle without partner may take one from a quad, whose other triangle finds another; at most so many
+  /// quads are made anew for it.
+  int exchanges = 3;
+};
+
+/// Merges pairs of triangles in the order of the quads' eta, best first, each triangle once; then by
+/// exchanges. What finds no partner stays a triangle. Points are kept. [borouchaki1998]
+QuadPatch recombine_greedily(const TriPatch& tri, const GreedyOptions& options = {},
+                             RecombineSummary* summary = nullptr);
+
+/// Two triangles which an extra edge of the dual graph has matched: the first and the last of the fan at a
+/// boundary point. Both start with that point; both are counterclockwise.
+struct FanEnds {
+  std::array<int, 3> first, last;
+};
+
+struct BoundaryRepairSummary {
+  int pentagon_swaps = 0;
+  int duplications = 0;
+};
+
+/// Turns each pair of fan ends into quads and adds them to the mesh, which holds everything but them.
+///
+/// With one quad (b, q, m, r) between the ends (b, p, q) and (b, r, s), the three may become (b, p, q, m) and
+/// (b, m, r, s): the pentagon swap. Always possible: the boundary point b is duplicated. The new interior
+/// point b' takes its place in all that lies between, and the ends become (b, p, q, b') and (b, b', r, s). It
+/// is chosen where its worst quad is clearly better than the swap's. Each b' is placed where the worst of its
+/// elements is best. [Remacle et al. 2011, section 4]
+///
+/// Differs from the paper, which swaps whenever it can and leaves the place of b' open.
+BoundaryRepairSummary repair_fans(QuadPatch& mesh, const std::vector<FanEnds>& pairs);
 
 }  // namespace delquad

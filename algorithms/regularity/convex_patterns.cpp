@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "algorithms/regularity/convex_patterns.h"
+#include "algorithms/regularity/patterns.h"
 
 namespace delquad {
 

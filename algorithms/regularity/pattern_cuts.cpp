@@ -3,7 +3,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "algorithms/regularity/convex_patterns.h"
+#include "algorithms/regularity/patterns.h"
 
 namespace delquad {
 

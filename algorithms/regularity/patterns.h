@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/regularity/polygon_sides.h"
 #include "delquad/mesh.h"
 
 namespace delquad {
@@ -55,5 +56,11 @@ struct PatternMesh {
 
 /// Lines between irregular vertices and the rim are straight, and blocks between lines are Coons patches.
 PatternMesh mesh_pattern(const Outline& outline, const Pattern& pattern);
+
+/// Of a row of edges between two places: (edges) * log^2(length / wanted length).
+double strain_of(Vec2 a, Vec2 b, int edges, double delta);
+
+/// Of the patterns without cuts of an outline without concave vertices the one with the least strain.
+std::optional<Pattern> best_convex(const Outline& outline, const PolygonSides& sides);
 
 }  // namespace delquad

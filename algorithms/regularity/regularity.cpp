@@ -15,6 +15,7 @@
 #include "algorithms/regularity/patterns.h"
 #include "base/cancel.h"
 #include "base/marks.h"
+#include "base/option_table.h"
 #include "geometry/mesh/quad_blocks.h"
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/element_quality.h"
@@ -358,5 +359,27 @@ QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size, const 
                        RegularitySummary* summary) {
   return edit_in_blocks<RegularityProcess>(mesh, size, options, summary);
 }
+
+namespace {
+
+const OptionTable<RegularityOptions>& table() {
+  static const auto all =
+      OptionTable<RegularityOptions>("regularity", "options of Q")
+          .add({.name = "tolerance",
+                .help = "what an irregular vertex less may cost: quads times eta",
+                .least = 0,
+                .most = 100},
+               &RegularityOptions::tolerance)
+          .add({.name = "quads", .help = "of a cavity, at most", .least = 1, .most = 2000},
+               &RegularityOptions::quads)
+          .add({.name = "rounds", .help = "over which the tolerance grows", .least = 1, .most = 1000},
+               &RegularityOptions::rounds);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup regularity_group() { return table().group(); }
+RegularityOptions regularity_options(const Options& options) { return table().read(options); }
 
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "algorithms/treatment/degree_treatment.h"
+#include "algorithms/treatment/treatment.h"
 
 #include <algorithm>
 #include <numbers>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
+#include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/untangling.h"
 
 namespace delquad {
@@ -20,11 +22,6 @@ constexpr int kLargeRegion = 40, kHugeRegion = 1500;
 /// Elements around vertices that may be settled, counting each time, for each element of the mesh; and in any
 /// mesh. Patches whose bad quads are few need a tenth of it.
 constexpr long long kSettledPerElement = 800, kLeastSettled = 80'000;
-
-void sort_unique(std::vector<int>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
 
 }  // namespace
 
@@ -158,6 +155,30 @@ bool LocalRemeshing::try_all(double least_relief, bool first_will_do) {
   ring_quads_ = mesh_.vertex_slots() - slots;
   move_ = choice->move;
   return true;
+}
+
+namespace {
+
+/// Weight of an element of eta 0. The sums over the others stay below: they hold some hundreds of corners.
+constexpr double kFlatWeight = 1e4;
+
+}  // namespace
+
+double ShapePenalty::around(std::span<const int> vertices) {
+  static const double poor = sine_of_eta(kPoorEta);
+  double sum = 0;
+  elements_met_.begin(mesh_.element_slots());
+  for_each_element_around(mesh_, vertices, elements_met_, [&](int e) {
+    ++looks_;
+    double least = 1;
+    for (const double sine : corner_sines(mesh_, e)) {
+      const double lack = std::max(0.0, 1 - sine / poor);
+      sum += lack * lack * lack;
+      least = std::min(least, sine);
+    }
+    if (least <= kFlatSine) sum += kFlatWeight;
+  });
+  return sum;
 }
 
 }  // namespace delquad

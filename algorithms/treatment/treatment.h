@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+
 #include "base/counters.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
+#include "delquad/options.h"
 
 namespace delquad {
 
@@ -56,5 +59,26 @@ struct Counters<TreatmentSummary> {
 /// long as the quads beside them, or where corners of about one degree crowd.
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
+
+/// What follows on greedy merging [borouchaki1998], as far as is known: edges between quads are swapped where
+/// that brings the degrees of their vertices nearer to 4 (the boundary's: to what its angle asks for), inner
+/// vertices of two elements are taken out, and vertices go towards the mean of the points that would be best
+/// for each element around, weighted by 1/delta'^2: the corner that makes the diagonal opposite a square's,
+/// or the side of a triangle one of an equilateral. A move is kept when the worst element around gets better,
+/// an edit when it gets no worse than that or half as good as a square (in the sine of the least corner).
+QuadPatch treat_by_degrees(const QuadPatch& mesh, const ParametricSize& size,
+                           const TreatmentOptions& options = {}, TreatmentSummary* summary = nullptr);
+
+enum class Treatment { kNone, kPaper };
+
+/// What recombination can be told.
+struct RecombinationOptions {
+  std::string solver = "primal-dual";  ///< of matching_solver_names(); for the counts on curves, too
+  Treatment treatment = Treatment::kPaper;
+  TreatmentOptions treatment_options;
+};
+
+OptionGroup recombination_group();
+RecombinationOptions recombination_options(const Options& options);
 
 }  // namespace delquad

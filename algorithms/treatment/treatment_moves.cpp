@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cancel.h"
 #include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
@@ -207,6 +208,24 @@ TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move) 
     default:
       return {mesh.hexagon(move.at), 6};
   }
+}
+
+std::optional<TreatmentMove> MoveQueue::pop() {
+  while (!queue_.empty()) {
+    check_cancelled();
+    const Candidate candidate = queue_.top();
+    queue_.pop();
+    // A move is seen from several elements and vertices.
+    if (candidate.gain == last_.gain && candidate.move == last_.move) continue;
+    last_ = candidate;
+    if (!is_legal(mesh_, candidate.move)) continue;
+    const int gain = energy_.gain(candidate.move);
+    if (gain <= 0) continue;
+    if (gain == candidate.gain) return candidate.move;
+    queue_.push({gain, candidate.move});
+  }
+  last_ = {0, {}};
+  return std::nullopt;
 }
 
 }  // namespace delquad

@@ -3,8 +3,6 @@
 #include <vector>
 
 #include "algorithms/treatment/local_remeshing.h"
-#include "algorithms/treatment/move_queue.h"
-#include "algorithms/treatment/shape_penalty.h"
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"

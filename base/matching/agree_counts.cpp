@@ -1,4 +1,4 @@
-#include "base/matching/agree_counts.h"
+#include "base/matching/edge_counts.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/sort_unique.h"
 
 namespace delquad {
 namespace {
@@ -265,8 +266,7 @@ class Agreement {
       gain -= cost_of(c);
       for (const auto& in : in_sums_[c.curve]) touched.push_back(in.first);
     }
-    std::ranges::sort(touched);
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    sort_unique(touched);
     for (const int s : touched) {
       int value = values_[s];
       for (const Change& c : changes) value += times_in(s, c.curve) * c.by;

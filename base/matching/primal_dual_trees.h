@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "base/matching/primal_dual_search.h"
+#include "base/sort_unique.h"
 
 /// The part of the search in which trees grow, end, stop and are left.
 namespace delquad {
@@ -149,8 +149,7 @@ void PrimalDualSearch<Value, Cost>::leave_free_ones() {
     const int c = s_.nodes[v].container;
     v = s_.matched(c) ? -1 : s_.nodes[c].base;
   }
-  std::sort(roots.begin(), roots.end());
-  roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+  sort_unique(roots);
   if (!roots.empty() && roots[0] < 0) roots.erase(roots.begin());
 }
 

@@ -1,4 +1,4 @@
-#include "base/matching/side_counts.h"
+#include "base/matching/edge_counts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/sort_unique.h"
 
 namespace delquad {
 namespace {
@@ -78,8 +79,7 @@ class Balance {
   void add(int face, Demand demand, const std::vector<int>& plus, const std::vector<int>& minus) {
     std::vector<int> all = plus;
     all.insert(all.end(), minus.begin(), minus.end());
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_unique(all);
     Condition condition{face, demand, {}};
     for (const int curve : all) {
       int times = static_cast<int>(std::ranges::count(plus, curve) - std::ranges::count(minus, curve));

@@ -15,7 +15,6 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "delquad/extend.h"
-#include "features/sizes/curve_options.h"
 #include "fields/size_aware_cross_field.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/compound.h"
@@ -30,15 +29,18 @@ struct FieldGroup {
   std::vector<FieldSeam> seams;  ///< with indices into `patches`
 };
 
+/// How much fields are drawn to the edges of curves at which two faces join smoothly, and of cuts, see
+/// CrossDiffusion; measured, see docs/algorithms.md.
+constexpr double kSmoothAlignment = 1, kCutAlignment = 0.03;
+
 /// Of each curve, how much fields are drawn to it; none where fields are given there.
 std::vector<std::optional<double>> alignments(const PreparedProblem& prepared) {
   std::vector<std::optional<double>> of_curve(prepared.boundary.curves.size());
   if (!prepared.surface) return of_curve;
-  const CurveOptions options = curve_options(prepared.settings.options);
   const std::vector<char> smooth = tangent_curves(prepared.surface->model);
   for (std::size_t c = 0; c < of_curve.size() && c < smooth.size(); ++c)
-    if (smooth[c]) of_curve[c] = options.alignment;
-  for (const SurfaceCut& cut : prepared.surface->cuts) of_curve[cut.curve] = options.cut_alignment;
+    if (smooth[c]) of_curve[c] = kSmoothAlignment;
+  for (const SurfaceCut& cut : prepared.surface->cuts) of_curve[cut.curve] = kCutAlignment;
   return of_curve;
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "features/curved/model_geometry.h"
+#include "features/curved/curved_geometry.h"
 
 namespace delquad {
 

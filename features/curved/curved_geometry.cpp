@@ -13,6 +13,7 @@
 
 #include "base/box_tree.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "delquad/model.h"
 #include "geometry/mesh/nearest_triangle.h"
 
@@ -65,8 +66,7 @@ CurveSearch::CurveSearch(std::shared_ptr<const Curve> curve, int edges) : curve_
   for (int i = 0; i <= n; ++i) t_.push_back(static_cast<double>(i) / n);
   const std::vector<double> fixed = curve_->fixed_parameters();
   t_.insert(t_.end(), fixed.begin(), fixed.end());
-  std::ranges::sort(t_);
-  t_.erase(std::unique(t_.begin(), t_.end()), t_.end());
+  sort_unique(t_);
   for (const double t : t_) samples_.push_back(curve_->point(t));
   std::vector<Box<Vec2>> boxes;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i)

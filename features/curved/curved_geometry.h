@@ -1,11 +1,29 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
-#include "features/curved/model_geometry.h"
+#include "delquad/mesh.h"
 #include "patches/prepared.h"
 
 namespace delquad {
+
+/// The true model behind a mesh: where nodes of curved elements go. Safe to call from several threads.
+class ModelGeometry {
+ public:
+  virtual ~ModelGeometry() = default;
+  /// Points of the curve of a line (index into Mesh::lines) at these parts of the way, by length along the
+  /// curve, from its first end to its second; parts strictly between 0 and 1, ascending.
+  virtual std::vector<Vec3> on_line(int line, std::span<const double> parts) const = 0;
+  /// The point of a curve (index into Mesh::curves) nearest to x; none: its lines are straight.
+  virtual std::optional<Vec3> on_curve(int curve, const Vec3& x) const = 0;
+  /// Whether a vertex of the straight mesh is one inside of a curve along which it may be moved.
+  virtual bool slides(int vertex) const = 0;
+  /// The point of a face (index into Mesh::regions) nearest to x.
+  virtual Vec3 on_face(int region, const Vec3& x) const = 0;
+};
 
 /// The true model behind a mesh that was made of a problem: curves and formulas, CAD or triangles. `nodes`:
 /// where the nodes on curves came to lie. Lines that were given, and those of the mesh that are on no curve,

@@ -41,8 +41,8 @@ struct Counters<CurvingSummary> {
                                          counter("distance_straight", &S::distance_straight)};
 };
 
-/// Parts quads of the straight mesh that have flat corners, where the problem asks for curved elements; see
-/// features/curved/flat_corners.h. Returns how many.
+/// Parts quads of the straight mesh that have flat corners, where the problem asks for curved elements.
+/// Returns how many.
 int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh);
 
 /// Gives a sound mesh the elements of the problem's order. Those that are not proven to be positive are a

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "delquad/mesh.h"
-#include "features/curved/model_geometry.h"
+#include "features/curved/curved_geometry.h"
 
 namespace delquad {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "features/curved/curved_geometry.h"
 #include "features/curved/jacobian_bounds.h"
-#include "features/curved/model_geometry.h"
 
 namespace delquad {
 

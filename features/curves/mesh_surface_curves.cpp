@@ -22,10 +22,9 @@
 #include "features/divisions/divisions.h"
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
-#include "patches/agreeing_counts.h"
+#include "patches/across_view.h"
 #include "patches/boundary_cap.h"
 #include "patches/even_counts.h"
-#include "patches/face_nodes.h"
 #include "patches/narrow_places.h"
 #include "patches/surface_curves.h"
 

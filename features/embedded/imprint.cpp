@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/embedded/point_whiskers.h"
@@ -421,9 +422,7 @@ class Imprinter {
     for (const auto& [line, nodes] : placed)
       if (line->is_asked || nodes.size() == 1)
         model_.corners.insert(model_.corners.end(), nodes.begin(), nodes.end());
-    std::ranges::sort(model_.corners);
-    const auto [begin, end] = std::ranges::unique(model_.corners);
-    model_.corners.erase(begin, end);
+    sort_unique(model_.corners);
   }
 
   SurfaceModel& model_;

@@ -1,4 +1,4 @@
-#include "features/extrusion/crossings.h"
+#include "features/extrusion/layers.h"
 
 #include <algorithm>
 #include <limits>

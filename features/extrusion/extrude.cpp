@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/extrusion/crossings.h"
 #include "features/extrusion/layers.h"
 #include "features/extrusion/section.h"
 #include "io/entity_names.h"

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
 #include <vector>
 
+#include "delquad/mesh.h"
 #include "features/extrusion/section.h"
 
 namespace delquad {
@@ -19,5 +23,22 @@ std::vector<double> layer_ends(int number, double growth);
 
 /// Throws InputError that says what was expected.
 LayeredPoints place_layers(const Section& section, const SweepPath& path, const SweepLayers& layers);
+
+/// For each point the way that it goes while all quads around move along their normals by 1: m with m . n = 1
+/// for each normal n, solved exactly for up to two of them, else by least squares, in which directions that
+/// hardly any normal has count as none. Throws InputError with the place where quads fold back on each other,
+/// and where quads touch in a point only.
+std::vector<Vec3> offset_directions(const Section& section);
+
+struct Crossing {
+  int first, second;  ///< triangles
+  Vec3 at;
+};
+
+/// The first of the triangles an edge of which goes through another one, both ends beside its plane, decided
+/// exactly. Triangles may touch, and lie on each other; pairs that `may_cross` are left out.
+std::optional<Crossing> find_crossing(
+    const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
+    const std::function<bool(int, int)>& may_cross = [](int, int) { return false; });
 
 }  // namespace delquad

@@ -16,7 +16,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "geometry/surface/orient_triangles.h"
+#include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangulated_model.h"
 #include "metrics/shape.h"
 

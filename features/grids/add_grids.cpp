@@ -13,7 +13,7 @@
 #include "geometry/mesh/nearest_triangle.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
-#include "patches/all_patches.h"
+#include "patches/places_inside.h"
 
 namespace delquad {
 namespace {

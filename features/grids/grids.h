@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/matching/side_counts.h"
+#include "base/matching/edge_counts.h"
 #include "delquad/model.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"

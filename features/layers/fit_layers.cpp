@@ -1,4 +1,4 @@
-#include "features/layers/fit_layers.h"
+#include "features/layers/layer_columns.h"
 
 #include <fmt/format.h>
 

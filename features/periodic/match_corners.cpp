@@ -1,3 +1,4 @@
+#include "base/sort_unique.h"
 #include "features/periodic/paired_lines.h"
 
 #include <fmt/format.h>
@@ -93,9 +94,7 @@ class CornerMatcher {
     for (const int l : lines)
       for (const int v : fine_.lines[l])
         if (std::ranges::binary_search(model_.corners, v)) corners.push_back(v);
-    std::ranges::sort(corners);
-    const auto [first, last] = std::ranges::unique(corners);
-    corners.erase(first, last);
+    sort_unique(corners);
     return corners;
   }
 

@@ -1,3 +1,4 @@
+#include "base/sort_unique.h"
 #include "features/periodic/paired_lines.h"
 
 #include <fmt/format.h>
@@ -303,9 +304,7 @@ void add_pairs_of_chains(const SurfaceCurves& curves, const std::vector<ImageFac
       const auto [images, masters] = both(chains);
       for (std::size_t k = 0; k < images.size(); ++k) face.nodes.push_back({images[k], masters[k]});
     }
-    std::ranges::sort(face.nodes);
-    const auto [first, last] = std::ranges::unique(face.nodes);
-    face.nodes.erase(first, last);
+    sort_unique(face.nodes);
     add_image_corners(curves, image, face, domain.sharp_corners);
     domain.boundary.periodic_faces.push_back(std::move(face));
   }

@@ -1,3 +1,4 @@
+#include "base/sort_unique.h"
 #include "features/periodic/paired_lines.h"
 
 #include <fmt/format.h>
@@ -34,9 +35,7 @@ class PairedFace {
     if (triangles_.empty()) return;
     nearest_.emplace(fine.points, triangles_);
     for (const auto& t : triangles_) points_.insert(points_.end(), t.begin(), t.end());
-    std::ranges::sort(points_);
-    const auto [first, last] = std::ranges::unique(points_);
-    points_.erase(first, last);
+    sort_unique(points_);
     measure_bends();
   }
 

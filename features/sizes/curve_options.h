@@ -4,14 +4,11 @@
 
 namespace delquad {
 
-/// How the curves of surfaces get their edges, and what they do to size-aware cross fields.
+/// How the curves of surfaces get their edges.
 struct CurveOptions {
   /// What an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the size alone
   /// counts.
   double agreement = 3;
-  /// How much fields are drawn to the edges of curves at which two faces join smoothly, and of cuts, see
-  /// CrossDiffusion: 0: not at all. Measured, see docs/algorithms.md.
-  double alignment = 1, cut_alignment = 0.03;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;
 };

@@ -1,4 +1,4 @@
-#include "features/symmetry/add_mirror_image.h"
+#include "features/symmetry/symmetry_planes.h"
 
 #include <fmt/format.h>
 

@@ -15,6 +15,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/curve_chains.h"
@@ -121,9 +122,7 @@ struct MirrorMatcher::Tables {
     std::vector<int> local(mesh.points.size(), -1);
     for (Face& face : faces) {
       if (face.triangles.empty()) continue;
-      std::ranges::sort(face.points);
-      const auto [begin, end] = std::ranges::unique(face.points);
-      face.points.erase(begin, end);
+      sort_unique(face.points);
       std::vector<Vec3> points;
       for (const int p : face.points) {
         local[p] = static_cast<int>(points.size());
@@ -172,9 +171,7 @@ struct MirrorMatcher::Tables {
           here.size() == 2 && mesh.triangle_region[here[0].element] == mesh.triangle_region[here[1].element];
     }
     for (std::vector<int>& some : faces_of) {
-      std::ranges::sort(some);
-      const auto [begin, end] = std::ranges::unique(some);
-      some.erase(begin, end);
+      sort_unique(some);
     }
     lines = BoxTree<Vec3>(boxes);
     curve_tolerance.assign(mesh.curves.size(), kSymmetric * diagonal);

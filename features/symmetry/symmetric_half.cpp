@@ -1,4 +1,5 @@
-#include "features/symmetry/symmetric_half.h"
+#include "base/sort_unique.h"
+#include "features/symmetry/mirrored_surface.h"
 
 #include <fmt/format.h>
 
@@ -405,9 +406,7 @@ class SymmetricCutter {
       const int p = middle < end ? mesh().lines[middle][0] : mesh().lines[begin][1];
       if (p != first && p != last) corners.push_back(p);
     }
-    std::ranges::sort(corners);
-    const auto [unique_end, last] = std::ranges::unique(corners);
-    corners.erase(unique_end, last);
+    sort_unique(corners);
   }
   double length_of(std::size_t line) {
     return norm(mesh().points[mesh().lines[line][1]] - mesh().points[mesh().lines[line][0]]);

@@ -9,6 +9,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "geometry/surface/improve_triangulation.h"
 
 namespace delquad {
@@ -37,13 +38,6 @@ struct Incidence {
   friend auto operator<=>(const Incidence&, const Incidence&) = default;
 };
 
-std::vector<Incidence> sorted_unique(std::vector<Incidence> all) {
-  std::ranges::sort(all);
-  const auto [first, last] = std::ranges::unique(all);
-  all.erase(first, last);
-  return all;
-}
-
 /// What is wanted at each point by all faces and curves there, without the limit of gradation.
 std::vector<double> wanted_at_points(const Mesh& fine, const WantedSize& wanted) {
   std::vector<Incidence> in_faces, on_curves;
@@ -51,8 +45,8 @@ std::vector<double> wanted_at_points(const Mesh& fine, const WantedSize& wanted)
     for (const int v : fine.triangles[t]) in_faces.push_back({v, fine.triangle_region[t]});
   for (std::size_t l = 0; l < fine.lines.size(); ++l)
     for (const int v : fine.lines[l]) on_curves.push_back({v, fine.line_curve[l]});
-  in_faces = sorted_unique(std::move(in_faces));
-  on_curves = sorted_unique(std::move(on_curves));
+  sort_unique(in_faces);
+  sort_unique(on_curves);
 
   constexpr std::size_t kBlock = 256;
   std::vector<double> values(in_faces.size() + on_curves.size());

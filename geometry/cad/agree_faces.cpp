@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
@@ -48,8 +49,7 @@ Mesh part_of(const Mesh& mesh, const std::vector<int>& triangles) {
   Mesh part;
   std::vector<int> used;
   for (const int t : triangles) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_unique(used);
   for (const int v : used) part.points.push_back(mesh.points[v]);
   for (const int t : triangles) {
     auto& triangle = part.triangles.emplace_back(mesh.triangles[t]);

@@ -25,7 +25,7 @@ struct CadOptions {
   double healing_seconds = 60;
   /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
   std::string unit = {};
-  /// Bodies share the faces, curves and points at which they touch: see glue_shape.h.
+  /// Bodies share the faces, curves and points at which they touch: see glue_shape().
   bool glue = false;
   /// How far apart may be what is sewn and glued, as a fraction of the diagonal; well above rounding, below
   /// any feature.

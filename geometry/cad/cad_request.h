@@ -11,7 +11,7 @@ namespace delquad::cad {
 struct CadRequest {
   enum class Source { kFile, kBytes, kShape };
   Source source = Source::kFile;
-  std::string text;  ///< path, contents of a file, or a shape as in shape_bytes.h
+  std::string text;  ///< path, contents of a file, or a shape as in shape_file.h
   CadOptions options;
   int threads = 1;
   unsigned seconds = 0;  ///< of processor time, then the worker ends

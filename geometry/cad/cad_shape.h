@@ -1,8 +1,12 @@
 #pragma once
 
 #include <NCollection_DataMap.hxx>
+#include <TopAbs_ShapeEnum.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
+
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -43,5 +47,12 @@ struct CadShape {
   std::vector<LooseLine> loose;      ///< edges and vertices of the file that are no part of a face's boundary
   std::vector<std::string> why_not;  ///< of each face, why it has no triangulation; mostly empty texts
 };
+
+/// The faces, edges, vertices or solids of a shape, each once, in the kernel's order.
+inline TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map;
+}
 
 }  // namespace delquad::cad

@@ -11,7 +11,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

@@ -1,4 +1,4 @@
-#include "geometry/cad/face_outline.h"
+#include "geometry/cad/mesh_by_outline.h"
 
 #include <fmt/format.h>
 

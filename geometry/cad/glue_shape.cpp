@@ -1,4 +1,4 @@
-#include "geometry/cad/glue_shape.h"
+#include "geometry/cad/heal_shape.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 #include "geometry/cad/tessellate.h"
 
 namespace delquad::cad {

@@ -33,8 +33,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "geometry/cad/glue_shape.h"
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

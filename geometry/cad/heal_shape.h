@@ -1,7 +1,11 @@
 #pragma once
 
+#include <TopTools_ListOfShape.hxx>
+
 #include <vector>
 
+#include "delquad/model.h"
+#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
@@ -14,5 +18,36 @@ void heal_shape(CadShape& cad, double tolerance);
 /// Takes out those of some faces (numbers) whose edges lie on each other within their and their ends'
 /// tolerances, and sews these edges; says so in a warning. False: none does, or that leaves free edges.
 bool drop_strips(CadShape& cad, const std::vector<int>& faces);
+
+/// The kernel's reader of STEP turns some faces with a pole inside over, and moves their edges by a period in
+/// (u, v) until they fit: the face then is the other part of the sphere and more, going around more than
+/// once. Such faces are turned back, where that makes them fit into a period; a warning tells how many.
+void unwind_faces(CadShape& cad);
+
+/// The edges that bound no face, those inside of faces and those beside all, as polylines no further than
+/// `deflection` (a length) from them, and the vertices that no edge has. Edges without a curve and infinite
+/// ones are left to others.
+std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
+
+/// Takes edges and vertices inside of one face alone out of it: the kernel fails to triangulate some faces
+/// with them.
+void drop_inner_edges(CadShape& cad);
+
+/// Makes bodies (solids, closed shells, and all other faces one by one) that touch or cut each other share
+/// faces, edges and vertices there: the kernel's general fuse. Edges that end inside of a face stand in it.
+/// What is nearer than `tolerance` (a length) touches. Names go with the faces; common ones get those of
+/// both. Warnings tell how many faces are common, and which were cut into parts. Throws InputError when the
+/// kernel cannot do it or a body gets lost.
+void glue_shape(CadShape& cad, double tolerance);
+
+/// The solids, then the shells outside of them, then the faces outside of these.
+TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape);
+
+/// Reads, heals and triangulates a shape in a worker process: on damaged files the kernel follows broken
+/// references or runs in circles. Throws InputError and Cancelled.
+CadShape prepare_shape(const CadModel& model, const CadOptions& options);
+
+/// The same for a shape as it was made.
+CadShape prepare_shape(const CadShape& shape, const CadOptions& options);
 
 }  // namespace delquad::cad

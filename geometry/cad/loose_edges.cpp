@@ -1,4 +1,4 @@
-#include "geometry/cad/loose_edges.h"
+#include "geometry/cad/heal_shape.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

@@ -21,7 +21,7 @@
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
 

@@ -23,8 +23,6 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/edge_chords.h"
-#include "geometry/cad/face_outline.h"
-#include "geometry/cad/refine_face.h"
 #include "geometry/mesh/constrained_delaunay.h"
 
 namespace delquad::cad {

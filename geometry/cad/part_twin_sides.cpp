@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
@@ -24,8 +25,7 @@ std::vector<std::pair<int, Side>> twin_sides(const Mesh& mesh,
     for (const HalfEdge& half : edge)
       if (!std::ranges::binary_search(boundary[face_of(half)], side)) twins.emplace_back(face_of(half), side);
   });
-  std::ranges::sort(twins);
-  twins.erase(std::unique(twins.begin(), twins.end()), twins.end());
+  sort_unique(twins);
   return twins;
 }
 

@@ -1,4 +1,4 @@
-#include "geometry/cad/prepare_shape.h"
+#include "geometry/cad/heal_shape.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_request.h"
-#include "geometry/cad/shape_bytes.h"
+#include "geometry/cad/shape_file.h"
 #include "geometry/cad/watch_kernel.h"
 #include "geometry/cad/worker_process.h"
 

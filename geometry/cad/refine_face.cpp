@@ -1,4 +1,4 @@
-#include "geometry/cad/refine_face.h"
+#include "geometry/cad/mesh_by_outline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "geometry/cad/repair_face.h"
+#include "geometry/cad/weld_faces.h"
 
 #include <algorithm>
 #include <limits>

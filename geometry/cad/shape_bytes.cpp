@@ -1,10 +1,10 @@
-#include "geometry/cad/shape_bytes.h"
+#include "geometry/cad/shape_file.h"
 
 #include <BinTools.hxx>
 #include <sstream>
 #include <utility>
 
-#include "geometry/cad/sub_shapes.h"
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

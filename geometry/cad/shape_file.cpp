@@ -45,7 +45,6 @@
 #include "delquad/mesh.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/lost_shapes.h"
-#include "geometry/cad/step_names.h"
 #include "geometry/cad/step_text.h"
 #include "geometry/cad/text_encoding.h"
 

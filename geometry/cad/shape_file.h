@@ -14,4 +14,8 @@ CadShape read_shape(const std::filesystem::path& path, const CadOptions& options
 /// The same from the contents of such a file.
 CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options);
 
+/// A shape with its triangulation, names and warnings as bytes, exactly, and back.
+std::string to_bytes(const CadShape& cad);
+CadShape from_bytes(const std::string& bytes);
+
 }  // namespace delquad::cad

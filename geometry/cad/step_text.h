@@ -1,8 +1,12 @@
 #pragma once
 
+#include <STEPControl_Reader.hxx>
+
 #include <map>
 #include <string>
 #include <vector>
+
+#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 
@@ -20,5 +24,11 @@ struct StepRest {
 /// whole faces go, and solids only with their last one. Faces and shells whose solid is missing become a
 /// surface, if it is clear of which representation. What no face needs may be missing, and stays as it is.
 StepRest rest_of_step(const std::string& text, const std::map<int, std::string>& unreadable = {});
+
+/// Names and colours of the faces that `reader` has transferred, in the order of the file: those of faces,
+/// shells, solids and products; and the names of its edges.
+/// `is_ascii`: the file has no other bytes, which the kernel would have taken for ISO 8859-1. `warnings`
+/// receives what other bytes were taken for.
+PartNames step_names(const STEPControl_Reader& reader, bool is_ascii, std::vector<Warning>& warnings);
 
 }  // namespace delquad::cad

@@ -1,4 +1,4 @@
-#include "geometry/cad/unwind_faces.h"
+#include "geometry/cad/heal_shape.h"
 
 #include <fmt/format.h>
 

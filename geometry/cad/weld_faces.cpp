@@ -16,7 +16,6 @@
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/cad/part_twin_sides.h"
-#include "geometry/cad/repair_face.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {

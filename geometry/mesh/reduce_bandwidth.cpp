@@ -1,3 +1,4 @@
+#include "base/sort_unique.h"
 #include "delquad/mesh.h"
 
 #include <algorithm>
@@ -5,9 +6,9 @@
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <utility>
 
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/mesh/renumber_nodes.h"
 
 namespace delquad {
 
@@ -30,8 +31,7 @@ std::vector<std::pair<int, int>> neighbours(const Mesh& mesh) {
       for (const int b : nodes)
         if (a != b) pairs.emplace_back(a, b);
   });
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 

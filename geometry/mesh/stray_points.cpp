@@ -1,4 +1,5 @@
 #include "geometry/mesh/stray_points.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,7 @@ std::vector<StrayPoint> stray_points(const Mesh& mesh) {
     for (const auto& v : elements) used.insert(used.end(), v.begin(), v.end());
   };
   add(mesh.lines), add(mesh.triangles), add(mesh.quads);
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_unique(used);
   if (used.empty()) return {};
   std::vector<double> out(used.size(), 0), sorted;
   for (double Vec3::*x : {&Vec3::x, &Vec3::y, &Vec3::z}) {

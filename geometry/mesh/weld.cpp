@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/sort_unique.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad {
@@ -16,8 +17,7 @@ std::vector<int> ends_of_open_edges(const Mesh& mesh) {
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
     if (edge.size() == 1 && edge[0].lo != edge[0].hi) ends.insert(ends.end(), {edge[0].lo, edge[0].hi});
   });
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sort_unique(ends);
   return ends;
 }
 

@@ -1,4 +1,4 @@
-#include "geometry/planar/boundary_report.h"
+#include "geometry/planar/check_lines.h"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "delquad/mesh.h"
 #include "geometry/planar/arrangement.h"
+#include "geometry/planar/planar_model.h"
 
 namespace delquad {
 
@@ -23,5 +25,12 @@ BoundaryNames names_of_curves(const Mesh& lines, const std::string& source);
 /// touch or overlap, without length or there twice, coincident nodes, coordinates that are not finite, z not
 /// constant; and where a line has no bounded face on either side: there the boundary is open.
 Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names);
+
+/// One line for each patch whose boundary has an odd number of edges, which leaves a triangle when triangles
+/// are merged to quads: names the region, its odd loops and their curves.
+std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
+
+/// All edges of the patches' boundaries as lines of one curve, with the points of the domain.
+Mesh edges_of_patches(const PlanarDomain& domain);
 
 }  // namespace delquad

@@ -10,8 +10,8 @@
 #include "base/disjoint_sets.h"
 #include "base/segment.h"
 #include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/keep_elements.h"
-#include "geometry/mesh/renumber_nodes.h"
 
 namespace delquad {
 

@@ -1,4 +1,4 @@
-#include "geometry/surface/close_small_holes.h"
+#include "geometry/surface/ignore_small.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/compound_projector.h"
-#include "geometry/surface/tidy_model.h"
 
 namespace delquad {
 

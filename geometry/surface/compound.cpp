@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/disjoint_sets.h"
+#include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/compound_projector.h"
@@ -108,8 +109,7 @@ Groups rechain(SurfaceModel& model, const std::vector<char>& corner) {
   for (const auto& chain : chain_lines(model, kinds_of_lines(model.fine), corner)) {
     std::vector<int> curves;
     for (const int line : chain) curves.push_back(old_curve[line]);
-    std::sort(curves.begin(), curves.end());
-    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    sort_unique(curves);
     members.push_back(std::move(curves));
   }
   model.fine.curves = merged(model.fine.curves, members);

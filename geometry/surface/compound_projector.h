@@ -16,4 +16,13 @@ EntityGroups each_alone(std::size_t n);
 /// to the nearest of the curves. `former`: the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
 
+/// The former numbers of what is left.
+struct TidyGroups {
+  EntityGroups faces, curves;
+};
+
+/// Takes points out that no triangle and no line has, faces without triangles, curves without lines and
+/// corners without curves. Parts the surface where it touches itself at a point without a line.
+TidyGroups tidy_model(SurfaceModel& model);
+
 }  // namespace delquad

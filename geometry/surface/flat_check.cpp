@@ -1,4 +1,4 @@
-#include "geometry/surface/flat_check.h"
+#include "geometry/surface/flatten.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/predicates.h"
-#include "geometry/planar/nest_loops.h"
+#include "geometry/planar/loops_apart.h"
 
 namespace delquad {
 

@@ -1,4 +1,4 @@
-#include "geometry/surface/flat_triangles.h"
+#include "geometry/surface/triangle_repair.h"
 
 #include <fmt/format.h>
 

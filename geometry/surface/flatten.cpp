@@ -16,6 +16,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/element_cuts.h"
@@ -415,9 +416,7 @@ class Flattener {
     }
     editor.finish();
     open_stale(editor.splits());
-    std::ranges::sort(model_.corners);
-    const auto [first, last] = std::ranges::unique(model_.corners);
-    model_.corners.erase(first, last);
+    sort_unique(model_.corners);
     if (options_.after_cuts) open_stale(options_.after_cuts());
   }
 

@@ -6,10 +6,17 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "geometry/surface/flat_check.h"
+#include "delquad/metrics.h"
+#include "geometry/surface/chart.h"
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {
+
+/// No triangle is flipped or flat, and the boundary neither crosses nor touches itself: exact.
+bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat);
+
+/// The map must be one-to-one.
+FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat);
 
 /// A piece of a face laid flat, one-to-one and positively oriented. Its area is that of the piece; those that
 /// embedded curves divide have it together. Along embedded curves it is open by a millionth of the lines.

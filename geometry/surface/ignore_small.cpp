@@ -7,12 +7,12 @@
 #include <map>
 #include <optional>
 
+#include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
-#include "geometry/surface/close_small_holes.h"
+#include "geometry/surface/compound_projector.h"
 #include "geometry/surface/surface_editor.h"
-#include "geometry/surface/tidy_model.h"
 
 namespace delquad {
 
@@ -148,8 +148,7 @@ std::vector<int> neighbours(const Mesh& mesh, const SurfaceEditor& editor, int n
   for (const int t : editor.triangles_at(node))
     for (const int v : mesh.triangles[t])
       if (v != node) nodes.push_back(v);
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

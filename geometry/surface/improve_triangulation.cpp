@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/sort_unique.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {
@@ -138,8 +139,7 @@ class Improver {
 
   /// Flips the edges in the queue and those around each edge that was flipped, until all are well.
   void flip() {
-    std::ranges::sort(queue_);
-    queue_.erase(std::unique(queue_.begin(), queue_.end()), queue_.end());
+    sort_unique(queue_);
     std::size_t budget = 20 * queue_.size();  // flips in space have no energy that falls
     while (!queue_.empty() && budget > 0) {
       check_cancelled();

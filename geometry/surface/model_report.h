@@ -16,4 +16,7 @@ ModelReport report_model(const SurfaceModel& model);
 /// with.
 std::string topology(const FaceReport& face);
 
+/// Adds warnings that tell of the curves with a face on one side only, and of those with more than two faces.
+void report_edges(SurfaceModel& model);
+
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "geometry/surface/tidy_model.h"
+#include "geometry/surface/compound_projector.h"
 
 #include <algorithm>
 #include <set>

@@ -15,8 +15,6 @@
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/stray_points.h"
 #include "geometry/mesh/weld.h"
-#include "geometry/surface/flat_triangles.h"
-#include "geometry/surface/orient_triangles.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,30 @@ Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& sourc
 /// The repairs of orientation, of lines, and of vertices where fans touch, whose copies come last: triangles
 /// and points stay, and their order. Each edge must be in one triangle or more, none of them without area.
 void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings);
+
+/// Whether the triangle's height is more than what rounding leaves of collinear points (1e-12 of its longest
+/// side).
+bool has_area(const std::vector<Vec3>& points, const std::array<int, 3>& v);
+
+/// Triangles that were taken out, and a vertex of the first.
+struct FlatTriangles {
+  int count = 0;
+  Vec3 first;
+};
+
+/// Takes out the triangles without area so that no gap opens: the ends of a side without length become one
+/// vertex, and where a triangle has its third vertex between the others, all triangles on its longest side
+/// are cut there. Once they are, its boundary is zero modulo two, so that each edge stays in an even or an
+/// odd number of triangles: what is closed stays closed. Of triangles that come to lie on the same vertices,
+/// two go. Lines on what is cut are cut, too. `count` is that of the triangles that were given. Throws
+/// InputError, beginning with `source`, where such triangles lie on each other in so many ways that there is
+/// no end.
+FlatTriangles take_out_flat_triangles(Mesh& mesh, const std::string& source);
+
+/// Turns triangles so that neighbours agree, each component as most of its triangles run, closed ones
+/// outwards; see repair_triangles. Where neighbours cannot agree, InputError, or, if they `may_part`, they
+/// stay apart at sharp edges.
+void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings,
+                      bool may_part = false);
 
 }  // namespace delquad

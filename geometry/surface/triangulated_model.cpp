@@ -15,7 +15,7 @@
 #include "delquad/error.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/feature_noise.h"
-#include "geometry/surface/report_edges.h"
+#include "geometry/surface/model_report.h"
 #include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangle_sides.h"
 

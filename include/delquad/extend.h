@@ -88,12 +88,8 @@ class PointPlacement {
 /// F: Rebay's frontal insertion in the L2 norm; ideal triangle equilateral.
 std::unique_ptr<PointPlacement> make_l2_frontal();
 
-struct LinfOptions {
-  /// Keep the new point out of the resolved triangle's circumsquare (the paper's x_l).
-  bool lower_clamp = false;
-};
 /// D: Delquad insertion in the L-infinity norm of the cross field; ideal triangle half a square.
-std::unique_ptr<PointPlacement> make_linf_delquad(const LinfOptions& options = {});
+std::unique_ptr<PointPlacement> make_linf_delquad();
 
 /// What a patch holds between two stages.
 enum class PatchForm { kBoundary, kTriangles, kQuads };

@@ -1,4 +1,4 @@
-#include "smoothing/cvt/cvt_problem.h"
+#include "smoothing/cvt/cell_minimiser.h"
 
 #include <algorithm>
 #include <cmath>

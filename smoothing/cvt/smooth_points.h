@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/counters.h"
+#include "delquad/options.h"
 #include "smoothing/cvt/cell_minimiser.h"
 
 namespace delquad {
@@ -72,5 +73,16 @@ struct Counters<SmoothingSummary> {
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const CellMinimiser& minimiser, const SmoothingOptions& options = {},
                        SmoothingSummary* summary = nullptr);
+
+enum class SmoothingMethod { kLpCvt, kLloyd };
+
+/// What smoothing can be told.
+struct CvtOptions {
+  SmoothingMethod method = SmoothingMethod::kLpCvt;
+  SmoothingOptions smoothing;
+};
+
+OptionGroup smoothing_group();
+CvtOptions cvt_options(const Options& options);
 
 }  // namespace delquad

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/sort_unique.h"
 #include "geometry/mesh/element_blocks.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
@@ -19,8 +20,7 @@ class BlockTracks final : public VertexTracks<Vec> {
       : whole_(whole), own_quads_(blocks[block]) {
     // Sorted, so that each has a number.
     for (const int q : own_quads_) vertices_.insert(vertices_.end(), quads[q].begin(), quads[q].end());
-    std::ranges::sort(vertices_);
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    sort_unique(vertices_);
     for (const int v : vertices_)
       moves_.push_back(blocks.owner(v) == static_cast<int>(block) && blocks.is_near(v));
     for (const int q : own_quads_) {

@@ -6,11 +6,12 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "geometry/mesh/element_blocks.h"
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/optimisation/block_tracks.h"
-#include "smoothing/optimisation/minimise_energy.h"
-#include "smoothing/relocation/crowding.h"
+#include "smoothing/optimisation/quad_energy.h"
+#include "smoothing/relocation/element_quality.h"
 
 namespace delquad {
 
@@ -357,8 +358,7 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
     looked_at.clear();
     if (quads_at.empty() && !changed.empty()) quads_at = quads_around();
     for (const int v : changed) looked_at.insert(looked_at.end(), quads_at[v].begin(), quads_at[v].end());
-    std::ranges::sort(looked_at);
-    looked_at.erase(std::unique(looked_at.begin(), looked_at.end()), looked_at.end());
+    sort_unique(looked_at);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "delquad/mesh.h"
 #include "smoothing/optimisation/optimisation_options.h"
 
@@ -54,5 +55,10 @@ class VertexTracks {
 template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});
+
+/// Opens edges without length and untangles what is inverted or flat, with its surroundings. Connectivity and
+/// boundary points stay. Returns how many quads are no more so. Throws std::invalid_argument where there
+/// are such and the input is not conforming.
+int untangle_flat(QuadPatch& mesh, const ParametricSize& size);
 
 }  // namespace delquad

@@ -1,4 +1,4 @@
-#include "smoothing/optimisation/untangle_flat.h"
+#include "smoothing/optimisation/track_optimisation.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/quad_relocation.h"
-#include "smoothing/relocation/short_edges.h"
 #include "smoothing/relocation/untangling.h"
 
 namespace delquad {

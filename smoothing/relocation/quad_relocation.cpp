@@ -8,7 +8,7 @@
 
 #include "base/box.h"
 #include "base/cancel.h"
-#include "smoothing/relocation/crowding.h"
+#include "smoothing/relocation/element_quality.h"
 
 namespace delquad {
 

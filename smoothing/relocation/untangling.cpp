@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/cancel.h"
+#include "base/sort_unique.h"
 
 namespace delquad {
 
@@ -31,8 +32,7 @@ class Untangling {
     std::vector<int> elements;
     for (const int v : vertices)
       mesh.for_each_out(v, [&](int h) { elements.push_back(QuadTopology::element(h)); });
-    std::sort(elements.begin(), elements.end());
-    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    sort_unique(elements);
     // The vertices that stay follow the free ones.
     std::vector<int> free(vertices.begin(), vertices.end()), fixed;
     std::sort(free.begin(), free.end());
@@ -40,8 +40,7 @@ class Untangling {
       for (int k = 0; k < (mesh.is_quad(e) ? 4 : 3); ++k)
         if (const int v = mesh.corner(e, k); !std::binary_search(free.begin(), free.end(), v))
           fixed.push_back(v);
-    std::sort(fixed.begin(), fixed.end());
-    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+    sort_unique(fixed);
     vertex_.insert(vertex_.end(), fixed.begin(), fixed.end());
     number_.resize(vertex_.size());
     for (std::size_t i = 0; i < vertex_.size(); ++i) number_[i] = static_cast<int>(i);

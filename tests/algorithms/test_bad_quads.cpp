@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/quad_cost.h"
+#include "algorithms/recombination/dual_graph.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
 #include "delquad/extend.h"

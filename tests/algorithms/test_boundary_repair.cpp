@@ -1,11 +1,11 @@
-#include "algorithms/recombination/boundary_repair.h"
+#include "algorithms/recombination/recombine.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "algorithms/recombination/quad_cost.h"
+#include "algorithms/recombination/dual_graph.h"
 
 namespace delquad {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
-#include "algorithms/treatment/shape_penalty.h"
+#include "algorithms/treatment/local_remeshing.h"
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "delquad/extend.h"

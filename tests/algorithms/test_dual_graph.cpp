@@ -10,7 +10,6 @@
 #include <set>
 
 #include "algorithms/recombination/hilbert.h"
-#include "algorithms/recombination/quad_cost.h"
 #include "algorithms/recombination/recombine.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"

@@ -23,7 +23,6 @@ std::vector<std::unique_ptr<PointPlacement>> strategies() {
   std::vector<std::unique_ptr<PointPlacement>> all;
   all.push_back(make_l2_frontal());
   all.push_back(make_linf_delquad());
-  all.push_back(make_linf_delquad({.lower_clamp = true}));
   return all;
 }
 

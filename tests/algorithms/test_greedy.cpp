@@ -1,4 +1,4 @@
-#include "algorithms/recombination/greedy.h"
+#include "algorithms/recombination/recombine.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/quad_cost.h"
-#include "algorithms/treatment/degree_treatment.h"
+#include "algorithms/recombination/dual_graph.h"
+#include "algorithms/treatment/treatment.h"
 #include "delquad/extend.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "smoothing/relocation/quad_relocation.h"

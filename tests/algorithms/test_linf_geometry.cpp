@@ -233,20 +233,6 @@ TEST(LinfGeometry, CircumradiusOnTheBranchIsThatOfASquareThroughTheApex) {
   EXPECT_GT(on_branch, 2000);
 }
 
-TEST(LinfGeometry, BranchExitLiesOnTheResolvedTrianglesSquare) {
-  int bounded = 0;
-  for (const auto& [e, other] : random_triangles(5, -1)) {
-    const double rho = branch_exit(e, other);
-    EXPECT_LE(rho, e.length() * (1 + kRounding));
-    const Circumsquare square =
-        circumsquare({Vec2{-e.alpha, -e.beta}, Vec2{e.alpha, e.beta}, other}, Frame{});
-    if (std::isinf(square.radius) || rho <= e.alpha) continue;
-    ++bounded;
-    EXPECT_NEAR(linf_norm(bisector_point(e, rho) - square.centre), square.radius, 1e-12);
-  }
-  EXPECT_GT(bounded, 500);
-}
-
 TEST(LinfDelquad, CompletesSquaresOverAlignedAndDiagonalEdges) {
   const auto strategy = make_linf_delquad();
   // Over an aligned edge: straight above one of its ends.

@@ -8,7 +8,6 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
-#include "algorithms/recombination/quad_cost.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "fields/sides.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

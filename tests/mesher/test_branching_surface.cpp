@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fields/fields.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 
 namespace delquad {

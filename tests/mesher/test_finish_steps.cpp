@@ -2,7 +2,7 @@
 
 #include "geometry/surface/triangulated_model.h"
 #include "mesher/finish_steps.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {

@@ -6,7 +6,7 @@
 
 #include "fields/fields.h"
 #include "mesher/finish_steps.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces.h"

@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "algorithms/insertion/insertion_options.h"
-#include "algorithms/treatment/recombination_options.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/treatment/treatment.h"
 #include "delquad/matching.h"
-#include "smoothing/cvt/cvt_options.h"
+#include "smoothing/cvt/smooth_points.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {
@@ -24,7 +24,7 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
   options.set("insertion.rejection", 0.5)
       .set("smoothing.method", "lloyd")
       .set("smoothing.outer_iterations", 3);
-  EXPECT_EQ(insertion_options(options).frontal.rejection, 0.5);
+  EXPECT_EQ(insertion_options(options).rejection, 0.5);
   EXPECT_EQ(cvt_options(options).method, SmoothingMethod::kLloyd);
   EXPECT_EQ(cvt_options(options).smoothing.outer_iterations, 3);
   options.reset("insertion.rejection").reset("smoothing.method").reset("smoothing.outer_iterations");

@@ -7,7 +7,7 @@
 
 #include "fields/fields.h"
 #include "geometry/surface/triangulated_model.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "tests/support/quad_patches.h"
 #include "tests/support/triangulated_shapes.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/outline.h"
-#include "geometry/planar/boundary_report.h"
+#include "geometry/planar/check_lines.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {

@@ -11,7 +11,7 @@
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_file.h"
 #include "io/mesh_io.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mesher/stages.h"
+#include "mesher/runner.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {

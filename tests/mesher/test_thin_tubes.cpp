@@ -5,7 +5,7 @@
 
 #include "fields/fields.h"
 #include "geometry/surface/surface_editor.h"
-#include "mesher/prepare_surface.h"
+#include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
 #include "metrics/metrics.h"

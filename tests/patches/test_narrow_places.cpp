@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "geometry/surface/flatten.h"
+#include "patches/across_view.h"
 #include "patches/face_corners.h"
-#include "patches/face_nodes.h"
 #include "patches/narrow_places.h"
 #include "tests/support/polygon_face.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/context.h"
 #include "delquad/model.h"
-#include "smoothing/optimisation/untangle_flat.h"
+#include "smoothing/optimisation/track_optimisation.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"

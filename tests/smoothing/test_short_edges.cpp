@@ -1,4 +1,4 @@
-#include "smoothing/relocation/short_edges.h"
+#include "smoothing/relocation/untangling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "base/matching/agree_counts.h"
+#include "base/matching/edge_counts.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/matching/side_counts.h"
+#include "base/matching/edge_counts.h"
 
 namespace delquad {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/matching/t_join.h"
+#include "base/matching/edge_counts.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "experiments/sweep/run_experiment.h"
 #include "io/cases/case_file.h"
-#include "smoothing/cvt/cvt_options.h"
+#include "smoothing/cvt/smooth_points.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "delquad/mesher.h"
-#include "features/curved/bernstein.h"
+#include "features/curved/jacobian_bounds.h"
 #include "features/curved/untangle_curved.h"
 #include "geometry/mesh/element_nodes.h"
 

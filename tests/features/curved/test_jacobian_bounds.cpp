@@ -4,7 +4,6 @@
 #include <numbers>
 #include <random>
 
-#include "features/curved/bernstein.h"
 #include "features/curved/jacobian_bounds.h"
 
 namespace delquad {

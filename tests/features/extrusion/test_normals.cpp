@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "features/extrusion/vertex_normals.h"
+#include "features/extrusion/layers.h"
 #include "tests/features/extrusion/hex_checks.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "features/extrusion/layers.h"
-#include "features/extrusion/moving_section.h"
+#include "features/extrusion/section.h"
 #include "tests/features/extrusion/hex_checks.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"

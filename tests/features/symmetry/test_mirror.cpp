@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "features/symmetry/add_mirror_image.h"
+#include "features/symmetry/symmetry_planes.h"
 #include "geometry/surface/triangulated_model.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"

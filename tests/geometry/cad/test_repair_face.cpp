@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cad/repair_face.h"
+#include "geometry/cad/weld_faces.h"
 
 namespace delquad {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/predicates.h"
-#include "geometry/planar/nest_loops.h"
+#include "geometry/planar/loops_apart.h"
 
 namespace delquad {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/surface/flat_check.h"
+#include "geometry/surface/flatten.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {

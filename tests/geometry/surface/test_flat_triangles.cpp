@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "geometry/surface/flat_triangles.h"
+#include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangulated_model.h"
 #include "tests/support/surface_model_checks.h"
 #include "tests/support/triangulated_shapes.h"

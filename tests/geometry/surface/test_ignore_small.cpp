@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/surface/close_small_holes.h"
+#include "geometry/surface/compound_projector.h"
 #include "geometry/surface/ignore_small.h"
-#include "geometry/surface/tidy_model.h"
 #include "geometry/surface/triangulated_model.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"

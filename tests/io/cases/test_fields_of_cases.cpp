@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/insertion_options.h"
-#include "algorithms/treatment/recombination_options.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/treatment/treatment.h"
 #include "features/crosses/size_aware.h"
 #include "io/cases/case_file.h"
 #include "mesher/prepare.h"
@@ -310,12 +310,11 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
 
 TEST_F(Cases, OptionsReachTheStages) {
   const Case c = read(square_ +
-                      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6, lower_clamp = true "
-                      "}\nrecombination = { treatment = \"none\" }\n");
-  const InsertionOptions insertion = insertion_options(c.options);
-  EXPECT_EQ(insertion.frontal.h_max, 1.2);
-  EXPECT_EQ(insertion.frontal.rejection, 0.6);
-  EXPECT_TRUE(insertion.linf.lower_clamp);
+                      "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6 }\n"
+                      "recombination = { treatment = \"none\" }\n");
+  const FrontalOptions insertion = insertion_options(c.options);
+  EXPECT_EQ(insertion.h_max, 1.2);
+  EXPECT_EQ(insertion.rejection, 0.6);
   EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
   const RunResult result = run_word(prepare_case(c), parse_word("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));

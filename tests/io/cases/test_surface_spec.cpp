@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "features/curves/surface_input.h"
 #include "io/cases/case_file.h"
 #include "io/cases/surface_spec.h"
-#include "mesher/surface_input.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "mesher/surface_input.h"
+#include "features/curves/surface_input.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/symmetry/add_mirror_image.h"
+#include "features/symmetry/symmetry_planes.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/keep_elements.h"
