@@ -14,6 +14,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "io/text_writer.h"
 
 namespace delquad {
 
@@ -110,6 +111,18 @@ fs::path behind_links(fs::path path) {
 
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   write_files_atomically({{path, write}});
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+  write_file_atomically(path, [&](std::ostream& out) { out << text; });
+}
+
+void write_text_file(const fs::path& path, const std::function<void(TextWriter&)>& write) {
+  write_file_atomically(path, [&](std::ostream& stream) {
+    TextWriter out(stream);
+    write(out);
+    out.flush();
+  });
 }
 
 void write_files_atomically(const std::vector<FileToWrite>& files) {

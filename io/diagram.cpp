@@ -77,16 +77,17 @@ double y_pixel(const AxisScale& y, double v) { return kPlotTop + kPlotHeight * (
 std::string axes(const Diagram& diagram, const AxisScale& x, const AxisScale& y) {
   std::string out;
   const auto to = std::back_inserter(out);
+  const int digits = diagram.kind == DiagramKind::kLines ? 6 : 4;
   for (const double v : x.ticks())
     fmt::format_to(to,
                    "<path d=\"M{0:.1f} {1}v{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-                   "text-anchor=\"middle\">{4:.4g}</text>\n",
-                   x_pixel(x, v), kPlotTop, kPlotHeight, kPlotTop + kPlotHeight + kLegendLine, v);
+                   "text-anchor=\"middle\">{4:.{5}g}</text>\n",
+                   x_pixel(x, v), kPlotTop, kPlotHeight, kPlotTop + kPlotHeight + kLegendLine, v, digits);
   for (const double v : y.ticks())
     fmt::format_to(to,
                    "<path d=\"M{0} {1:.1f}h{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
-                   "text-anchor=\"end\">{5:.4g}</text>\n",
-                   kPlotLeft, y_pixel(y, v), kPlotWidth, kPlotLeft - 8, y_pixel(y, v) + 4, v);
+                   "text-anchor=\"end\">{5:.{6}g}</text>\n",
+                   kPlotLeft, y_pixel(y, v), kPlotWidth, kPlotLeft - 8, y_pixel(y, v) + 4, v, digits);
   fmt::format_to(to, "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#000\"/>\n",
                  kPlotLeft, kPlotTop, kPlotWidth, kPlotHeight);
   fmt::format_to(to, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", kPlotLeft + kPlotWidth / 2,
@@ -112,7 +113,23 @@ std::string dot(std::size_t k, double x, double y) {
   return fmt::format("M{:.1f} {:.1f}{}", x, y, kShapes[k % kShapes.size()]);
 }
 
+std::string joined(const DiagramSeries& series, const AxisScale& x, const AxisScale& y) {
+  std::string line, dots;
+  for (const Vec2& p : series.points)
+    if (x.shows(p.x) && y.shows(p.y))
+      line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x_pixel(x, p.x), y_pixel(y, p.y));
+  for (const Vec2& p : series.marked)
+    if (x.shows(p.x) && y.shows(p.y))
+      dots += fmt::format("M{:.1f} {:.1f}h.1", x_pixel(x, p.x), y_pixel(y, p.y));
+  if (line.empty()) return "";
+  return fmt::format(
+      "<path d=\"{}\" fill=\"none\" stroke=\"#2a788e\"/>\n<path d=\"{}\" fill=\"none\" stroke=\"#440154\" "
+      "stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
+      line, dots);
+}
+
 std::string drawn(const Diagram& diagram, std::size_t k, const AxisScale& x, const AxisScale& y) {
+  if (diagram.kind == DiagramKind::kLines) return joined(diagram.series[k], x, y);
   std::string path;
   for (const Vec2& p : diagram.series[k].points) {
     if (!x.shows(p.x) || !y.shows(p.y)) continue;
@@ -149,8 +166,9 @@ void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
       all_y.push_back(p.y);
     }
   const AxisScale x(diagram.x, std::move(all_x)), y(diagram.y, std::move(all_y));
+  const std::size_t in_legend = diagram.kind == DiagramKind::kLines ? 0 : diagram.series.size();
   const double below = std::max(kPlotTop + kPlotHeight + kBelow,
-                                kPlotTop + kLegendLine * (1 + static_cast<double>(diagram.series.size())));
+                                kPlotTop + kLegendLine * (1 + static_cast<double>(in_legend)));
   write_file_atomically(path, [&](std::ostream& out) {
     out << fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
@@ -161,7 +179,7 @@ void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
         kPlotLeft, xml_escaped(diagram.title));
     out << axes(diagram, x, y);
     for (std::size_t k = 0; k < diagram.series.size(); ++k) out << drawn(diagram, k, x, y);
-    out << legend(diagram);
+    if (diagram.kind != DiagramKind::kLines) out << legend(diagram);
     for (std::size_t k = 0; k < diagram.notes.size(); ++k)
       out << fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", kPlotLeft,
                          below + kLegendLine * static_cast<double>(k), xml_escaped(diagram.notes[k]));

@@ -17,11 +17,13 @@ struct DiagramAxis {
 struct DiagramSeries {
   std::string name;
   std::vector<Vec2> points;
+  std::vector<Vec2> marked = {};  ///< of lines: those of the points that are dots, too
 };
 
 enum class DiagramKind {
-  kDots,  ///< each point by itself
-  kSteps  ///< the height of a point holds until the next one
+  kDots,   ///< each point by itself
+  kSteps,  ///< the height of a point holds until the next one
+  kLines   ///< each is joined to the next one; all series look alike, and there is no legend
 };
 
 /// Several series over common axes, told apart by colour and shape, with a legend, and lines of text below.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <system_error>
 #include <tuple>
 
 namespace delquad {
-
 namespace {
 
 /// UTF-8 text cut to so many bytes, not within a character.
@@ -16,11 +17,22 @@ std::string cut(const std::string& text, size_t longest) {
   return text.substr(0, end);
 }
 
+std::string_view without_return(std::string_view line) {
+  return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
+}
+
 }  // namespace
 
 std::string tag_label(int dim, int tag) {
   constexpr std::array kKinds = {"point_", "curve_", "region_", "volume_"};
   return kKinds.at(static_cast<size_t>(dim)) + std::to_string(tag);
+}
+
+std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector<Entity>& entities) {
+  std::map<std::string, std::vector<std::int32_t>> tags;
+  for (const Entity& entity : entities)
+    for (const std::string& name : entity.names) tags[name].push_back(entity.tag);
+  return tags;
 }
 
 std::string one_line(std::string_view name) {
@@ -74,6 +86,34 @@ bool UniqueLabels::take(const std::string& label, bool blind_to_case) {
   for (char& c : text)
     if (blind_to_case && c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
   return taken_.insert(text).second;
+}
+
+bool NumberedEntities::take_name(std::string_view comment, std::string_view before, std::string_view after,
+                                 int dim) {
+  if (!comment.starts_with(before)) return false;
+  comment.remove_prefix(before.size());
+  long long number = 0;
+  const auto [end, error] = std::from_chars(comment.data(), comment.data() + comment.size(), number);
+  if (error != std::errc()) return false;
+  comment.remove_prefix(static_cast<std::size_t>(end - comment.data()));
+  if (!comment.starts_with(after)) return false;
+  names_[{dim, number}].emplace_back(without_return(comment.substr(after.size())));
+  return true;
+}
+
+int NumberedEntities::index(int dim, long long number, Mesh& mesh) {
+  std::vector<Entity>& entities = dim == 1 ? mesh.curves : mesh.regions;
+  const auto [it, is_new] = index_.emplace(std::pair{dim, number}, static_cast<int>(entities.size()));
+  if (is_new) {
+    const long long tag = number > 0 ? number : kMostNumber + 1 - number;
+    entities.push_back({static_cast<int>(tag), names_[{dim, number}]});
+  }
+  return it->second;
+}
+
+std::string unit_in_comment(std::string_view comment, std::string_view mark) {
+  const std::string before = std::string(mark) + " lengths in ";
+  return comment.starts_with(before) ? std::string(without_return(comment.substr(before.size()))) : "";
 }
 
 }  // namespace delquad

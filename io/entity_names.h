@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -20,6 +21,9 @@ std::string tag_label(int dim, int tag);
 /// product; a colour, or a name that all have, only where there is nothing else. Without any: tag_label(),
 /// with a number behind it where that is taken. Entities have the same name here only if they share it.
 std::vector<std::string> group_names(const std::vector<Entity>& entities, int dim);
+
+/// The tags of the entities that have each name.
+std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector<Entity>& entities);
 
 /// The name in one line of at most 200 bytes, for comments.
 std::string one_line(std::string_view name);
@@ -48,5 +52,27 @@ class UniqueLabels {
   std::set<std::string> taken_;
   std::vector<std::pair<Key, std::string>> renamed_;
 };
+
+/// Curves (dimension 1) and regions (2) by the numbers that a file has for them, in the order in which
+/// elements first have them. Numbers are tags where they are positive; others stand behind those.
+class NumberedEntities {
+ public:
+  /// What numbers may be: twice as much is still a tag.
+  static constexpr long long kMostNumber = 999'999'999;
+
+  /// Takes a comment that is `before`, a number, `after` and a name, such as "# curve 3: north", which may
+  /// end in
+  /// "\r". It must stand before the elements. False: it is no such comment.
+  bool take_name(std::string_view comment, std::string_view before, std::string_view after, int dim);
+  /// Index into Mesh::curves or Mesh::regions.
+  int index(int dim, long long number, Mesh& mesh);
+
+ private:
+  std::map<std::pair<int, long long>, std::vector<std::string>> names_;
+  std::map<std::pair<int, long long>, int> index_;
+};
+
+/// The unit of lengths that a comment of our writers tells after its mark ("#"); empty: it tells none.
+std::string unit_in_comment(std::string_view comment, std::string_view mark);
 
 }  // namespace delquad

@@ -14,6 +14,8 @@
 
 namespace delquad {
 
+class TextWriter;
+
 /// Where a file lies that is reached by symbolic links, whether it exists or not. Throws InputError for links
 /// in a circle.
 std::filesystem::path behind_links(std::filesystem::path path);
@@ -24,6 +26,9 @@ std::filesystem::path behind_links(std::filesystem::path path);
 /// passes through.
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
+/// The same of a text.
+void write_text_file(const std::filesystem::path& path, std::string_view text);
+void write_text_file(const std::filesystem::path& path, const std::function<void(TextWriter&)>& write);
 
 /// Several files that belong together: each is filled before the first gets its place, then they get theirs
 /// in this order.

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "delquad/error.h"
-#include "experiments/sweep/cell_folder.h"
+#include "experiments/sweep/folders.h"
 #include "io/mesh_io.h"
 
 namespace delquad {

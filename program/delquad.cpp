@@ -16,7 +16,6 @@
 #include "base/context.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "experiments/console/activities.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "io/cases/case.h"

@@ -121,8 +121,7 @@ int extrude_command(const ExtrudeArguments& arguments) {
   const HexMeasures measures = measure(hexahedra);
   write_hexahedra(arguments.output, hexahedra, arguments.binary);
   if (!arguments.json.empty())
-    write_file_atomically(
-        arguments.json, [&](std::ostream& out) { out << extrusion_record(arguments, hexahedra, measures); });
+    write_text_file(arguments.json, extrusion_record(arguments, hexahedra, measures));
   fmt::print("{}\n", arguments.output.string());
   fmt::print("  {:<10} {:>12}\n  {:<10} {:>12}\n", "hexahedra", hexahedra.hexahedra.size(), "points",
              hexahedra.points.size());

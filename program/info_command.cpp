@@ -138,8 +138,7 @@ int info_command(const InfoArguments& arguments) {
     check_output(arguments.output);
   }
   const ModelInfo info = model_info(c, size);
-  if (!arguments.json.empty())
-    write_file_atomically(arguments.json, [&](std::ostream& out) { out << info_record(info, size); });
+  if (!arguments.json.empty()) write_text_file(arguments.json, info_record(info, size));
   if (!arguments.output.empty()) write_mesh(arguments.output, info.fine);
   print_overview(info);
   print_parts(info);

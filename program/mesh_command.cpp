@@ -20,8 +20,6 @@
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
-#include "io/cases/size_file.h"
-#include "io/cases/surface_spec.h"
 #include "io/mesh_io.h"
 #include "program/check_files.h"
 #include "program/commands.h"
@@ -280,8 +278,7 @@ int mesh_command(const MeshArguments& arguments) {
     const Stopwatch writing;
     (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
-    if (!arguments.json.empty())
-      write_file_atomically(arguments.json, [&](std::ostream& out) { out << run_record(c, word, result); });
+    if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
   }
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);

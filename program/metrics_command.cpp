@@ -67,9 +67,8 @@ int metrics_command(const MetricsArguments& arguments) {
   if (mesh.order > 1) add_curved(mesh, metrics);
   for (const std::string& solver : arguments.solvers) add_solver(mesh, solver, metrics);
   if (!arguments.json.empty())
-    write_file_atomically(arguments.json, [&](std::ostream& out) {
-      out << metrics_record(arguments.mesh.string(), arguments.size.value_or(""), metrics);
-    });
+    write_text_file(arguments.json,
+                    metrics_record(arguments.mesh.string(), arguments.size.value_or(""), metrics));
   fmt::print("{}\n", arguments.mesh.string());
   print_metrics(metrics);
   if (mesh.order > 1) print_curved(metrics);

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/schema.h"
-#include "io/cases/option_table_text.h"
+#include "io/cases/case_keys.h"
 #include "program/commands.h"
 
 namespace delquad {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "experiments/sweep/versions.h"
+#include "experiments/sweep/machine.h"
 #include "program/commands.h"
 
 namespace delquad {

@@ -1,5 +1,5 @@
 # Writes the parts of the page as string literals: script -DFOLDER= -DOUTPUT=.
-set(text "#include \"report/page_text.h\"\n\nnamespace delquad {\n")
+set(text "#include \"report/page_json.h\"\n\nnamespace delquad {\n")
 function(embed name)
   set(content "")
   foreach(file ${ARGN})

@@ -1,17 +1,20 @@
 #include "report/packed_mesh.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <numeric>
 
 #include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/irregular_vertices.h"
+#include "io/xml.h"
 #include "metrics/metrics.h"
-#include "report/packed_text.h"
 
 namespace delquad {
 namespace {
@@ -189,6 +192,17 @@ Mesh thinned(const Mesh& mesh, int step) {
 double packed_bytes(double triangles, double quads) {
   constexpr double kTriangle = 6, kQuad = 10;  // measured on meshes of 5000 to 400 000 elements
   return kTriangle * triangles + kQuad * quads;
+}
+
+std::string packed_text(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string packed(size, '\0');
+  auto* const to = reinterpret_cast<Bytef*>(packed.data());
+  const auto* const from = reinterpret_cast<const Bytef*>(bytes.data());
+  if (compress2(to, &size, from, bytes.size(), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();  // its only reason, given room enough
+  packed.resize(size);
+  return base64(packed);
 }
 
 }  // namespace delquad

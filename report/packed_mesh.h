@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -33,5 +34,8 @@ Mesh thinned(const Mesh& mesh, int step);
 
 /// Bytes that a mesh takes when it is packed, roughly.
 double packed_bytes(double triangles, double quads);
+
+/// Base64 of the zlib-compressed bytes, as `inflate` of page/packed_mesh.js takes it apart.
+std::string packed_text(std::string_view bytes);
 
 }  // namespace delquad

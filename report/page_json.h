@@ -1,6 +1,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "metrics/tables/result_records.h"
@@ -10,8 +13,6 @@ namespace delquad {
 
 using Json = nlohmann::ordered_json;
 
-/// The texts of a table's files by extension, packed: what one saves from the page is what a run writes.
-Json table_files_json(const Table& table);
 /// As the page shows it, with its files; empty ones are null.
 Json table_json(const Table& table);
 
@@ -21,5 +22,23 @@ Json growth_json(const std::vector<CellRecord>& records);
 
 /// What letters and measures mean, and colours by eta.
 Json glossary_json();
+
+/// The parts of the page that are the same for all results, from report/page/ and report/three/.
+extern const std::string_view kPageStyle, kPageBody, kPageScript, kThreeScript;
+
+/// Empty where there is none.
+std::string seed_of(const CellRecord& record);
+
+/// For each pipeline of a sheet with several seeds: how many of its cells are done, and means with half the
+/// width of their 95 % confidence intervals, by column key. Empty where no pipeline has two.
+Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
+
+/// What the cells that are done have in each column, for charts of their spread: `sheets` with
+/// their `cases`, `words` and `keys`, and `cells`, each with the places of its sheet and word, then a value
+/// or null for each key.
+Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
+
+/// With five digits, more than a chart shows; null of NaN.
+Json brief_number(double value);
 
 }  // namespace delquad

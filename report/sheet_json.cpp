@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/closeup.h"
-#include "report/samples_json.h"
+#include "report/page_json.h"
 
 namespace delquad {
 namespace {

@@ -10,18 +10,15 @@
 #include <map>
 #include <ostream>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/sweep/record.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/json_problem.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/tables.h"
-#include "report/drawings.h"
 #include "report/packed_mesh.h"
-#include "report/packed_text.h"
 #include "report/page_json.h"
-#include "report/page_text.h"
-#include "report/samples_json.h"
 #include "report/sheet_json.h"
 
 namespace delquad {
@@ -30,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPictureBytes = 17e6;
+constexpr std::uintmax_t kDrawingBytes = 500'000, kAllDrawings = 3'000'000;  // of one, of a page
 /// Of the values that charts of the spread are made of, packed, all studies together.
 constexpr std::size_t kSampleBytes = 2'000'000;
 /// A picture with less shows nothing; rather some cells have none.
@@ -68,6 +66,19 @@ std::vector<fs::path> list(const fs::path& folder, const std::function<bool(cons
   if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
   std::ranges::sort(found);
   return found;
+}
+
+/// The SVG files of a folder of results that a page shows as they are: for results without cells those of the
+/// folder itself, and those in `figures/`; by name.
+std::vector<fs::path> list_drawings(const fs::path& folder, bool has_cells) {
+  const auto is_drawing = [](const fs::path& path) {
+    return path.extension() == ".svg" && fs::is_regular_file(path);
+  };
+  std::vector<fs::path> files, figures;
+  if (!has_cells) files = list(folder, is_drawing);
+  if (fs::is_directory(folder / "figures")) figures = list(folder / "figures", is_drawing);
+  files.insert(files.end(), figures.begin(), figures.end());
+  return files;
 }
 
 void add_results(const fs::path& folder, Contents& contents) {
@@ -168,9 +179,19 @@ class Page {
             {"sheets", Json::array()}};
   }
 
+  /// Of each its name, and its text, or under `left_out` where it lies, when there is no room for it.
   Json drawings_json(const std::vector<fs::path>& files) {
     Json json = Json::array();
-    for (const fs::path& file : files) json.push_back(shelf_.put(file));
+    for (const fs::path& file : files) {
+      json.push_back({{"name", file.stem().string()}});
+      const std::uintmax_t bytes = fs::file_size(file);
+      if (bytes > kDrawingBytes || drawing_bytes_ + bytes > kAllDrawings) {
+        json.back()["left_out"] = file.string();
+        continue;
+      }
+      drawing_bytes_ += bytes;
+      json.back()["svg"] = file_bytes(file);
+    }
     return json;
   }
 
@@ -284,7 +305,7 @@ class Page {
   std::size_t cells_ = 0;
   int pictures_ = 0, samples_ = 0;
   std::size_t sample_bytes_ = 0;
-  DrawingShelf shelf_;
+  std::uintmax_t drawing_bytes_ = 0;
   bool in_space_ = false;
   std::vector<std::string> problems_;
 };

@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "metrics/shape.h"
-#include "metrics/surface/face_normals.h"
+#include "metrics/surface/surface_search.h"
 #include "patches/prepared.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/surface/surface_lift.h"

@@ -63,4 +63,11 @@ inline py::array view(const std::vector<Vec3>& points, const py::object& owner) 
                       owner);
 }
 
+/// (tag, names) of each.
+inline py::list list_of(const std::vector<Entity>& entities) {
+  py::list list;
+  for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));
+  return list;
+}
+
 }  // namespace delquad::python

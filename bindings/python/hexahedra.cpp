@@ -1,10 +1,9 @@
-#include "bindings/python/hexahedra.h"
-
 #include <pybind11/stl.h>
 
 #include "base/context.h"
 #include "bindings/python/arrays.h"
 #include "bindings/python/calling_thread.h"
+#include "bindings/python/problem.h"
 #include "delquad/hexahedra.h"
 
 namespace delquad::python {
@@ -19,12 +18,6 @@ struct Hexahedra {
   HexMeasures measures;
 };
 
-py::list tags_and_names(const std::vector<Entity>& entities) {
-  py::list list;
-  for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));
-  return list;
-}
-
 /// A list of the hexahedra as a property: a view that keeps them.
 template <class List>
 auto hex_view(List HexMesh::*member) {
@@ -32,7 +25,7 @@ auto hex_view(List HexMesh::*member) {
 }
 
 auto hex_entities(std::vector<Entity> HexMesh::*member) {
-  return [member](const Hexahedra& self) { return tags_and_names(self.mesh.*member); };
+  return [member](const Hexahedra& self) { return list_of(self.mesh.*member); };
 }
 
 Hexahedra sweep(const Mesh& mesh, const SweepPath& path, int layers, double growth, int threads,

@@ -4,7 +4,6 @@
 
 #include "base/located.h"
 #include "bindings/python/arrays.h"
-#include "bindings/python/hexahedra.h"
 #include "bindings/python/problem.h"
 #include "geometry/mesh/check_mesh.h"
 
@@ -13,12 +12,6 @@ namespace delquad::python {
 namespace {
 
 using py::arg;
-
-py::list list_of(const std::vector<Entity>& entities) {
-  py::list list;
-  for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));
-  return list;
-}
 
 std::vector<Entity> entities_of(const std::vector<std::pair<int, std::vector<std::string>>>& list) {
   std::vector<Entity> entities;

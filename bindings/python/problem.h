@@ -23,6 +23,8 @@ ModelHandle read_model(const std::string& path);
 
 /// Tells Python of models and of what they are made of.
 void define_models(py::module_& m);
+/// HexMesh, and extrude() for each way.
+void define_hexahedra(py::module_& m);
 
 /// Functions that a problem calls; they are called in the thread that is there while it is meshed.
 struct Callbacks {

@@ -12,7 +12,6 @@
 #include <mutex>
 #include <thread>
 
-#include "experiments/console/activities.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -38,6 +37,11 @@ void on_signal(int signal_number) {
   pending = signal_number;
   if (sections == 0) leave(signal_number);
 }
+
+constexpr int kMostFaces = 2048;  // at a time: twice the most threads
+
+/// Made before main(), so that signal handlers need not make it.
+Activities all(kMostFaces);
 
 }  // namespace
 
@@ -84,5 +88,7 @@ TimeLimit::~TimeLimit() {
   watch_->over.notify_one();
   watch_->thread.join();
 }
+
+Activities& program_activities() { return all; }
 
 }  // namespace delquad

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "base/activity.h"
+
 namespace delquad {
 
 /// Exit codes after Ctrl-C (SIGINT) and after SIGTERM: 128 and the signal's number, as shells have it.
@@ -37,5 +39,9 @@ class TimeLimit {
   struct Watch;
   std::unique_ptr<Watch> watch_;
 };
+
+/// What this program is at, for its bar, its time limit and signal handlers: the run that main() makes tells
+/// it, and those inside of that.
+Activities& program_activities();
 
 }  // namespace delquad

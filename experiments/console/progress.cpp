@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "experiments/console/activities.h"
+#include "experiments/console/interrupt.h"
 
 namespace delquad {
 

@@ -10,7 +10,7 @@
 
 #include "delquad/error.h"
 #include "experiments/suite/suite_list.h"
-#include "experiments/sweep/cell_folder.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/peer.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/samples.h"
@@ -185,8 +185,7 @@ Table rank_programs(const fs::path& results) {
 void write_ranking(const fs::path& results, const Table& table) {
   prepare_folder(results / "ranking");
   for (const TableFormat& format : table_formats())
-    write_file_atomically(results / "ranking" / ("table" + std::string(format.extension)),
-                          [&](std::ostream& out) { out << format.print(table); });
+    write_text_file(results / "ranking" / ("table" + std::string(format.extension)), format.print(table));
 }
 
 }  // namespace delquad

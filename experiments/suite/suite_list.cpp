@@ -1,20 +1,25 @@
 #include "experiments/suite/suite_list.h"
 
 #include <fmt/format.h>
-
+#include <openssl/evp.h>
 #include <toml++/toml.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <sstream>
 #include <stdexcept>
 
-#include "experiments/suite/planar_models.h"
-#include "experiments/suite/suite_text.h"
-#include "experiments/suite/triangle_models.h"
+#include "experiments/suite/model_makers.h"
 #include "geometry/cad/example_models.h"
 #include "io/text_writer.h"
 
 namespace delquad {
 namespace {
+
+/// By family: as the list calls it, and what its files are.
+constexpr std::array kFamilies = {"planar", "CAD", "triangles"};
+constexpr std::array kExtensions = {".toml", ".step", ".obj"};
 
 SuiteFamily family_of(const std::string& name) {
   for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
@@ -34,11 +39,11 @@ SuiteModel read_model(const toml::table& table) {
   return model;
 }
 
-template <class Maker>
-const Maker& find_maker(const std::vector<Maker>& makers, const std::string& name) {
-  const auto at = std::ranges::find_if(makers, [&](const Maker& maker) { return maker.name == name; });
-  if (at == makers.end()) throw std::logic_error("nothing makes the model " + name);
-  return *at;
+template <class Made>
+Made make_model(const std::vector<SuiteMaker<Made>>& makers, const std::string& name) {
+  for (const SuiteMaker<Made>& maker : makers)
+    if (name == maker.name) return maker.make();
+  throw std::logic_error("nothing makes the model " + name);
 }
 
 std::string obj_text(const Mesh& mesh) {
@@ -50,19 +55,53 @@ std::string obj_text(const Mesh& mesh) {
   return stream.str();
 }
 
+std::string sha256(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("SHA-256 failed");
+  std::string text;
+  for (unsigned i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Not inside of a word or of an entity's number.
+bool begins_number(const std::string& before, const char* at, const char* end) {
+  if (!before.empty() && (is_digit(before.back()) || before.back() == '#')) return false;
+  return is_digit(*at) || (*at == '-' && at + 1 < end && is_digit(at[1]));
+}
+
+std::string six_digits(double value) {
+  const std::string text = fmt::format("{:.6f}", value);
+  return text == "-0.000000" ? text.substr(1) : text;
+}
+
+/// The data of a STEP file, its line breaks left out and its numbers with a point rounded.
+std::string rounded_step(const std::string& content) {
+  const auto begin = content.find("\nDATA;");
+  if (begin == std::string::npos) throw std::logic_error("a STEP file without data");
+  std::string data = content.substr(begin), result;
+  std::erase_if(data, [](char c) { return c == '\n' || c == '\r'; });
+  const char *at = data.data(), *const end = at + data.size();
+  while (at < end) {
+    if (!begins_number(result, at, end)) {
+      result += *at++;
+      continue;
+    }
+    double value = 0;
+    const char* rest = std::from_chars(at, end, value).ptr;
+    const std::string_view digits(at, rest);
+    result += digits.find('.') == std::string_view::npos ? std::string(digits) : six_digits(value);
+    at = rest;
+  }
+  return result;
+}
+
 }  // namespace
 
-const char* name_of(SuiteFamily family) {
-  switch (family) {
-    case SuiteFamily::kPlanar:
-      return "planar";
-    case SuiteFamily::kCad:
-      return "CAD";
-    case SuiteFamily::kTriangles:
-      break;
-  }
-  return "triangles";
-}
+const char* name_of(SuiteFamily family) { return kFamilies[static_cast<std::size_t>(family)]; }
 
 const Suite& suite() {
   static const Suite list = [] {
@@ -80,26 +119,22 @@ std::string case_name(const SuiteModel& model, std::size_t size) {
 }
 
 std::string file_name(const SuiteModel& model) {
-  switch (model.family) {
-    case SuiteFamily::kPlanar:
-      return model.name + ".toml";
-    case SuiteFamily::kCad:
-      return model.name + ".step";
-    case SuiteFamily::kTriangles:
-      break;
-  }
-  return model.name + ".obj";
+  return model.name + kExtensions[static_cast<std::size_t>(model.family)];
 }
 
 std::string suite_title() { return fmt::format("Suite {}", suite().version); }
 
 std::string make_suite_model(const SuiteModel& model) {
-  if (model.family == SuiteFamily::kPlanar) return find_maker(planar_suite_models(), model.name).make();
+  if (model.family == SuiteFamily::kPlanar) return make_model(planar_suite_models(), model.name);
   if (model.family == SuiteFamily::kTriangles)
-    return obj_text(find_maker(triangle_suite_models(), model.name).make());
+    return obj_text(make_model(triangle_suite_models(), model.name));
   std::ostringstream out;
   write_example(model.name, CadFormat::kStep, out);
   return out.str();
+}
+
+std::string suite_digest(const SuiteModel& model, const std::string& content) {
+  return sha256(model.family == SuiteFamily::kCad ? rounded_step(content) : content);
 }
 
 }  // namespace delquad

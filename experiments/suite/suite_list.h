@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace delquad {
@@ -24,6 +25,8 @@ struct Suite {
   std::vector<SuiteModel> models;
 };
 const Suite& suite();
+/// That file, as it was when the program was built.
+extern const std::string_view kSuiteText;
 
 std::string case_name(const SuiteModel& model, std::size_t size);
 /// "bracket.step"

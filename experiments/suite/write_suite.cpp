@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/suite/suite_list.h"
-#include "experiments/sweep/cell_folder.h"
+#include "experiments/sweep/folders.h"
 #include "io/cases/case.h"
 #include "io/mesh_io.h"
 
@@ -19,10 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void write_text(const fs::path& file, const std::string& text) {
-  write_file_atomically(file, [&](std::ostream& out) { out << text; });
-}
-
 void write_models(const fs::path& folder) {
   for (const SuiteModel& model : suite().models) {
     const std::string content = make_suite_model(model), digest = suite_digest(model, content);
@@ -31,7 +27,7 @@ void write_models(const fs::path& folder) {
           fmt::format("{}: SHA-256 is {}: expected {}, of suite {}; another version of OpenCASCADE would "
                       "explain it for CAD",
                       file_name(model), digest, model.sha256, suite().version));
-    write_text(folder / file_name(model), content);
+    write_text_file(folder / file_name(model), content);
   }
 }
 
@@ -65,7 +61,7 @@ std::string cases_text() {
 Experiment write_suite_experiment(const fs::path& folder) {
   prepare_folder(folder);
   write_models(folder);
-  write_text(folder / "suite.toml", experiment_text());
+  write_text_file(folder / "suite.toml", experiment_text());
   return Experiment::read(folder / "suite.toml");
 }
 
@@ -75,7 +71,7 @@ void write_suite(const fs::path& folder) {
     const Case c = experiment.read_variant(i);
     if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), prepare(c)->boundary);
   }
-  write_text(folder / "cases.json", cases_text());
+  write_text_file(folder / "cases.json", cases_text());
 }
 
 }  // namespace delquad

@@ -9,12 +9,11 @@
 #include <set>
 
 #include "base/located.h"
-#include "experiments/sweep/command_files.h"
 #include "experiments/sweep/experiment_keys.h"
+#include "experiments/sweep/run_program.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
-#include "io/cases/size_file.h"
 #include "io/cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"

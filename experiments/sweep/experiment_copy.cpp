@@ -81,8 +81,7 @@ fs::path keep_experiment(const Experiment& experiment, const fs::path& folder) {
   for (const auto& [path, mark] : json.at("files").items())
     if (!difference(copy / path, {mark.at("bytes"), mark.at("digest")}).empty())
       keep_file(root / path, copy / path);
-  if (!fs::exists(listed) || file_bytes(listed) != list)
-    write_file_atomically(listed, [&](std::ostream& out) { out << list; });
+  if (!fs::exists(listed) || file_bytes(listed) != list) write_text_file(listed, list);
   return fs::path(kCopies) / name / file.lexically_relative(root);
 }
 

@@ -64,7 +64,7 @@ void draw(const std::filesystem::path& path, const std::vector<Vec2>& points,
       "alone "
       "(blue), {} in L-infinity alone (red)</text>\n</svg>\n",
       kMargin, full + 4, edges.both.size(), edges.only_l2.size(), edges.only_linf.size());
-  write_file_atomically(path, [&](std::ostream& out) { out << svg; });
+  write_text_file(path, svg);
 }
 
 TableRow compare(int n, int seed, const Distribution& distribution, const std::filesystem::path& folder) {

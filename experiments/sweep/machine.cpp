@@ -8,6 +8,13 @@
 #include <fstream>
 #include <thread>
 
+#include "build_info.h"
+#include "delquad/error.h"
+#include "delquad/mesher.h"
+#include "experiments/sweep/folders.h"
+#include "experiments/sweep/run_program.h"
+#include "geometry/cad/cad_reader.h"
+
 namespace delquad {
 namespace {
 
@@ -17,6 +24,22 @@ std::string cpu_model() {
     if (line.starts_with("model name"))
       if (const auto at = line.find(": "); at != line.npos) return line.substr(at + 2);
   return "";
+}
+
+/// As the program that reads CAD says; where it does not, that which it was built with.
+std::string ask_kernel_version() {
+  constexpr unsigned kWait = 30;
+  const std::filesystem::path reader = cad_program();
+  if (reader.empty()) return kOcctVersion;
+  try {
+    const ScratchFolder scratch;
+    const std::filesystem::path printed = scratch.path() / "version";
+    const ProgramRun run = run_program({reader.string(), "--version"}, scratch.path(), printed, kWait);
+    std::ifstream in(printed);
+    if (std::string line; how_it_ended(run).empty() && std::getline(in, line)) return line;
+  } catch (const InputError&) {
+  }
+  return kOcctVersion;
 }
 
 }  // namespace
@@ -37,6 +60,14 @@ MachineState machine_state() {
   double load = 0;
   if (getloadavg(&load, 1) == 1) state.load = load;
   return state;
+}
+
+std::vector<std::pair<std::string, std::string>> versions() {
+  static const std::string kernel = ask_kernel_version();
+  return {{"delquad", version()},         {"commit", kCommit},      {"build", kBuildType},
+          {"compiler", kCompiler},        {"cgal", kCgalVersion},   {"eigen", kEigenVersion},
+          {"lemon", kLemonVersion},       {"fmt", kFmtVersion},     {"nlohmann_json", kJsonVersion},
+          {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}, {"opencascade", kernel}};
 }
 
 }  // namespace delquad

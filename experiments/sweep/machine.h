@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace delquad {
 
@@ -19,5 +21,8 @@ struct MachineState {
   std::optional<double> load;  ///< average number of processes that ran or waited to, over the last minute
 };
 MachineState machine_state();
+
+/// The program's own version ("delquad"), "commit", "build" and "compiler", then the libraries' by name.
+std::vector<std::pair<std::string, std::string>> versions();
 
 }  // namespace delquad

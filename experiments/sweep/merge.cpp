@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "delquad/error.h"
-#include "experiments/sweep/scratch_folder.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/verify.h"
 #include "metrics/tables/json_problem.h"
 #include "metrics/tables/tables.h"

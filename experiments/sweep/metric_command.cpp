@@ -14,11 +14,10 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "experiments/sweep/command_files.h"
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/run_program.h"
 #include "io/digest.h"
-#include "metrics/tables/rendered_table.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {

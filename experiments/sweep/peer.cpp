@@ -12,18 +12,15 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "delquad/error.h"
-#include "experiments/sweep/command_files.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/peer_reference.h"
-#include "experiments/sweep/peer_sizes.h"
 #include "experiments/sweep/run_program.h"
-#include "experiments/sweep/scratch_folder.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "metrics/surface/surface_report.h"
-#include "metrics/tables/rendered_table.h"
-#include "metrics/tables/result_records.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {

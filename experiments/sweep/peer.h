@@ -100,6 +100,19 @@ std::optional<double> uniform_size(const Case& c);
 std::vector<std::string> peer_command(const PeerTask& task, const std::filesystem::path& input,
                                       const std::string& output, const std::filesystem::path& size_field);
 
+/// A size field by its values at the nodes of triangles that are as large as it says.
+struct SampledSize {
+  Mesh mesh;
+  std::vector<double> delta;  ///< at its points
+};
+/// What the peer is told.
+SampledSize sample_sizes(const PeerTask& task);
+
+/// Writes size.FORMAT, one of size_field_formats(), and returns the file: "pos", a view of Gmsh; "sol",
+/// values for Medit's size.mesh beside it; "points", lines "x y z delta".
+std::filesystem::path write_size_field(const SampledSize& size, const std::string& format,
+                                       const std::filesystem::path& folder);
+
 /// Writes what the peer reads to `folder`; returns the file. Throws NotApplicable when the case cannot be
 /// told.
 std::filesystem::path write_peer_input(const PeerTask& task, const std::filesystem::path& folder);

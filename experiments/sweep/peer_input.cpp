@@ -1,3 +1,4 @@
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 
 #include "base/text.h"
 #include "experiments/sweep/peer.h"
-#include "experiments/sweep/peer_sizes.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
 #include "io/cases/read_problem.h"
@@ -133,8 +133,7 @@ void write_script(const PeerTask& task, const fs::path& script) {
   const fs::path model =
       prepared.is_surface() ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
   if (!size) write_size_field(sample_sizes(task), "pos", folder);
-  write_file_atomically(script, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(script, [&](TextWriter& out) {
     prepared.is_surface() ? write_surface(out, task.c, model) : write_boundary(out, prepared);
     if (size)
       out << "Mesh.MeshSizeMin = " << task.scale * *size << ";\nMesh.MeshSizeMax = " << task.scale * *size
@@ -144,8 +143,40 @@ void write_script(const PeerTask& task, const fs::path& script) {
           << "\";\nField[1] = PostView;\nField[1].ViewIndex = 0;\nBackground Field = 1;\n"
           << "Mesh.MeshSizeFromPoints = 0;\n";
     out << "Mesh.MeshSizeExtendFromBoundary = 0;\n";
-    out.flush();
   });
+}
+
+void write_view(TextWriter& out, const SampledSize& size) {
+  const Mesh& mesh = size.mesh;
+  out << "View \"delta\" {\n";
+  for (const auto& v : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.points[v[k]];
+      out << (k == 0 ? "ST(" : ", ") << p.x << ", " << p.y << ", " << p.z;
+    }
+    out << "){" << size.delta[v[0]] << ", " << size.delta[v[1]] << ", " << size.delta[v[2]] << "};\n";
+  }
+  out << "};\n";
+}
+
+void write_solution(TextWriter& out, const SampledSize& size) {
+  out << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" << size.delta.size() << "\n1 1\n";
+  for (const double delta : size.delta) out << delta << "\n";
+  out << "End\n";
+}
+
+void write_points(TextWriter& out, const SampledSize& size) {
+  for (std::size_t i = 0; i < size.delta.size(); ++i) {
+    const Vec3& p = size.mesh.points[i];
+    out << p.x << " " << p.y << " " << p.z << " " << size.delta[i] << "\n";
+  }
+}
+
+/// The triangles of F, of the wanted size: in the plane, or on the surface.
+Mesh triangles_of_domain(const Prepared& prepared) {
+  Meshing meshing(prepared);
+  for (const Stage* stage : parse_word("F").stages) meshing.run(*stage);
+  return meshing.mesh();
 }
 
 }  // namespace
@@ -174,6 +205,28 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
   else
     write_mesh(file,
                given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared->boundary);
+  return file;
+}
+
+SampledSize sample_sizes(const PeerTask& task) {
+  SampledSize size{triangles_of_domain(task.prepared), {}};
+  int hint = -1;
+  for (const Vec3& p : size.mesh.points)
+    size.delta.push_back(task.field_scale * task.prepared->size.field->at(p, hint));
+  return size;
+}
+
+const std::vector<std::string>& size_field_formats() {
+  static const std::vector<std::string> formats = {"pos", "sol", "points"};
+  return formats;
+}
+
+fs::path write_size_field(const SampledSize& size, const std::string& format, const fs::path& folder) {
+  const fs::path file = folder / ("size." + format);
+  write_text_file(file, [&](TextWriter& out) {
+    (format == "pos" ? write_view : format == "sol" ? write_solution : write_points)(out, size);
+  });
+  if (format == "sol") write_mesh(folder / "size.mesh", size.mesh);
   return file;
 }
 

@@ -10,8 +10,8 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "delquad/error.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
-#include "experiments/sweep/scratch_folder.h"
 
 namespace delquad {
 namespace {

@@ -21,7 +21,7 @@
 
 #include "base/parallel.h"
 #include "delquad/error.h"
-#include "experiments/console/activities.h"
+#include "experiments/console/interrupt.h"
 #include "experiments/sweep/peer.h"
 
 namespace delquad {

@@ -7,9 +7,8 @@
 #include "base/parallel.h"
 #include "base/warning.h"
 #include "delquad/error.h"
-#include "experiments/sweep/versions.h"
+#include "experiments/sweep/machine.h"
 #include "io/cases/read_problem.h"
-#include "io/cases/size_file.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 

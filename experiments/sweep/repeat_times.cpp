@@ -14,7 +14,7 @@
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
 #include "io/mesh_io.h"
-#include "metrics/tables/random_index.h"
+#include "metrics/tables/statistics.h"
 #include "metrics/tables/times.h"
 
 namespace delquad {
@@ -117,7 +117,7 @@ class RepeatedVariant {
     const MeshResult result = mesh_cell(case_, word, peer, scratch() / "peer");
     Json json = {{"seconds_total", total_seconds(result.log.times)}};
     if (peer == nullptr) json["seconds"] = result.seconds;
-    write_file_atomically(file_of(cell, round), [&](std::ostream& out) { out << json.dump(); });
+    write_text_file(file_of(cell, round), json.dump());
   }
 
   void collect(std::size_t i) {

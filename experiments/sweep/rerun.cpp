@@ -9,9 +9,8 @@
 
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
-#include "experiments/sweep/measure_by_commands.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/recorded_case.h"
-#include "experiments/sweep/scratch_folder.h"
 #include "io/digest.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"

@@ -8,10 +8,9 @@
 
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
-#include "experiments/sweep/cell_folder.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/experiment_copy.h"
-#include "experiments/sweep/folder_lock.h"
+#include "experiments/sweep/folders.h"
 #include "experiments/sweep/linf_study.h"
 #include "experiments/sweep/repeat_times.h"
 #include "experiments/sweep/sweep_progress.h"

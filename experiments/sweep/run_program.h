@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,5 +26,14 @@ std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good = {
 ProgramRun run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
                        const std::filesystem::path& log, unsigned seconds = 0,
                        const std::filesystem::path& errors = {});
+
+/// The file beside the experiment, in `folder`, that word `i` of a command stands for; empty: none. A program
+/// without a slash is one of the PATH, whatever lies beside the experiment.
+std::filesystem::path file_of_word(const std::filesystem::path& folder, const std::vector<std::string>& words,
+                                   std::size_t i);
+
+/// The words of a command that stand for files, with the digests of these.
+std::map<std::string, std::string> command_files(const std::filesystem::path& folder,
+                                                 const std::vector<std::string>& words);
 
 }  // namespace delquad

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "delquad/model.h"
+#include "geometry/surface/surface_model.h"
 #include "io/cases/case.h"
 #include "io/cases/toml_reader.h"
 
@@ -13,5 +19,8 @@ void read_case_keys(const TomlTable& table, Case& target);
 /// A model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh). `defaults`: what
 /// the file does not say. Throws InputError for other extensions and for experiment files.
 Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
+
+/// "all" or "tangent". Throws InputError, beginning with `where`, for anything else.
+Compounds parse_compounds(const std::string& text, const std::string& where);
 
 }  // namespace delquad

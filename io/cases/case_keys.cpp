@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "delquad/options.h"
+
 namespace delquad {
+
 namespace toml_types {
 
 std::string at_least(const std::string& type, double least) {
@@ -292,6 +295,15 @@ TomlKeys case_keys() {
   }
   keys.push_back({kCompare, "published row beside each pipeline", kWords});
   return keys;
+}
+
+std::string option_table_text() {
+  std::string text = "| option | value | default | |\n|---|---|---|---|\n";
+  for (const OptionGroup& group : option_groups())
+    for (const OptionKey& key : group.keys)
+      text += fmt::format("| `{}.{}` | {} | {} | {} |\n", group.name, key.name, expected_of(key),
+                          key.absent.empty() ? text_of(key.value) : key.absent, key.help);
+  return text;
 }
 
 }  // namespace delquad

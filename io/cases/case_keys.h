@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "delquad/options.h"
 #include "io/cases/toml_keys.h"
 
@@ -45,5 +47,9 @@ std::string between(const std::string& type, double least, double most);
 std::string above(double low, double most);
 std::string one_of(const std::vector<std::string>& texts);
 }  // namespace toml_types
+
+/// The options of all stages as a table in Markdown: name, what it may be, default, what it is. Ends with a
+/// newline.
+std::string option_table_text();
 
 }  // namespace delquad

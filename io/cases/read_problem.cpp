@@ -15,10 +15,12 @@
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "delquad/fields.h"
+#include "delquad/model.h"
 #include "fields/fields.h"
 #include "geometry/mesh/outline.h"
 #include "geometry/planar/planar_model.h"
-#include "io/cases/size_file.h"
+#include "io/cases/expression.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"
 
@@ -162,6 +164,50 @@ std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::strin
   if (text != kFromBoundary) return make_field({.text = text, .where = "--size"});
   const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
   return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
+}
+
+std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder) {
+  if (holds_values(text)) return SizeFile{folder / text, ""};
+  for (std::size_t at = text.find(':'); at != std::string::npos; at = text.find(':', at + 1))
+    if (const std::string file = text.substr(0, at); holds_values(file))
+      return SizeFile{folder / file, text.substr(at + 1)};
+  return std::nullopt;
+}
+
+std::unique_ptr<SizeField> make_file_size(const std::filesystem::path& file, const std::string& field) {
+  NodalValues size = read_values(file, field);
+  return located(file.string(), [&] { return make_nodal_size(size.mesh, std::move(size.values)); });
+}
+
+std::unique_ptr<SizeField> make_expression_size(const std::string& text) {
+  const Expression delta(text, {"x", "y", "z"});
+  return make_function_size(
+      [delta](const Vec3& x) {
+        const double values[] = {x.x, x.y, x.z};
+        return delta(values);
+      },
+      fmt::format("size field '{}'", delta.shown()));
+}
+
+std::unique_ptr<CrossField> make_expression_cross(const std::string& text) {
+  const Expression theta(text, {"x", "y", "z"});
+  return make_function_cross(
+      [theta](Vec2 u) {
+        const double values[] = {u.x, u.y, 0};
+        return theta(values);
+      },
+      fmt::format("cross field '{}'", theta.shown()));
+}
+
+std::shared_ptr<const Curve> make_expression_curve(const std::string& x_text, const std::string& y_text,
+                                                   double t0, double t1) {
+  const Expression x(x_text, {"t"}), y(y_text, {"t"});
+  return make_parametric_curve(
+      [x, y](double t) {
+        const double value[] = {t};
+        return Vec2{x(value), y(value)};
+      },
+      t0, t1);
 }
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/cases/case.h"
@@ -27,5 +28,15 @@ void check_case(const Case& c);
 /// The size field of a mesh that is there already: `text` is a number, an expression, a file or "boundary",
 /// as --size gives it.
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
+
+/// A size that a file gives at the points of its mesh.
+struct SizeFile {
+  std::filesystem::path path;
+  std::string field;  ///< empty: the only one that it has
+};
+
+/// What "FILE" or "FILE:FIELD" means, where FILE ends in .msh or .vtu (and .gz) and counts from `folder`;
+/// nothing for other texts.
+std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder);
 
 }  // namespace delquad

@@ -234,11 +234,7 @@ class InpWriter {
 /// sides, of shells the nodes, and the sides are ELSETs for edge loads ("_curve_5_E2").
 void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
   require_numbers(path, "Abaqus", mesh, 999'999'999);
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
-    InpWriter(out, mesh).write();
-    out.flush();
-  });
+  write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh).write(); });
 }
 
 }  // namespace

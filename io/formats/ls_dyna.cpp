@@ -33,8 +33,7 @@ void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
   require_numbers(path, "LS-DYNA", mesh, 99'999'999);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<int> part = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(path, [&](TextWriter& out) {
     const auto number = [](auto n, std::size_t width) { return right(std::to_string(n), width); };
     out << "*KEYWORD\n$ quad mesh by Delquad\n";
     if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
@@ -63,7 +62,6 @@ void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
             << (i + 1 == nodes.size() || i % kField == kField - 1 ? "\n" : "");
     }
     out << "*END\n";
-    out.flush();
   });
 }
 

@@ -1,12 +1,137 @@
+#include <fmt/format.h>
+
+#include <climits>
+
+#include "geometry/mesh/drop_unused_points.h"
 #include "io/entity_names.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
+#include "io/text_scanner.h"
 #include "io/text_writer.h"
 
 namespace delquad {
-
 namespace {
+
+class MeditReader {
+ public:
+  explicit MeditReader(const std::filesystem::path& path) : in_(path) {}
+
+  /// Whose files often have the same extension.
+  bool is_mfem() const { return content_kind(in_.text()) == kMfemFile; }
+
+  Mesh read() {
+    refuse_other_kinds(in_, "Medit");
+    if (word("MeshVersionFormatted") != "MeshVersionFormatted")
+      in_.fail("not a Medit file: expected MeshVersionFormatted");
+    in_.integer("the version", 1, 4);
+    while (true) {
+      skip_comments();
+      if (in_.at_end()) break;
+      const std::string keyword = word("a keyword");
+      if (keyword == "End") break;
+      section(keyword);
+    }
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
+      in_.fail("the file holds no edges, triangles or quadrilaterals");
+    drop_unused_points(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  void section(const std::string& keyword) {
+    if (keyword == "Dimension") {
+      skip_comments();
+      dimension_ = in_.integer("the dimension", 2, 3);
+    } else if (keyword == "Vertices") {
+      for (long long n = count(keyword); n > 0; --n) vertex();
+    } else if (keyword == "Edges") {
+      elements(keyword, mesh_.lines, mesh_.line_curve, 1);
+    } else if (keyword == "Triangles") {
+      elements(keyword, mesh_.triangles, mesh_.triangle_region, 2);
+    } else if (keyword == "Quadrilaterals") {
+      elements(keyword, mesh_.quads, mesh_.quad_region, 2);
+    } else if (!(keyword[0] >= 'A' && keyword[0] <= 'Z')) {
+      in_.fail(fmt::format("expected a keyword{}, found {}", section_, TextScanner::printable(keyword)));
+    } else if (keyword == "Tetrahedra" || keyword == "Hexahedra") {
+      in_.fail(fmt::format("{}: expected a mesh of lines, triangles and quadrilaterals", keyword));
+    } else {
+      skip_section();
+    }
+  }
+
+  /// Numbers up to the next keyword.
+  void skip_section() {
+    while (!in_.at_end() && !next_is_letter()) {
+      if (in_.next_is('#'))
+        take_name();
+      else
+        in_.token("a number");
+    }
+  }
+
+  bool next_is_letter() {
+    for (char c = 'A'; c <= 'Z'; ++c)
+      if (in_.next_is(c)) return true;
+    return false;
+  }
+
+  /// Comments may be names: "# curve 3: north".
+  void skip_comments() {
+    while (in_.next_is('#')) take_name();
+  }
+
+  void take_name() {
+    const std::string_view line = in_.rest_of_line();
+    if (!entities_.take_name(line, "# curve ", ": ", 1)) entities_.take_name(line, "# region ", ": ", 2);
+  }
+
+  std::string word(std::string_view what) {
+    skip_comments();
+    return std::string(in_.token(what));
+  }
+
+  long long count(const std::string& keyword) {
+    skip_comments();
+    const long long n = in_.integer("a count", 0, INT_MAX);
+    section_ = fmt::format(" after the {} {} that are announced", n, keyword);
+    if (n > static_cast<long long>(in_.bytes_left()))
+      in_.fail(fmt::format("{} items do not fit in the {} bytes that follow", n, in_.bytes_left()));
+    return n;
+  }
+
+  void vertex() {
+    skip_comments();
+    const double x = in_.real("a coordinate"), y = in_.real("a coordinate");
+    const double z = dimension_ == 3 ? in_.real("a coordinate") : 0;
+    reference();
+    mesh_.points.push_back({x, y, z});
+  }
+
+  long long reference() {
+    constexpr long long kLargestNumber = NumberedEntities::kMostNumber;
+    return in_.integer("a reference", -kLargestNumber, kLargestNumber);
+  }
+
+  template <size_t N>
+  void elements(const std::string& keyword, std::vector<std::array<int, N>>& all, std::vector<int>& entity_of,
+                int dim) {
+    for (long long n = count(keyword); n > 0; --n) {
+      skip_comments();
+      std::array<int, N> element;
+      for (int& v : element)
+        v = static_cast<int>(in_.integer("a vertex", 1, static_cast<long long>(mesh_.points.size()))) - 1;
+      all.push_back(element);
+      entity_of.push_back(entities_.index(dim, reference(), mesh_));
+    }
+  }
+
+  TextScanner in_;
+  Mesh mesh_;
+  long long dimension_ = 3;
+  std::string section_;  ///< the last one, for messages
+  NumberedEntities entities_;
+};
 
 void write_names(TextWriter& out, const char* kind, const std::vector<Entity>& entities) {
   for (const Entity& entity : entities)
@@ -27,8 +152,7 @@ void write_elements(TextWriter& out, const char* keyword, const std::vector<std:
 
 /// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
 void write_medit(const std::filesystem::path& path, const Mesh& mesh) {
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(path, [&](TextWriter& out) {
     out << "MeshVersionFormatted 2\n";
     if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
     write_names(out, "curve", mesh.curves);
@@ -39,11 +163,15 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh) {
     write_elements(out, "Triangles", mesh.triangles, mesh.triangle_region, mesh.regions);
     write_elements(out, "Quadrilaterals", mesh.quads, mesh.quad_region, mesh.regions);
     out << "End\n";
-    out.flush();
   });
 }
 
 }  // namespace
+
+Mesh read_medit(const std::filesystem::path& path) {
+  MeditReader reader(path);
+  return reader.is_mfem() ? read_mfem(path) : reader.read();
+}
 
 MeshFormat medit_format() { return {{".mesh"}, "Medit", read_by<read_medit>, write_by<write_medit>}; }
 

@@ -1,132 +1,187 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
 
+#include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 #include "io/formats/msh.h"
-#include "io/formats/msh_output.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
+#include "io/text_writer.h"
 
 namespace delquad {
-
 namespace {
 
+/// Numbers as text, separated by blanks, or as bytes.
+class MshNumbers {
+ public:
+  MshNumbers(std::ostream& stream, bool binary) : out_(stream), binary_(binary) {}
+
+  MshNumbers& integer(int value) { return put(value); }
+  MshNumbers& size(size_t value) { return put(static_cast<std::uint64_t>(value)); }
+  MshNumbers& real(double value) { return put(value); }
+  MshNumbers& point(const Vec3& p) { return real(p.x).real(p.y).real(p.z); }
+  void end_line() {
+    if (!binary_) out_ << '\n';
+    at_start_ = true;
+  }
+  void line(std::string_view text) { out_ << text << '\n'; }
+  void end_section(std::string_view name) {
+    if (binary_) out_ << '\n';
+    line(name);
+  }
+  void flush() { out_.flush(); }
+
+ private:
+  template <class T>
+  MshNumbers& put(T value) {
+    if (binary_) {
+      char bytes[sizeof value];
+      std::memcpy(bytes, &value, sizeof value);
+      out_ << std::string_view(bytes, sizeof value);
+      return *this;
+    }
+    if (!at_start_) out_ << ' ';
+    at_start_ = false;
+    out_ << value;
+    return *this;
+  }
+
+  TextWriter out_;
+  bool binary_, at_start_ = true;
+};
+
+/// All elements of a mesh that have one of Gmsh's types.
+struct MshKind {
+  int dim, type;
+  const std::vector<int>& entity_of;
+  std::function<std::vector<int>(size_t)> nodes_of;
+  std::vector<char> chosen = {};  ///< whether each is written; empty: all are
+};
+
 /// One entity as the file shows it.
-struct Block {
+struct MshBlock {
   int dim;
   const Entity* entity;
   std::string group;
-  std::vector<int> points, nodes, lines, triangles, quads;
   int group_tag = 0;
-  Vec3 low{kMax, kMax, kMax}, high{-kMax, -kMax, -kMax};
+  std::vector<std::pair<const MshKind*, std::vector<size_t>>> elements = {};
+  std::vector<int> nodes = {};  ///< that no entity before has
+  Box<Vec3> box{{kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
 
   static constexpr double kMax = std::numeric_limits<double>::max();
-  void cover(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  bool is_empty() const { return points.empty() && lines.empty() && triangles.empty() && quads.empty(); }
 };
 
-/// Lines with more than one element, which lie inside the mesh.
-std::vector<char> lines_inside(const Mesh& mesh) {
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  std::vector<char> inside;
-  for (const auto& [a, b] : mesh.lines) inside.push_back(sides_of_edge(sides, a, b).size() > 1);
-  return inside;
-}
-
-/// Whether each line is written.
-std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
-  std::vector<char> chosen(mesh.lines.size(), 1);
-  if (curves == MshCurves::kAll) return chosen;
-  const std::vector<char> inside = lines_inside(mesh);
-  for (size_t i = 0; i < chosen.size(); ++i)
-    chosen[i] = !inside[i] || (curves == MshCurves::kNamed && !mesh.curves[mesh.line_curve[i]].names.empty());
-  return chosen;
-}
-
-/// Sorts elements and nodes into their entities' blocks, the points' first, then the curves'. A node belongs
+/// Sorts elements and nodes into the blocks of their entities, which are given by dimension. A node belongs
 /// to the first block that holds it.
-std::vector<Block> make_blocks(const Mesh& mesh, const std::vector<Entity>& point_entities,
-                               MshCurves curves) {
-  std::vector<Block> blocks;
-  const auto add_blocks = [&](int dim, const std::vector<Entity>& entities) {
-    const std::vector<std::string> groups = group_names(entities, dim);
-    for (size_t i = 0; i < entities.size(); ++i)
-      blocks.push_back({dim, &entities[i], groups[i], {}, {}, {}, {}, {}});
-  };
-  add_blocks(0, point_entities);
-  add_blocks(1, mesh.curves);
-  add_blocks(2, mesh.regions);
+std::vector<MshBlock> make_blocks(const std::vector<Vec3>& points,
+                                  const std::vector<const std::vector<Entity>*>& entities,
+                                  const std::vector<MshKind>& kinds) {
+  std::vector<MshBlock> blocks;
+  std::vector<int> first;  // block, by dimension
+  for (int dim = 0; dim < static_cast<int>(entities.size()); ++dim) {
+    first.push_back(static_cast<int>(blocks.size()));
+    const std::vector<std::string> groups = group_names(*entities[dim], dim);
+    for (size_t i = 0; i < groups.size(); ++i) blocks.push_back({dim, &(*entities[dim])[i], groups[i]});
+  }
   constexpr int kNone = std::numeric_limits<int>::max();
-  std::vector<int> owner(mesh.points.size(), kNone);
-  const auto add = [&](const auto& elements, const std::vector<int>& entity_of, int first_block,
-                       std::vector<int> Block::*list, const std::vector<char>* chosen = nullptr) {
-    for (size_t i = 0; i < elements.size(); ++i) {
-      if (chosen && !(*chosen)[i]) continue;
-      const int b = first_block + entity_of[i];
-      (blocks[b].*list).push_back(static_cast<int>(i));
-      for (const int v : elements[i]) {
-        blocks[b].cover(mesh.points[v]);
+  std::vector<int> owner(points.size(), kNone);
+  for (const MshKind& kind : kinds)
+    for (size_t i = 0; i < kind.entity_of.size(); ++i) {
+      if (!kind.chosen.empty() && !kind.chosen[i]) continue;
+      const int b = first[kind.dim] + kind.entity_of[i];
+      MshBlock& block = blocks[b];
+      if (block.elements.empty() || block.elements.back().first != &kind)
+        block.elements.push_back({&kind, {}});
+      block.elements.back().second.push_back(i);
+      for (const int v : kind.nodes_of(i)) {
+        block.box.add(points[v]);
         owner[v] = std::min(owner[v], b);
       }
     }
-  };
-  const int first_curve = static_cast<int>(point_entities.size());
-  const int first_region = first_curve + static_cast<int>(mesh.curves.size());
-  const std::vector<char> chosen = chosen_lines(mesh, curves);
-  for (int i = 0; i < first_curve; ++i) {
-    const int v = mesh.named_points[i].point;
-    blocks[i].points.push_back(v);
-    blocks[i].cover(mesh.points[v]);
-    owner[v] = std::min(owner[v], i);
-  }
-  add(mesh.lines, mesh.line_curve, first_curve, &Block::lines, &chosen);
-  add(mesh.triangles, mesh.triangle_region, first_region, &Block::triangles);
-  add(mesh.quads, mesh.quad_region, first_region, &Block::quads);
-  const auto own = [&](const std::vector<int>& nodes, int b) {
-    for (const int v : nodes) {
-      blocks[b].cover(mesh.points[v]);
-      owner[v] = std::min(owner[v], b);
-    }
-  };
-  if (mesh.order > 1) {
-    for (size_t i = 0; i < mesh.lines.size(); ++i)
-      if (chosen[i]) own(nodes_of_line(mesh, i), first_curve + mesh.line_curve[i]);
-    for (size_t i = 0; i < mesh.quads.size(); ++i)
-      own(nodes_of_quad(mesh, i), first_region + mesh.quad_region[i]);
-  }
-  for (size_t i = 0; i < owner.size(); ++i) {
+  for (size_t i = 0; i < owner.size(); ++i)
     if (owner[i] != kNone) blocks[owner[i]].nodes.push_back(static_cast<int>(i));
-  }
-  std::erase_if(blocks, [](const Block& block) { return block.is_empty(); });
+  std::erase_if(blocks, [](const MshBlock& block) { return block.elements.empty(); });
   return blocks;
 }
 
-/// The blocks learn their groups' tags.
-MshGroups number_groups(std::vector<Block>& blocks) {
+/// Names as they can stand between quotes, without control characters; Gmsh reads lines of up to 255 bytes.
+std::string quotable(const std::string& name) {
+  std::string label = name;
+  for (char& c : label) {
+    if (c == '"') c = '\'';
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return label;
+}
+
+/// Physical groups as files have them: dimension, number, label.
+using MshGroups = std::set<std::tuple<int, int, std::string>>;
+
+/// The blocks learn their groups' tags. A name that is a number is that group's number; others take those
+/// that are left, in order of appearance.
+MshGroups number_groups(std::vector<MshBlock>& blocks) {
+  constexpr size_t kLongestLabel = 200;
   std::vector<UniqueLabels::Key> keys;
-  for (const Block& block : blocks) keys.emplace_back(block.dim, block.group);
-  MshGroups groups = number_msh_groups(keys);
-  for (Block& block : blocks) block.group_tag = groups.tags.at({block.dim, block.group});
+  for (const MshBlock& block : blocks) keys.emplace_back(block.dim, block.group);
+  const UniqueLabels labels(keys, {quotable, false, kLongestLabel});
+  std::map<UniqueLabels::Key, int> tags;
+  std::set<int> taken;
+  for (const auto& key : keys) {
+    int tag = 0;
+    const std::string& name = key.second;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), tag);
+    if (error != std::errc() || tag <= 0 || name != std::to_string(tag)) continue;
+    tags[key] = tag;
+    taken.insert(tag);
+  }
+  MshGroups groups;
+  int next = 1;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const auto& key = keys[i];
+    if (!tags.contains(key)) {
+      while (taken.contains(next)) ++next;
+      tags[key] = next++;
+    }
+    blocks[i].group_tag = tags[key];
+    groups.insert({key.first, tags[key], labels.of(key)});
+  }
   return groups;
 }
 
-void write_entities(MshNumbers& out, const std::vector<Block>& blocks) {
-  const auto n_of = [&](int dim) {
-    return static_cast<size_t>(std::ranges::count(blocks, dim, &Block::dim));
-  };
+void write_head(MshNumbers& out, bool binary, const MshGroups& groups) {
+  out.line("$MeshFormat");
+  out.line(binary ? "4.1 1 8" : "4.1 0 8");
+  if (binary) {
+    out.integer(1);
+    out.line("");
+  }
+  out.line("$EndMeshFormat");
+  if (groups.empty()) return;
+  out.line("$PhysicalNames");
+  out.line(std::to_string(groups.size()));
+  for (const auto& [dim, tag, name] : groups)
+    out.line(std::to_string(dim) + ' ' + std::to_string(tag) + " \"" + name + '"');
+  out.line("$EndPhysicalNames");
+}
+
+void write_entities(MshNumbers& out, const std::vector<MshBlock>& blocks) {
   out.line("$Entities");
-  out.size(n_of(0)).size(n_of(1)).size(n_of(2)).size(0).end_line();
-  for (const Block& block : blocks) {
-    out.integer(block.entity->tag).point(block.low);
-    if (block.dim > 0) out.point(block.high);
+  for (const int dim : {0, 1, 2, 3})
+    out.size(static_cast<size_t>(std::ranges::count(blocks, dim, &MshBlock::dim)));
+  out.end_line();
+  for (const MshBlock& block : blocks) {
+    out.integer(block.entity->tag).point(block.box.low);
+    if (block.dim > 0) out.point(block.box.high);
     out.size(1).integer(block.group_tag);
     if (block.dim > 0) out.size(0);
     out.end_line();
@@ -134,56 +189,41 @@ void write_entities(MshNumbers& out, const std::vector<Block>& blocks) {
   out.end_section("$EndEntities");
 }
 
-void write_nodes(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+void write_nodes(MshNumbers& out, const std::vector<Vec3>& points, const std::vector<MshBlock>& blocks) {
   size_t count = 0;
   int last = 0;
-  for (const Block& block : blocks) {
+  for (const MshBlock& block : blocks) {
     count += block.nodes.size();
     if (!block.nodes.empty()) last = std::max(last, block.nodes.back() + 1);
   }
   out.line("$Nodes");
   out.size(blocks.size()).size(count).size(1).size(last).end_line();
-  for (const Block& block : blocks) {
+  for (const MshBlock& block : blocks) {
     out.integer(block.dim).integer(block.entity->tag).integer(0).size(block.nodes.size()).end_line();
     for (const int i : block.nodes) out.size(i + 1).end_line();
-    for (const int i : block.nodes) out.point(mesh.points[i]).end_line();
+    for (const int i : block.nodes) out.point(points[i]).end_line();
   }
   out.end_section("$EndNodes");
 }
 
-void write_elements(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks, QuadNodes nodes) {
+void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
   size_t n_blocks = 0, count = 0;
-  for (const Block& b : blocks) {
-    n_blocks += !b.points.empty() + !b.lines.empty() + !b.triangles.empty() + !b.quads.empty();
-    count += b.points.size() + b.lines.size() + b.triangles.size() + b.quads.size();
+  for (const MshBlock& block : blocks) {
+    n_blocks += block.elements.size();
+    for (const auto& [kind, items] : block.elements) count += items.size();
   }
   out.line("$Elements");
   out.size(n_blocks).size(count).size(1).size(count).end_line();
   size_t tag = 0;
-  const auto write = [&](const Block& block, const std::vector<int>& list, int type, const auto& nodes_of) {
-    if (list.empty()) return;
-    out.integer(block.dim).integer(block.entity->tag).integer(type).size(list.size()).end_line();
-    for (const int i : list) {
-      out.size(++tag);
-      for (const int v : nodes_of(static_cast<size_t>(i))) out.size(v + 1);
-      out.end_line();
+  for (const MshBlock& block : blocks)
+    for (const auto& [kind, items] : block.elements) {
+      out.integer(block.dim).integer(block.entity->tag).integer(kind->type).size(items.size()).end_line();
+      for (const size_t i : items) {
+        out.size(++tag);
+        for (const int v : kind->nodes_of(i)) out.size(v + 1);
+        out.end_line();
+      }
     }
-  };
-  constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
-  const size_t order = static_cast<size_t>(mesh.order) - 1;
-  constexpr int kEightNodes = 16;
-  std::vector<int> places = gmsh_places(mesh.order);
-  if (nodes == QuadNodes::kNoMiddle) places.pop_back();
-  const int of_quads = nodes == QuadNodes::kNoMiddle ? kEightNodes : kQuads[order];
-  for (const Block& block : blocks) {
-    if (!block.points.empty()) {
-      out.integer(0).integer(block.entity->tag).integer(15).size(1).end_line();
-      out.size(++tag).size(block.points[0] + 1).end_line();
-    }
-    write(block, block.lines, kLines[order], [&](size_t i) { return nodes_ends_first(mesh, i); });
-    write(block, block.triangles, 2, [&](size_t i) { return mesh.triangles[i]; });
-    write(block, block.quads, of_quads, [&](size_t i) { return nodes_of_quad(mesh, i, places); });
-  }
   out.end_section("$EndElements");
 }
 
@@ -206,9 +246,10 @@ void add_point_links(const Mesh& mesh, std::vector<PeriodicLink>& links) {
 }
 
 /// Links whose entities are written.
-void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>& blocks) {
+void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<MshBlock>& blocks) {
   const auto is_written = [&](int dim, const Entity& entity) {
-    return std::ranges::any_of(blocks, [&](const Block& b) { return b.dim == dim && b.entity == &entity; });
+    return std::ranges::any_of(blocks,
+                               [&](const MshBlock& b) { return b.dim == dim && b.entity == &entity; });
   };
   std::vector<PeriodicLink> links;
   add_point_links(mesh, links);
@@ -235,50 +276,117 @@ void write_periodic(MshNumbers& out, const Mesh& mesh, const std::vector<Block>&
   out.end_section("$EndPeriodic");
 }
 
+/// Names of entities beside their groups, which other programs skip.
+void write_more_names(std::ostream& stream, const std::vector<MshBlock>& blocks) {
+  TextWriter out(stream);
+  std::vector<std::pair<const MshBlock*, std::string>> all;
+  for (const MshBlock& block : blocks)
+    for (const std::string& name : block.entity->names)
+      if (name != block.group) all.emplace_back(&block, quotable(name));
+  if (all.empty()) return;
+  out << "$MoreNames\n" << all.size() << '\n';
+  for (const auto& [block, name] : all)
+    out << block->dim << ' ' << block->entity->tag << " \"" << name << "\"\n";
+  out << "$EndMoreNames\n";
+  out.flush();
+}
+
+/// `mesh`: with pairs of periodic entities; null: of hexahedra, which have none.
+void write_blocks(std::ostream& stream, bool binary, const std::vector<Vec3>& points,
+                  std::vector<MshBlock> blocks, const std::string& unit, const Mesh* mesh) {
+  MshNumbers out(stream, binary);
+  write_head(out, binary, number_groups(blocks));
+  write_entities(out, blocks);
+  write_nodes(out, points, blocks);
+  write_elements(out, blocks);
+  if (mesh != nullptr) write_periodic(out, *mesh, blocks);
+  out.flush();
+  write_more_names(stream, blocks);
+  if (!unit.empty()) stream << "$Unit\n" << unit << "\n$EndUnit\n";
+}
+
+/// Whether each line is written.
+std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
+  std::vector<char> chosen(mesh.lines.size(), 1);
+  if (curves == MshCurves::kAll) return chosen;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    const bool is_inside = sides_of_edge(sides, mesh.lines[i][0], mesh.lines[i][1]).size() > 1;
+    const bool is_named = !mesh.curves[mesh.line_curve[i]].names.empty();
+    chosen[i] = !is_inside || (curves == MshCurves::kNamed && is_named);
+  }
+  return chosen;
+}
+
 std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {
   std::vector<Entity> entities;
   for (const NamedPoint& named : points) entities.push_back(named.entity);
   return entities;
 }
 
-std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
+/// Calls visit(blocks), which live as long.
+template <class Visit>
+void with_blocks(const Mesh& mesh, MshCurves curves, QuadNodes nodes, const Visit& visit) {
+  constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
+  constexpr int kPoint = 15, kTriangle = 2, kEightNodes = 16;
+  const size_t order = static_cast<size_t>(mesh.order) - 1;
+  const bool eight = nodes == QuadNodes::kNoMiddle;
+  std::vector<int> places = gmsh_places(mesh.order), point_entity(mesh.named_points.size());
+  if (eight) places.pop_back();
+  std::iota(point_entity.begin(), point_entity.end(), 0);
   const std::vector<Entity> point_entities = entities_of(mesh.named_points);
-  std::vector<Block> blocks = make_blocks(mesh, point_entities, MshCurves::kNamed);
-  std::map<std::pair<int, int>, std::string> label_of;
-  for (const auto& [dim, tag, label] : number_groups(blocks).labels) label_of[{dim, tag}] = label;
+  const std::vector<MshKind> kinds = {
+      {0, kPoint, point_entity, [&](size_t i) { return std::vector{mesh.named_points[i].point}; }},
+      {1, kLines[order], mesh.line_curve, [&](size_t i) { return nodes_ends_first(mesh, i); },
+       chosen_lines(mesh, curves)},
+      {2, kTriangle, mesh.triangle_region,
+       [&](size_t i) { return std::vector(mesh.triangles[i].begin(), mesh.triangles[i].end()); }},
+      {2, eight ? kEightNodes : kQuads[order], mesh.quad_region,
+       [&](size_t i) { return nodes_of_quad(mesh, i, places); }}};
+  visit(make_blocks(mesh.points, {&point_entities, &mesh.curves, &mesh.regions}, kinds));
+}
+
+std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
   std::vector<std::string> lines;
-  std::set<UniqueLabels::Key> told;
-  constexpr std::array kKinds = {"point", "curve", "region"};
-  for (const Block& b : blocks)
-    if (const std::string& label = label_of.at({b.dim, b.group_tag});
-        label != b.group && told.emplace(b.dim, b.group).second)
-      lines.push_back(std::string(kKinds[b.dim]) + " \"" + one_line(b.group) + "\" is " + label);
+  with_blocks(mesh, MshCurves::kNamed, QuadNodes::kAll, [&](std::vector<MshBlock> blocks) {
+    std::map<std::pair<int, int>, std::string> label_of;
+    for (const auto& [dim, tag, label] : number_groups(blocks)) label_of[{dim, tag}] = label;
+    std::set<UniqueLabels::Key> told;
+    constexpr std::array kKinds = {"point", "curve", "region"};
+    for (const MshBlock& b : blocks)
+      if (const std::string& label = label_of.at({b.dim, b.group_tag});
+          label != b.group && told.emplace(b.dim, b.group).second)
+        lines.push_back(std::string(kKinds[b.dim]) + " \"" + one_line(b.group) + "\" is " + label);
+  });
   return lines;
 }
 
 }  // namespace
 
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes) {
-  const std::vector<Entity> point_entities = entities_of(mesh.named_points);
-  std::vector<Block> blocks = make_blocks(mesh, point_entities, options.curves);
-  const MshGroups groups = number_groups(blocks);
-  MshNumbers out(stream, options.binary);
-  write_msh_header(out, options.binary);
-  write_msh_groups(out, groups);
-  write_entities(out, blocks);
-  write_nodes(out, mesh, blocks);
-  write_elements(out, mesh, blocks, nodes);
-  write_periodic(out, mesh, blocks);
-  out.flush();
-  std::vector<MshEntity> entities;
-  for (const Block& block : blocks) entities.push_back({block.dim, block.entity, block.group});
-  write_more_names(stream, entities);
-  write_msh_unit(stream, mesh.unit);
+  with_blocks(mesh, options.curves, nodes, [&](std::vector<MshBlock> blocks) {
+    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh);
+  });
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options,
                QuadNodes nodes) {
   write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, nodes); });
+}
+
+void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary) {
+  constexpr int kLine = 1, kQuad = 3, kHexahedron = 5;
+  const auto nodes = [](const auto& elements) {
+    return [&elements](size_t i) { return std::vector(elements[i].begin(), elements[i].end()); };
+  };
+  const std::vector<Entity> no_points;
+  const std::vector<MshKind> kinds = {{1, kLine, mesh.line_curve, nodes(mesh.lines)},
+                                      {2, kQuad, mesh.quad_face, nodes(mesh.quads)},
+                                      {3, kHexahedron, mesh.hex_volume, nodes(mesh.hexahedra)}};
+  auto blocks = make_blocks(mesh.points, {&no_points, &mesh.curves, &mesh.faces, &mesh.volumes}, kinds);
+  write_file_atomically(path, [&](std::ostream& stream) {
+    write_blocks(stream, binary, mesh.points, std::move(blocks), mesh.unit, nullptr);
+  });
 }
 
 MeshFormat msh_format() {

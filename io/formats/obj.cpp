@@ -3,9 +3,9 @@
 #include <map>
 
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
 
@@ -149,8 +149,7 @@ Mesh read_obj(const std::filesystem::path& path, ReadNotes* notes, Strays strays
 /// Wavefront OBJ; names of curves and regions become groups, their white space underscores; names that would
 /// be one then get numbers, and comments say so.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(path, [&](TextWriter& out) {
     const UniqueLabels labels = label_groups(mesh);
     for (const auto& [key, label] : labels.renamed())
       out << "# group " << label << " is \"" << one_line(key.second) << "\"\n";
@@ -159,7 +158,6 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves, labels);
     write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions, labels);
     write_elements(out, 'f', mesh.quads, mesh.quad_region, mesh.regions, labels);
-    out.flush();
   });
 }
 

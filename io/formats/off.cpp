@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
 #include "io/text_scanner.h"
 
 namespace delquad {

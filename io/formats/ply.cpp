@@ -7,10 +7,9 @@
 #include <cstdint>
 #include <cstring>
 
-#include "io/face_colours.h"
+#include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
 #include "io/text_scanner.h"
 
 // CGAL's reader sets aside whatever memory a damaged length asks for, and does not say where it stopped.

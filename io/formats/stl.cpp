@@ -10,9 +10,9 @@
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/weld.h"
+#include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
 #include "io/text_scanner.h"
 
 namespace delquad {

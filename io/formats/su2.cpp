@@ -15,8 +15,7 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   constexpr int kLine = 3, kTriangle = 5, kQuad = 9;
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(path, [&](TextWriter& out) {
     out << "% quad mesh by Delquad\n";
     if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
     for (const std::string& line : renamed_groups(groups)) out << "% " << line << '\n';
@@ -48,7 +47,6 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
       out << "MARKER_TAG= " << group->label << "\nMARKER_ELEMS= " << lines.size() << '\n';
       for (const int l : lines) out << kLine << ' ' << mesh.lines[l][0] << ' ' << mesh.lines[l][1] << '\n';
     }
-    out.flush();
   });
 }
 

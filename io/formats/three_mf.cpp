@@ -15,10 +15,9 @@
 #include "base/located.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
-#include "io/face_colours.h"
+#include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polygons.h"
 #include "io/text_scanner.h"
 
 // 3D Manufacturing Format, core specification 1.3, its materials, and of production that objects may lie in

@@ -4,7 +4,6 @@
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
-#include "io/formats/vtu_output.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -59,8 +58,7 @@ void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
   constexpr std::array kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
   constexpr int kTriangle = 5;
   const std::vector<int> places = mesh.order == 2 ? gmsh_places(2) : vtk_places(mesh.order);
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
+  write_text_file(path, [&](TextWriter& out) {
     out << "# vtk DataFile Version 3.0\n" << kVtkTitle << "\nASCII\nDATASET UNSTRUCTURED_GRID\n";
     std::vector<std::string> arrays;
     add_name_arrays("curve", mesh.curves, arrays);
@@ -95,7 +93,6 @@ void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
     for (size_t i = 0; i < mesh.lines.size(); ++i) out << "0\n";
     for (const auto* regions : {&mesh.triangle_region, &mesh.quad_region})
       for (const int r : *regions) out << mesh.regions[r].tag << '\n';
-    out.flush();
   });
 }
 

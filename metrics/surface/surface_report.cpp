@@ -10,9 +10,8 @@
 #include "base/parallel.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "metrics/surface/face_normals.h"
 #include "metrics/surface/near_cuts.h"
-#include "metrics/surface/nearest_element.h"
+#include "metrics/surface/surface_search.h"
 
 namespace delquad {
 

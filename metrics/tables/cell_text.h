@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "metrics/tables/bootstrap.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 

@@ -12,9 +12,9 @@
 #include "delquad/error.h"
 #include "metrics/metrics.h"
 #include "metrics/tables/cell_text.h"
-#include "metrics/tables/claims.h"
 #include "metrics/tables/pairs.h"
 #include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/bootstrap.h"
 #include "metrics/tables/result_records.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 
@@ -58,7 +58,7 @@ struct Comparison {
 /// `tolerance` times the larger of both magnitudes; a value that is no longer defined is worse. Where a row
 /// has several seeds on both sides, and over all domains where there are six or more, changes are tested by
 /// Wilcoxon's signed-rank test, times of repeated runs by the Mann-Whitney U test, all of them one family
-/// (see claims.h). Throws InputError for a metric that does not exist or of which neither more nor less is
+/// (see ClaimFamily). Throws InputError for a metric that does not exist or of which neither more nor less is
 /// better. "seconds" counts as a metric.
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance);

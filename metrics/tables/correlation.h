@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/bootstrap.h"
 #include "metrics/tables/result_records.h"
+#include "metrics/tables/statistics.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {

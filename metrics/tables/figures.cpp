@@ -180,7 +180,7 @@ std::vector<std::string> write_figures(const fs::path& folder, const std::vector
   std::vector<std::string> errors;
   for (const Figure& figure : figures) try {
       draw_diagram(at / (figure.name + ".svg"), figure.diagram);
-      write_file_atomically(at / (figure.name + ".csv"), [&](std::ostream& out) { out << figure.csv; });
+      write_text_file(at / (figure.name + ".csv"), figure.csv);
     } catch (const InputError& error) {
       errors.push_back(error.what());
     }

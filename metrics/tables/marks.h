@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "delquad/metrics.h"
-#include "metrics/tables/claims.h"
 #include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/claims.h"
 #include "metrics/tables/marks.h"
 #include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {

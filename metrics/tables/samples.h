@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/bootstrap.h"
 #include "metrics/tables/result_records.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 

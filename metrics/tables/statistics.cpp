@@ -1,10 +1,13 @@
 #include "metrics/tables/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/binomial.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -65,6 +68,40 @@ double normal_choice_tail(const std::vector<int>& ranks, std::size_t n, double o
   const auto chosen = static_cast<double>(n);
   const double deviation = std::sqrt(chosen * (total - chosen) / total * squares / (total - 1));
   return deviation > 0 ? cdf(boost::math::normal(), -std::max(0.0, off - 1) / deviation) : 1;
+}
+
+constexpr int kResamples = 2000;
+constexpr std::uint64_t kSeed = 20130903;  // any will do, as long as it stays
+
+double redrawn_mean(const DomainSamples& domain, RandomIndex& draw) {
+  double sum = 0;
+  for (const std::vector<double>& seeds : domain) {
+    double of_variant = 0;
+    for (std::size_t k = 0; k < seeds.size(); ++k) of_variant += seeds[draw(seeds.size())];
+    sum += of_variant / static_cast<double>(seeds.size());
+  }
+  return sum / static_cast<double>(domain.size());
+}
+
+/// With linear interpolation between sorted values.
+double quantile_of(const std::vector<double>& sorted, double part) {
+  const double at = part * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// The largest p-value that a test may be able to reach and count: kSignificance over the least number K such
+/// that no more than K tests can reach kSignificance / K [tarone1990].
+double reach(const std::vector<RankTest>& tests) {
+  std::vector<double> least;
+  for (const RankTest& test : tests) least.push_back(test.least_p);
+  std::ranges::sort(least);
+  for (std::size_t k = 1;; ++k) {
+    const double level = kSignificance / static_cast<double>(k);
+    if (std::ranges::upper_bound(least, level) - least.begin() <= static_cast<std::ptrdiff_t>(k))
+      return level;
+  }
 }
 
 }  // namespace
@@ -165,6 +202,63 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
   if (!(squares > 0)) return std::nullopt;
   const double exponent = products / squares;
   return PowerLaw{std::exp(v0 - exponent * u0), exponent};
+}
+
+double domain_mean(const DomainSamples& domain) {
+  double sum = 0;
+  for (const std::vector<double>& seeds : domain) sum += mean(seeds);
+  return sum / static_cast<double>(domain.size());
+}
+
+std::optional<Interval> bootstrap_interval(const std::vector<DomainSamples>& domains) {
+  if (domains.size() < 2) return std::nullopt;
+  RandomIndex draw(kSeed);
+  std::vector<double> means;
+  for (int i = 0; i < kResamples; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < domains.size(); ++k) sum += redrawn_mean(domains[draw(domains.size())], draw);
+    means.push_back(sum / static_cast<double>(domains.size()));
+  }
+  std::ranges::sort(means);
+  constexpr double kTail = 0.025;
+  return Interval{quantile_of(means, kTail), quantile_of(means, 1 - kTail)};
+}
+
+std::size_t ClaimFamily::add(const RankTest& test) {
+  tests_.push_back(test);
+  return tests_.size() - 1;
+}
+
+void ClaimFamily::decide() {
+  findings_.assign(tests_.size(), Finding::kTooFew);
+  adjusted_.assign(tests_.size(), std::numeric_limits<double>::quiet_NaN());
+  const double level = reach(tests_);
+  std::vector<std::size_t> which;
+  std::vector<double> p;
+  for (std::size_t i = 0; i < tests_.size(); ++i)
+    if (tests_[i].least_p <= level) {
+      which.push_back(i);
+      p.push_back(tests_[i].p);
+    }
+  counted_ = which.size();
+  const std::vector<double> adjusted = holm(p);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    adjusted_[which[k]] = adjusted[k];
+    findings_[which[k]] = adjusted[k] <= kSignificance ? Finding::kProven : Finding::kNotProven;
+  }
+}
+
+std::string ClaimFamily::note() const {
+  if (tests_.empty()) return "Nothing is tested: that takes several seeds or domains.";
+  if (counted_ == 0)
+    return fmt::format("Nothing can be proven: {} test{}, with too few samples.", tests_.size(),
+                       tests_.size() == 1 ? "" : "s");
+  std::string text = fmt::format(
+      "Corrected (Holm) over {} test{}, which are all of this study that could prove a difference at 5 %",
+      counted_, counted_ == 1 ? "" : "s");
+  if (const std::size_t rest = tests_.size() - counted_; rest > 0)
+    text += fmt::format("; {} more could not, with so few samples, and do not count", rest);
+  return text + ".";
 }
 
 }  // namespace delquad

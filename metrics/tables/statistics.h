@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace delquad {
@@ -38,5 +43,70 @@ struct PowerLaw {
 };
 /// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
+
+/// Whole numbers below n, the same with every compiler and library, unlike the standard's distributions.
+class RandomIndex {
+ public:
+  explicit RandomIndex(std::uint64_t seed) : random_(seed) {}
+  std::size_t operator()(std::size_t n) {
+    const double part = std::ldexp(static_cast<double>(random_() >> 11), -53);
+    return static_cast<std::size_t>(part * static_cast<double>(n));
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Samples of one domain: of each of its variants the seeds.
+using DomainSamples = std::vector<std::vector<double>>;
+
+/// The mean over variants of the mean over seeds; no variant may be empty.
+double domain_mean(const DomainSamples& domain);
+
+struct Interval {
+  double low, high;
+};
+
+/// The 95 % interval of the mean of domain means by the bootstrap in two stages [davison1997, section 3.8]:
+/// domains are drawn with replacement, then in each of them the seeds of every variant; the 2.5th and 97.5th
+/// percentile of 2000 means. The same numbers every time. Nothing of fewer than two domains.
+std::optional<Interval> bootstrap_interval(const std::vector<DomainSamples>& domains);
+
+/// The probability of any false claim in all tables of a study.
+inline constexpr double kSignificance = 0.05;
+
+enum class Finding {
+  kProven,     ///< a difference
+  kNotProven,  ///< no difference is
+  kTooFew      ///< samples: nothing could have been proven, whatever they say
+};
+
+/// All tests of a study: what may be claimed, so that the probability of any false claim, anywhere, is at
+/// most kSignificance, however the tests depend on each other.
+///
+/// By Holm's method [holm1979] over the tests that could have proven something. The others, whose least
+/// p-value is above what the correction for all that count asks for, do not count [tarone1990]: their least
+/// p-values are known from the number of samples alone, before anybody has won.
+class ClaimFamily {
+ public:
+  /// Returns the number of the test.
+  std::size_t add(const RankTest& test);
+  /// To be called once, after all tests are added and before anything is asked.
+  void decide();
+  const RankTest& test(std::size_t test) const { return tests_[test]; }
+  Finding finding(std::size_t test) const { return findings_[test]; }
+  /// Holm's; NaN of those that do not count.
+  double adjusted_p(std::size_t test) const { return adjusted_[test]; }
+  std::size_t size() const { return tests_.size(); }
+  std::size_t counted() const { return counted_; }
+  /// For people: over how many tests was corrected, and how many do not count.
+  std::string note() const;
+
+ private:
+  std::vector<RankTest> tests_;
+  std::vector<Finding> findings_;
+  std::vector<double> adjusted_;
+  std::size_t counted_ = 0;
+};
 
 }  // namespace delquad

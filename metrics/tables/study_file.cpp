@@ -100,8 +100,7 @@ const std::vector<StepTime>& step_times_of_tables() {
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {
-  write_file_atomically(folder / kStudyFile,
-                        [&](std::ostream& out) { out << sealed(to_json(study).dump(2) + "\n"); });
+  write_text_file(folder / kStudyFile, sealed(to_json(study).dump(2) + "\n"));
 }
 
 std::optional<StudyFile> read_study(const std::filesystem::path& folder) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/bootstrap.h"
+#include "metrics/tables/statistics.h"
 
 namespace delquad {
 
@@ -85,5 +85,31 @@ nlohmann::ordered_json json_without_rows(const Table& table);
 std::string to_json(const Table& table);
 /// What to_json() has written. Throws InputError naming the file.
 Table read_table(const std::filesystem::path& file);
+
+/// How a format shows marks, and texts that mean something to it.
+struct TableStyle {
+  const char *best_begin, *best_end, *as_good, *plus_minus;
+  std::string (*escape)(const std::string&);
+};
+
+/// A table as texts, ready to be set.
+struct RenderedTable {
+  struct Line {
+    std::vector<std::string> names;   ///< group and name
+    std::vector<std::string> values;  ///< by column
+    std::string
+        missing;  ///< in place of values: "failed", "skipped" or kNotApplicable; empty: they are there
+  };
+  Line head;
+  std::vector<Line> lines;
+  std::vector<std::string> notes;  ///< not escaped
+};
+
+/// The columns that are to be shown. `notes` say why rows failed, what the marks and brackets mean, and where
+/// published values stand.
+RenderedTable render(const Table& table, const TableStyle& style);
+
+double value_or_nan(const std::map<std::string, double>& values, const std::string& key);
+std::string replace_all(std::string text, const std::string& from, const std::string& to);
 
 }  // namespace delquad

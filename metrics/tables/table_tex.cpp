@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "metrics/tables/rendered_table.h"
+#include "metrics/tables/table.h"
 
 // Tables for LaTeX. They are set at 8 points, and columns that do not fit beside each other stand below each
 // other, over the same rows. Widths are those of Computer Modern, rounded up.

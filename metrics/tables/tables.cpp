@@ -8,12 +8,11 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "metrics/tables/calibration_notes.h"
 #include "metrics/tables/cell_text.h"
 #include "metrics/tables/inference.h"
+#include "metrics/tables/notes.h"
 #include "metrics/tables/statistics.h"
 #include "metrics/tables/times.h"
-#include "metrics/tables/triangle_notes.h"
 
 namespace delquad {
 namespace {
@@ -280,8 +279,7 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
     for (const TableFormat& format : table_formats()) {
       const fs::path file = folder / (std::string(name) + format.extension);
       try {
-        if (!table->rows.empty())
-          write_file_atomically(file, [&](std::ostream& out) { out << format.print(*table); });
+        if (!table->rows.empty()) write_text_file(file, format.print(*table));
       } catch (const InputError& error) {
         errors.push_back(error.what());
       }

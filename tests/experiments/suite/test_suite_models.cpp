@@ -2,10 +2,9 @@
 
 #include <set>
 
-#include "experiments/suite/planar_models.h"
+#include "experiments/suite/model_makers.h"
 #include "experiments/suite/random.h"
 #include "experiments/suite/suite_list.h"
-#include "experiments/suite/triangle_models.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad {
@@ -101,7 +100,7 @@ TEST(SuiteTriangles, AreManifoldsOfTheirGenus) {
                                             {"star_prism", 2},   {"genus3", -4},       {"genus3_noisy", -4},
                                             {"blobs", 2},        {"terrain", 1},       {"terrain_holes", -3}};
   const std::set<std::string> open = {"torus_holes", "terrain", "terrain_holes"};
-  for (const TriangleSuiteModel& model : triangle_suite_models()) {
+  for (const SuiteMaker<Mesh>& model : triangle_suite_models()) {
     const Mesh mesh = model.make();
     const Shape shape = shape_of(mesh);
     EXPECT_EQ(shape.euler, euler.at(model.name)) << model.name;

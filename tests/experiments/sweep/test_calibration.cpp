@@ -5,7 +5,7 @@
 #include "base/calibration.h"
 #include "experiments/sweep/peer_reference.h"
 #include "mesher/prepare.h"
-#include "metrics/tables/calibration_notes.h"
+#include "metrics/tables/notes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

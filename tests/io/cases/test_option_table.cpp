@@ -7,7 +7,6 @@
 
 #include "base/option_table.h"
 #include "io/cases/case_keys.h"
-#include "io/cases/option_table_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {

@@ -2,7 +2,6 @@
 
 #include "features/curves/surface_input.h"
 #include "io/cases/case_file.h"
-#include "io/cases/surface_spec.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 

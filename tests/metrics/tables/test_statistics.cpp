@@ -4,9 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "metrics/tables/bootstrap.h"
 #include "metrics/tables/cell_text.h"
-#include "metrics/tables/claims.h"
 #include "metrics/tables/statistics.h"
 
 namespace delquad {

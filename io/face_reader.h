@@ -1,13 +1,43 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "io/text_scanner.h"
 
 namespace delquad {
+
+/// Throws InputError for the first stray point of a mesh, unless they are kept. `place`: where the file has a
+/// point.
+void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
+
+/// What the readers of text files of points and faces share.
+class FaceReader {
+ protected:
+  FaceReader(const std::filesystem::path& path, const char* kind, Strays strays);
+  /// One more coordinate of the point on this line.
+  double coordinate();
+  /// A point that was read just now.
+  void add_point(const Vec3& p);
+  /// Adds a face of these vertices to the mesh, as a quad or triangles. Throws InputError with the line for
+  /// one that cannot be split.
+  void add_face(const std::vector<int>& corners, int region);
+  /// The mesh without points that nothing uses. Notes how many faces were split, if any.
+  Mesh finished(ReadNotes* notes);
+
+  TextScanner in_;
+  Mesh mesh_;
+  Strays strays_;
+
+ private:
+  std::vector<size_t> places_;                  ///< of the points in the file
+  long long n_polygons_ = 0, n_triangles_ = 0;  ///< that were split, and what they became
+};
 
 /// Regions of faces by their colour, as scans and prints have their parts.
 class FaceColours {

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// Removes what an earlier run left in a cell's folder, which would pass for what this one made: files that
+/// its record lists, and those that runs without a record leave. Files of others stay.
+void remove_cell(const std::filesystem::path& folder);
+
+/// Makes a cell's folder anew: `write` fills a temporary folder beside it, which then takes its place, so
+/// that the files appear together or not at all (one by one where the folder holds files of others, which
+/// stay). What an earlier run left there is removed in any case. Ctrl-C waits meanwhile. Throws InputError
+/// when something cannot be written.
+void write_cell(const std::filesystem::path& folder,
+                const std::function<void(const std::filesystem::path&)>& write);
+
+/// Makes the folder, or throws InputError when it cannot be made or written to.
+void prepare_folder(const std::filesystem::path& folder);
+
+/// A new folder for temporary files, removed at the end with what it holds.
+class ScratchFolder {
+ public:
+  /// Where the system has its temporary files. Throws InputError when it cannot be made.
+  ScratchFolder();
+  /// Beside `target`, with a name of its own that begins with a dot.
+  explicit ScratchFolder(const std::filesystem::path& target);
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit ScratchFolder(std::string pattern);
+  std::filesystem::path path_;
+};
+
+/// The right to write to a folder of results, until it is given up or the process and those it has started
+/// are gone.
+class FolderLock {
+ public:
+  /// A whole run, or one of several shards (by index), which may work at the same time. Throws InputError
+  /// when another run has the folder.
+  FolderLock(const std::filesystem::path& folder, std::size_t shard, std::size_t shards);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  void lock(const std::filesystem::path& file, bool shared);
+  std::vector<int> files_;
+};
+
+}  // namespace delquad

@@ -1,0 +1,94 @@
+#include "io/face_reader.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "delquad/error.h"
+#include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/split_polygon.h"
+#include "geometry/mesh/stray_points.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+
+void FaceReader::add_face(const std::vector<int>& corners, int region) {
+  const size_t n = corners.size();
+  if (n < 3) in_.fail(fmt::format("face of {} vertices: expected three or more", n));
+  if (n == 4) {
+    mesh_.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+    mesh_.quad_region.push_back(region);
+    return;
+  }
+  std::vector<std::array<int, 3>> triangles = {{0, 1, 2}};
+  if (n > 4) {
+    std::vector<Vec3> points;
+    for (const int v : corners) points.push_back(mesh_.points[v]);
+    auto parts = split_polygon(points);
+    if (!parts)
+      in_.fail(
+          fmt::format("face of {} vertices: expected a polygon that does not cross itself, to split it "
+                      "into triangles",
+                      n));
+    triangles = std::move(*parts);
+    ++n_polygons_;
+    n_triangles_ += static_cast<long long>(triangles.size());
+  }
+  for (const auto& t : triangles) mesh_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+  mesh_.triangle_region.insert(mesh_.triangle_region.end(), triangles.size(), region);
+}
+
+void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place) {
+  if (strays == Strays::kKept) return;
+  if (const auto found = stray_points(mesh); !found.empty())
+    throw InputError(place(found[0].point) + ": " + describe(found[0], mesh));
+}
+
+FaceReader::FaceReader(const std::filesystem::path& path, const char* kind, Strays strays)
+    : in_(path), strays_(strays) {
+  refuse_other_kinds(in_, kind);
+}
+
+void FaceReader::add_point(const Vec3& p) {
+  mesh_.points.push_back(p);
+  places_.push_back(in_.position());
+}
+
+double FaceReader::coordinate() {
+  if (in_.at_end_of_line()) in_.fail("expected three coordinates");
+  return in_.real("a coordinate", strays_);
+}
+
+Mesh FaceReader::finished(ReadNotes* notes) {
+  if (notes && n_polygons_ > 0)
+    notes->push_back(fmt::format("{} of more than four vertices {} split into {} triangles",
+                                 n_polygons_ == 1 ? "1 face" : fmt::format("{} faces", n_polygons_),
+                                 n_polygons_ == 1 ? "was" : "were", n_triangles_));
+  check_strays(mesh_, strays_, [&](int i) { return in_.place(places_[static_cast<size_t>(i)]); });
+  drop_unused_points(mesh_);
+  return std::move(mesh_);
+}
+
+std::string colour_text(const std::array<int, 3>& rgb) {
+  return fmt::format("{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
+void FaceColours::finish(Mesh& mesh, ReadNotes* notes) const {
+  std::set<std::string> colours;
+  for (const auto& [key, at] : index_) colours.insert(key.second);
+  if (colours.size() <= kMost) {
+    mesh.regions = regions_;
+    return;
+  }
+  FaceColours plain;
+  std::vector<int> part(regions_.size());
+  for (const auto& [key, at] : index_) part[at] = plain.region(key.first, "");
+  for (auto* regions : {&mesh.triangle_region, &mesh.quad_region})
+    for (int& region : *regions) region = part[region];
+  mesh.regions = plain.regions_;
+  if (notes)
+    notes->push_back(fmt::format("the faces' {} colours are left out: up to {} would become regions",
+                                 colours.size(), kMost));
+}
+
+}  // namespace delquad
