@@ -8,10 +8,9 @@
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/scaling/scale_sizes.h"
-#include "mesher/check_problem.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
-#include "patches/all_patches.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -9,17 +10,119 @@
 #include "base/box.h"
 #include "base/context.h"
 #include "base/located.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"
+#include "geometry/mesh/check_mesh.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "io/polyline_file.h"
+#include "io/text_scanner.h"
 #include "program/check_files.h"
 #include "program/commands.h"
+#include "program/options.h"
 
 namespace delquad {
-
 namespace {
+
+constexpr const char* kTextPoints = ".txt";
+
+std::vector<Vec3> read_text_points(const std::filesystem::path& path) {
+  TextScanner in(path);
+  std::vector<Vec3> points;
+  while (!in.at_end()) {
+    if (in.next_is('#')) {
+      in.rest_of_line();
+      continue;
+    }
+    Vec3 p;
+    for (double* x : {&p.x, &p.y, &p.z}) *x = in.real("a coordinate");
+    if (!in.at_end_of_line() && !in.next_is('#')) in.fail("more than three coordinates on a line");
+    points.push_back(p);
+  }
+  return points;
+}
+
+/// Lines as one chain; `where` names them.
+std::vector<Vec3> chain_of(const Mesh& mesh, const std::vector<std::array<int, 2>>& lines,
+                           const Vec3& start_near, const std::string& where) {
+  std::vector<std::vector<int>> neighbours(mesh.points.size());
+  for (const auto& [a, b] : lines) {
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  }
+  std::vector<int> ends;
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (neighbours[i].size() == 1) ends.push_back(static_cast<int>(i));
+    if (neighbours[i].size() > 2) {
+      const Vec3& p = mesh.points[i];
+      throw InputError(fmt::format("{}: {} lines meet at ({}, {}, {}): expected one chain", where,
+                                   neighbours[i].size(), p.x, p.y, p.z));
+    }
+  }
+  if (ends.size() != 2)
+    throw InputError(fmt::format("{}: its {} lines have {} ends: expected one open chain, with two", where,
+                                 lines.size(), ends.size()));
+  const auto far = [&](int i) { return norm(mesh.points[i] - start_near); };
+  int before = -1, at = far(ends[1]) < far(ends[0]) ? ends[1] : ends[0];
+  std::vector<Vec3> points = {mesh.points[at]};
+  for (;;) {
+    const auto next = std::ranges::find_if(neighbours[at], [&](int i) { return i != before; });
+    if (next == neighbours[at].end()) break;
+    before = at;
+    at = *next;
+    points.push_back(mesh.points[at]);
+  }
+  if (points.size() != lines.size() + 1)
+    throw InputError(fmt::format("{}: beside one chain of {} lines there are {} that close", where,
+                                 points.size() - 1, lines.size() + 1 - points.size()));
+  return points;
+}
+
+bool is_mesh_file(const std::filesystem::path& path) {
+  const std::string kind = kind_of_file(path);
+  return std::ranges::any_of(mesh_formats(), [&](const MeshFormat& format) {
+    return format.read != nullptr && std::ranges::find(format.extensions, kind) != format.extensions.end();
+  });
+}
+
+/// Points of a line: "points.txt" has x, y and z of one on each line, and comments behind '#'; of a mesh file
+/// it is the chain of its lines, or of those on the curves of a name ("mesh.msh:NAME"), from the end that is
+/// nearer to a point. Throws InputError with file and line, and for lines that make no single open chain.
+std::vector<Vec3> read_polyline(const std::string& text, const Vec3& start_near) {
+  if (kind_of_file(text) == kTextPoints) return read_text_points(text);
+  std::string file = text, name;
+  for (std::size_t at = text.find(':'); at != std::string::npos && !is_mesh_file(file);
+       at = text.find(':', at + 1))
+    if (is_mesh_file(text.substr(0, at))) file = text.substr(0, at), name = text.substr(at + 1);
+  if (!is_mesh_file(file))
+    throw InputError(
+        fmt::format("'{}': expected a file of points (.txt) or of a mesh with lines, perhaps with :NAME of a "
+                    "curve behind it",
+                    text));
+  const Mesh mesh = read_mesh(file);
+  require_straight(mesh, file);
+  std::vector<std::array<int, 2>> lines;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const std::vector<std::string>& names = mesh.curves[mesh.line_curve[l]].names;
+    if (name.empty() || std::ranges::find(names, name) != names.end()) lines.push_back(mesh.lines[l]);
+  }
+  if (lines.empty())
+    throw InputError(file + (name.empty() ? ": has no lines" : ": no curve has the name '" + name + "'"));
+  return chain_of(mesh, lines, start_near, text);
+}
+
+struct ExtrudeArguments {
+  std::filesystem::path mesh, output, json;
+  std::string along, around, curve;  ///< as they were typed; empty: another way
+  bool normals = false, both_sides = false;
+  std::optional<double> angle, thickness;
+  int layers = 0;  ///< 0: of a curve as many as it has segments
+  double growth = 1;
+  long long max_elements = 50'000'000;
+  int threads = thread_count();
+  bool binary = false;
+};
 
 /// Numbers separated by commas.
 std::vector<double> read_list(const std::string& option, const std::string& text, std::size_t count,
@@ -100,8 +203,6 @@ std::string extrusion_record(const ExtrudeArguments& arguments, const HexMesh& m
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace
-
 int extrude_command(const ExtrudeArguments& arguments) {
   check_hex_format(arguments.output, arguments.binary);
   // The curve may lie in the mesh's own file.
@@ -130,6 +231,40 @@ int extrude_command(const ExtrudeArguments& arguments) {
   fmt::print("  {:<10} {:>12.9g}{}\n", "volume", measures.volume,
              hexahedra.unit.empty() ? "" : " " + hexahedra.unit + "^3");
   return kDone;
+}
+
+}  // namespace
+
+void add_extrude(CLI::App& app, Commands& commands) {
+  const auto given = std::make_shared<ExtrudeArguments>();
+  ExtrudeArguments& arguments = *given;
+  CLI::App* extrude = app.add_subcommand("extrude", "Sweep a mesh of quads: hexahedra");
+  extrude->add_option("mesh", arguments.mesh, "mesh file, quads alone")->required();
+  extrude->add_option("-o,--output", arguments.output, "hexahedra to write (.msh, .vtu or .inp)")->required();
+  extrude->add_option("--along", arguments.along,
+                      "X,Y,Z: the vector from the first layer of nodes to the last");
+  extrude->add_option("--around", arguments.around,
+                      "PX,PY,PZ,DX,DY,DZ: a point of the axis and its direction");
+  extrude->add_option("--angle", arguments.angle,
+                      "degrees around the axis; default: 360, which closes the ring");
+  extrude->add_option("--curve", arguments.curve,
+                      "points of a line (.txt, x y z on each), or FILE[:NAME], lines of a mesh file");
+  extrude->add_flag("--normals", arguments.normals, "along the normals: shells get a thickness");
+  extrude->add_option("--thickness", arguments.thickness,
+                      "with --normals, negative against them; with --along the length in the vector's place");
+  extrude->add_flag("--both-sides", arguments.both_sides, "half of the thickness to each side");
+  extrude
+      ->add_option("--layers", arguments.layers, "of hexahedra; default with --curve: one for each segment")
+      ->check(CLI::PositiveNumber);
+  extrude->add_option("--growth", arguments.growth, "height of each layer over that of the one before")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  extrude->add_flag("--binary", arguments.binary, "write .msh as bytes");
+  extrude->add_option("--json", arguments.json, "record to write");
+  add_max_elements(*extrude, arguments.max_elements, "refuse to make more hexahedra than this");
+  add_threads(*extrude, arguments.threads);
+  commands.push_back(
+      {.app = extrude, .run = [given] { return extrude_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

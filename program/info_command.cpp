@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "base/box.h"
 #include "base/text.h"
+#include "base/warning.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "geometry/surface/model_report.h"
@@ -12,10 +17,144 @@
 #include "io/mesh_io.h"
 #include "program/check_files.h"
 #include "program/commands.h"
-#include "program/info_record.h"
+#include "program/mesh_options.h"
+#include "program/options.h"
 
 namespace delquad {
 namespace {
+
+struct InfoArguments : SurfaceArguments {
+  std::filesystem::path model, json, output;
+  std::optional<std::string> size;
+};
+
+/// What a size (length) is too coarse for, as indices.
+struct SmallFeatures {
+  std::vector<int> curves;  ///< shorter than the size
+  std::vector<int> faces;   ///< narrower, see FaceReport::width
+};
+
+using Json = nlohmann::ordered_json;
+
+/// Degrees below which a corner is listed: no quad in it gets an eta above 1/3.
+constexpr double kListedAngle = 30;
+
+Json point_json(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+Json tags(const std::vector<Entity>& entities, const std::vector<int>& indices) {
+  Json json = Json::array();
+  for (const int i : indices) json.push_back(entities[i].tag);
+  return json;
+}
+
+Json face_json(const ModelInfo& info, std::size_t f, const std::array<Vec3, 2>& box) {
+  const FaceReport& face = info.report.faces[f];
+  const Mesh& mesh = info.fine;
+  return {{"tag", mesh.regions[f].tag},
+          {"names", mesh.regions[f].names},
+          {"area", face.area},
+          {"box", {point_json(box[0]), point_json(box[1])}},
+          {"topology", topology(face)},
+          {"loops", face.loops},
+          {"handles", face.handles},
+          {"pieces", face.pieces},
+          {"width", std::isfinite(face.width) ? Json(face.width) : Json()},
+          {"curves", tags(mesh.curves, face.curves)}};
+}
+
+Json curve_json(const ModelInfo& info, std::size_t c) {
+  const CurveReport& curve = info.report.curves[c];
+  const Mesh& mesh = info.fine;
+  const std::size_t n = curve.faces.size();
+  return {{"tag", mesh.curves[c].tag},
+          {"names", mesh.curves[c].names},
+          {"length", curve.length},
+          {"closed", curve.closed},
+          {"kind", n < 2    ? "free"
+                   : n == 2 ? "inner"
+                            : "branching"},
+          {"faces", tags(mesh.regions, curve.faces)}};
+}
+
+Json corner_json(const ModelInfo& info, const CornerReport& corner) {
+  const Mesh& mesh = info.fine;
+  return {{"face", mesh.regions[corner.face].tag},
+          {"curves", {mesh.curves[corner.curves[0]].tag, mesh.curves[corner.curves[1]].tag}},
+          {"at", point_json(corner.at)},
+          {"angle", corner.angle}};
+}
+
+SmallFeatures smaller_than(const ModelReport& report, double size) {
+  SmallFeatures small;
+  for (std::size_t c = 0; c < report.curves.size(); ++c)
+    if (report.curves[c].length < size) small.curves.push_back(static_cast<int>(c));
+  for (std::size_t f = 0; f < report.faces.size(); ++f)
+    if (report.faces[f].width < size) small.faces.push_back(static_cast<int>(f));
+  return small;
+}
+
+/// The sharpest first.
+std::vector<CornerReport> sharp_corners(const ModelReport& report) {
+  std::vector<CornerReport> sharp;
+  for (const CornerReport& corner : report.corners)
+    if (corner.angle < kListedAngle) sharp.push_back(corner);
+  std::ranges::stable_sort(sharp, {}, &CornerReport::angle);
+  return sharp;
+}
+
+/// The bounding box of each face: its lowest and highest corner.
+std::vector<std::array<Vec3, 2>> boxes_of_faces(const Mesh& mesh) {
+  std::vector<std::vector<Vec3>> corners(mesh.regions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t]) corners[mesh.triangle_region[t]].push_back(mesh.points[v]);
+  std::vector<std::array<Vec3, 2>> boxes;
+  for (const std::vector<Vec3>& points : corners) {
+    if (points.empty()) {
+      boxes.push_back({});  // a face that was left out
+      continue;
+    }
+    const Box<Vec3> box = Box<Vec3>::around(points);
+    boxes.push_back({box.low, box.high});
+  }
+  return boxes;
+}
+
+/// The report as JSON; `size` 0: not given.
+std::string info_record(const ModelInfo& info, double size) {
+  const ModelReport& report = info.report;
+  const Mesh& mesh = info.fine;
+  Json json = {{"model", info.source},
+               {"unit", mesh.unit.empty() ? Json() : Json(mesh.unit)},
+               {"box", {point_json(report.low), point_json(report.high)}},
+               {"diagonal", report.diagonal},
+               {"area", report.area},
+               {"free_length", report.free_length},
+               {"vertices", report.vertices},
+               {"fine_triangles", mesh.triangles.size()}};
+  json["shells"] = Json::array();
+  for (const ShellReport& shell : report.shells)
+    json["shells"].push_back({{"faces", tags(mesh.regions, shell.faces)},
+                              {"area", shell.area},
+                              {"closed", shell.closed},
+                              {"euler_characteristic", shell.euler_characteristic}});
+  json["faces"] = Json::array();
+  const auto boxes = boxes_of_faces(mesh);
+  for (std::size_t f = 0; f < report.faces.size(); ++f) json["faces"].push_back(face_json(info, f, boxes[f]));
+  json["curves"] = Json::array();
+  for (std::size_t c = 0; c < report.curves.size(); ++c) json["curves"].push_back(curve_json(info, c));
+  json["sharp_corners"] = Json::array();
+  for (const CornerReport& corner : sharp_corners(report))
+    json["sharp_corners"].push_back(corner_json(info, corner));
+  if (size > 0) {
+    const SmallFeatures small = smaller_than(report, size);
+    json["size"] = size;
+    json["smaller_than_size"] = {{"curves", tags(mesh.curves, small.curves)},
+                                 {"faces", tags(mesh.regions, small.faces)}};
+  }
+  json["warnings"] = texts(info.warnings);
+  // A name need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 /// Rows of a list, and numbers in a row, that fit a terminal.
 constexpr std::size_t kMostRows = 20, kMostTags = 8;
@@ -124,8 +263,6 @@ void print_difficulties(const ModelInfo& info, double size) {
   for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
 
-}  // namespace
-
 int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
   Case c = read_model_case(arguments.model);
@@ -145,6 +282,26 @@ int info_command(const InfoArguments& arguments) {
   print_difficulties(info, size);
   for (const std::string& reason : info.left_out) fmt::print(stderr, "error: left out: {}\n", reason);
   return info.left_out.empty() ? kDone : kFacesLeftOut;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Commands& commands) {
+  auto given = std::make_shared<InfoArguments>();
+  InfoArguments& arguments = *given;
+  CLI::App* info = app.add_subcommand("info", "Tell what a model consists of and what is hard to mesh in it");
+  info->add_option("model", arguments.model,
+                   "CAD (.step, .stp, .iges, .igs, .brep), triangles (.stl, .obj, .off, .ply, .3mf, .msh) or "
+                   "a planar model (.toml, .msh)")
+      ->required();
+  add_size(*info, arguments.size, "wanted edge length, a number: name what is smaller");
+  add_surface(*info, arguments);
+  info->add_option("--json", arguments.json, "record to write, with every face, curve and sharp corner");
+  info->add_option(
+      "-o,--output", arguments.output,
+      "the model as it is understood, to look at (.vtu, .msh): triangles by face, lines by curve, as "
+      "they are found in a triangulation");
+  commands.push_back({.app = info, .run = [given] { return info_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <ostream>
 
 #include "base/activity.h"
 #include "base/context.h"
-#include "base/length_unit.h"
 #include "base/located.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -16,87 +15,16 @@
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/record.h"
-#include "fields/fields.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 #include "program/check_files.h"
 #include "program/commands.h"
-#include "program/print_metrics.h"
-#include "program/print_surface_report.h"
+#include "program/mesh_options.h"
+#include "program/print.h"
 
 namespace delquad {
-
-void set_surface(const SurfaceArguments& arguments, Case& c) {
-  SurfaceSpec& surface = c.surface;
-  c.keep_going = arguments.keep_going;
-  const auto given = [&](const char* option) { return surface.where = option; };
-  if (!arguments.compound.empty()) {
-    surface.compounds = parse_compounds(arguments.compound, given("--compound"));
-    surface.groups.clear();
-  }
-  if (arguments.feature_angle)
-    surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
-  if (arguments.ignore_below) {
-    if (!(*arguments.ignore_below > 0) || !std::isfinite(*arguments.ignore_below))
-      throw InputError(fmt::format("--ignore-below {}: expected a length > 0", *arguments.ignore_below));
-    given("--ignore-below");
-    surface.ignore_below = *arguments.ignore_below;
-  }
-  if (arguments.glue) {
-    given("--glue");
-    surface.glue = true;
-  }
-  if (!arguments.unit.empty())
-    surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
-  if (arguments.weld_tolerance)
-    surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
-}
-
 namespace {
-
-/// What "NAME=SIZE" says.
-NamedSize named_size(const std::string& text) {
-  const std::size_t at = text.rfind('=');
-  const auto size = at == std::string::npos ? std::nullopt : as_number(text.substr(at + 1));
-  if (!size || !(*size > 0) || !std::isfinite(*size) || at == 0)
-    throw InputError("--size-on '" + text + "': expected NAME=SIZE with a size above 0, such as inlet=0.5");
-  return {.name = text.substr(0, at), .size = *size, .where = "--size-on " + text};
-}
-
-void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
-  if (arguments.mapped.empty()) return;
-  if (std::ranges::find(arguments.mapped, "") != arguments.mapped.end())
-    throw InputError("--mapped '': expected the name of a region, or auto");
-  mapped = {arguments.mapped, false, "--mapped", {}};
-  mapped.automatic = std::erase(mapped.names, "auto") > 0;
-}
-
-/// The model's sizes, with what the command line says in their place.
-SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
-  if (arguments.size) {
-    if (arguments.size->empty())
-      throw InputError("--size: the size is empty: expected a number, an expression, a file or 'boundary'");
-    if (arguments.quads && as_number(*arguments.size))
-      throw InputError(
-          "--size and --quads: a size that is a number says how many quads there are: expected one of both");
-    size = {.text = *arguments.size, .where = "--size"};
-  }
-  const std::pair<double, double*> given[] = {{arguments.curvature, &size.curvature},
-                                              {arguments.min, &size.min},
-                                              {arguments.max, &size.max},
-                                              {arguments.gradation, &size.gradation}};
-  for (const auto& [value, target] : given) {
-    if (!(value > 0)) continue;
-    *target = value;
-    if (size.where.empty()) size.where = "command line";
-  }
-  for (const std::string& text : arguments.size_on) size.named.push_back(named_size(text));
-  if (size.where.empty() && !size.named.empty()) size.where = "--size-on";
-  check_size_limits(size.curvature, size.min, size.max, size.where);
-  return size;
-}
 
 void tell_left_out(const std::vector<FaceFailure>& failures) {
   for (const FaceFailure& failure : failures) fmt::print(stderr, "error: left out: {}\n", failure.reason);
@@ -143,33 +71,6 @@ int tell_what_is_missing(const MeshResult& result, const Word& word, bool quads_
                  ? ""
                  : "; a word that begins with B, such as BCO, merges triangles");
   return kTrianglesLeft;
-}
-
-/// A value as it is written in TOML, texts without quotes.
-OptionValue value_of(const std::string& text) {
-  if (text == "true" || text == "false") return text == "true";
-  const char *end = text.data() + text.size(), *begin = text.data();
-  if (long long whole = 0; std::from_chars(begin, end, whole) == std::from_chars_result{end, {}})
-    return whole;
-  if (double number = 0; std::from_chars(begin, end, number) == std::from_chars_result{end, {}})
-    return number;
-  return text;
-}
-
-void set_options(const MeshArguments& arguments, Options& options) {
-  if (arguments.min_angle) options.set("limits.min_angle", *arguments.min_angle);
-  if (arguments.max_aspect) options.set("limits.max_aspect", *arguments.max_aspect);
-  for (const std::string& text : arguments.set) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError(
-          fmt::format("--set '{}': expected OPTION=VALUE, such as regularity.tolerance=5", text));
-    try {
-      options.set(text.substr(0, equals), value_of(text.substr(equals + 1)));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("--set: {}", error.what()));
-    }
-  }
 }
 
 /// The text of the word that is asked for; `given`: of what is to be improved.
@@ -226,8 +127,6 @@ void print_after(const std::string& file, const MeshResult& result, double secon
   if (result.surface) print_surface_report(result.prepared, *result.surface);
 }
 
-}  // namespace
-
 int mesh_command(const MeshArguments& arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
@@ -238,19 +137,11 @@ int mesh_command(const MeshArguments& arguments) {
   parse_word(text, WordStart::kGivenMesh);  // before anything is read
   Case c = read_case(arguments);
   const Word word = parse_word(text, word_start(c.model));
-  c.max_elements = arguments.max_elements;
   c.allow_unsound = true;  // see below
-  c.size = with_arguments(std::move(c.size), arguments);
-  if (arguments.order) c.order = *arguments.order;
-  if (arguments.refine) c.refine = *arguments.refine;
-  if (arguments.quads) c.quads = *arguments.quads;
+  set_problem(arguments, c);
   check_mesh_format(arguments.output, arguments.msh, c.order);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
-  set_mapped(arguments, c.mapped);
-  set_options(arguments, c.options);
   const auto size_file = size_file_of(c.size.text, c.size.folder);
-  set_surface(arguments, c);
-  if (!arguments.cross.empty()) c.cross = {.text = arguments.cross, .where = "--cross"};
   const std::filesystem::path file = model_path(c);
   check_distinct(
       {{"the model", arguments.model},
@@ -284,6 +175,18 @@ int mesh_command(const MeshArguments& arguments) {
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments.output.string(), result, command.seconds());
   return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& app, Commands& commands) {
+  const auto mesh = std::make_shared<MeshArguments>(), improve = std::make_shared<MeshArguments>();
+  commands.push_back({.app = add_mesh_options(app, *mesh),
+                      .run = [mesh] { return mesh_command(*mesh); },
+                      .has_time_limit = true});
+  commands.push_back({.app = add_improve_options(app, *improve),
+                      .run = [improve] { return mesh_command(*improve); },
+                      .has_time_limit = true});
 }
 
 }  // namespace delquad

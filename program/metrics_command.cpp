@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <ostream>
 #include <tuple>
 
@@ -11,11 +12,17 @@
 #include "metrics/solve/solver_metrics.h"
 #include "program/check_files.h"
 #include "program/commands.h"
-#include "program/print_metrics.h"
+#include "program/options.h"
+#include "program/print.h"
 
 namespace delquad {
-
 namespace {
+
+struct MetricsArguments {
+  std::vector<std::string> solvers = {};  ///< that are to measure it, too
+  std::filesystem::path mesh, json;
+  std::optional<std::string> size;
+};
 
 void add_solver(const Mesh& mesh, const std::string& solver, MeshMetrics& metrics) {
   SolverOutcome outcome = measure_by_solver(mesh, solver);
@@ -50,8 +57,6 @@ void print_solver(const MeshMetrics& metrics, const std::string& solver) {
     fmt::print(stderr, "warning: no '{}': {}\n", solver, at->second);
 }
 
-}  // namespace
-
 int metrics_command(const MetricsArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
@@ -74,6 +79,23 @@ int metrics_command(const MetricsArguments& arguments) {
   if (mesh.order > 1) print_curved(metrics);
   for (const std::string& solver : arguments.solvers) print_solver(metrics, solver);
   return kDone;
+}
+
+}  // namespace
+
+void add_metrics(CLI::App& app, Commands& commands) {
+  auto given = std::make_shared<MetricsArguments>();
+  MetricsArguments& arguments = *given;
+  CLI::App* metrics = app.add_subcommand("metrics", "Measure a mesh");
+  metrics->add_option("mesh", arguments.mesh, "mesh file")->required();
+  add_size(*metrics, arguments.size, kSizeHelp);
+  metrics->add_option("--solve", arguments.solvers, "errors of finite elements, too: poisson, elasticity")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(solver_names()));
+  metrics->add_option("--json", arguments.json, "record to write");
+  commands.push_back(
+      {.app = metrics, .run = [given] { return metrics_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

@@ -1,9 +1,13 @@
-#include "program/print_surface_report.h"
+#include "program/print.h"
 
 #include <fmt/format.h>
 
-namespace delquad {
+#include <cmath>
+#include <string>
 
+#include "base/parallel.h"
+
+namespace delquad {
 namespace {
 
 std::string show(const Topology& t) {
@@ -12,6 +16,34 @@ std::string show(const Topology& t) {
 }
 
 }  // namespace
+
+void print_metric(const Metric& metric, const MeshMetrics& metrics) {
+  const auto at = metrics.values.find(metric.key);
+  const std::string value =
+      at == metrics.values.end() || std::isnan(at->second) ? "-" : fmt::format("{:.6g}", at->second);
+  fmt::print("  {:<10} {:>12} {}\n", metric.title, value, metric.unit);
+}
+
+void print_metrics(const MeshMetrics& metrics) {
+  for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
+}
+
+void print_seconds(const StepTimes& times) {
+  std::string work, clock;
+  TimeSpent all;
+  for (const auto& [step, time] : times) {
+    const char* comma = work.empty() ? "" : ", ";
+    work += fmt::format("{}{} {:.2f}", comma, step, time.work);
+    clock += fmt::format("{}{} {:.2f} ({:.2f})", comma, step, time.clock, time.alone);
+    all = all + time;
+  }
+  const int threads = thread_count();
+  fmt::print("  seconds: {}; all {:.2f}{}\n", work, all.work,
+             threads > 1 ? fmt::format(" (of {} threads, added up)", threads) : "");
+  if (threads > 1)
+    fmt::print("  on the clock (while one thread worked alone): {}; all {:.2f} ({:.2f})\n", clock, all.clock,
+               all.alone);
+}
 
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report) {
   const MapReport maps = prepared.maps();
@@ -36,6 +68,11 @@ void print_surface_report(const Prepared& prepared, const SurfaceReport& report)
       report.surface_to_mesh.mean);
   fmt::print("nodes to surface (max): in faces {:.2g}, on curves {:.2g}, at corners {:.2g}\n",
              report.nodes_in_faces.max, report.nodes_on_curves.max, report.nodes_at_corners.max);
+}
+
+void print_tables(const Outcome& outcome) {
+  fmt::print("{}\n", to_markdown(outcome.table));
+  if (!outcome.pairs.rows.empty()) fmt::print("{}\n", to_markdown(outcome.pairs));
 }
 
 }  // namespace delquad

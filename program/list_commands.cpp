@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <ostream>
+
+#include "delquad/error.h"
+#include "experiments/sweep/schema.h"
+#include "geometry/cad/example_models.h"
+#include "io/cases/case_keys.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "program/check_files.h"
+#include "program/commands.h"
+#include "program/options.h"
+
+namespace delquad {
+namespace {
+
+int schema_command(bool options) {
+  fmt::print("{}", options ? option_table_text() : experiment_schema());
+  return kDone;
+}
+
+int formats_command() {
+  constexpr const char* kRow = "{:<18}{:<7}{:<8}{:<7}{}\n";
+  fmt::print(kRow, "extension", "reads", "writes", "order", "what it is");
+  for (const MeshFormat& format : mesh_formats()) {
+    const bool written = can_write(format);
+    std::string what = format.description;
+    if (format.write_hexahedra != nullptr) what += "; hexahedra, too";
+    if (!format.package.empty())
+      what += fmt::format(" (not in this program: install {} and build it again)", format.package);
+    fmt::print(kRow, fmt::format("{}", fmt::join(format.extensions, " ")), format.read ? "yes" : "-",
+               written ? "yes" : "-",
+               !written                ? "-"
+               : format.most_order > 1 ? fmt::format("1-{}", format.most_order)
+                                       : "1",
+               what);
+  }
+  return kDone;
+}
+
+struct ExampleArguments {
+  std::string name;  ///< empty: none
+  std::filesystem::path output;
+  bool list = false;
+};
+
+CadFormat format_of(const std::filesystem::path& path) {
+  const std::string extension = kind_of_file(path);
+  if (extension == ".step" || extension == ".stp") return CadFormat::kStep;
+  if (extension == ".brep") return CadFormat::kBrep;
+  throw InputError(path.string() + ": unknown CAD format '" + extension + "'; known: .step, .stp, .brep");
+}
+
+int example_command(const ExampleArguments& arguments) {
+  if (arguments.list) {
+    for (const Example& example : example_models())
+      fmt::print("{:<10} {}\n", example.name, example.description);
+    return kDone;
+  }
+  if (arguments.name.empty()) throw InputError("example: expected a name, or --list to see all");
+  check_example(arguments.name);
+  if (arguments.output.empty()) throw InputError("example: expected -o and a CAD file to write");
+  const CadFormat format = format_of(arguments.output);
+  check_output(arguments.output);
+  write_file_atomically(arguments.output,
+                        [&](std::ostream& out) { write_example(arguments.name, format, out); });
+  fmt::print("{}\n", arguments.output.string());
+  return kDone;
+}
+
+}  // namespace
+
+void add_lists(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<bool>(false);
+  CLI::App* schema =
+      app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
+  schema->add_flag("--options", *options, "print the options of the stages as a table (Markdown) instead");
+  commands.push_back({schema, [options] { return schema_command(*options); }, [] { return true; }});
+  CLI::App* formats = app.add_subcommand(
+      "formats", "List the kinds of mesh files: what is read, what is written, up to which order");
+  commands.push_back({formats, formats_command});
+}
+
+void add_example(CLI::App& app, Commands& commands) {
+  auto given = std::make_shared<ExampleArguments>();
+  ExampleArguments& arguments = *given;
+  CLI::App* example = app.add_subcommand("example", "Write a CAD model that the program makes itself");
+  CLI::Option* list = example->add_flag("--list", arguments.list, "names of the examples");
+  example->add_option("name", arguments.name, "which one")->excludes(list);
+  example->add_option("-o,--output", arguments.output, "CAD file to write (.step, .stp or .brep)")
+      ->excludes(list);
+  commands.push_back(
+      {example, [given] { return example_command(*given); }, [given] { return given->list; }, true});
+}
+
+}  // namespace delquad

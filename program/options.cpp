@@ -1,0 +1,53 @@
+#include "program/options.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace delquad {
+namespace {
+
+const CLI::Validator kCount(
+    [](std::string& text) -> std::string {
+      constexpr double kMost = 1e15;  // far from overflow
+      const auto count = as_number(text);
+      if (!count || *count != std::floor(*count) || *count < 1 || *count > kMost)
+        return "'" + text.substr(0, 40) +
+               "': expected a whole number from 1 to 1e15, such as 50000000 or 1e6";
+      text = std::to_string(static_cast<long long>(*count));
+      return "";
+    },
+    "");
+
+}  // namespace
+
+const CLI::Validator kLength(
+    [](std::string& text) -> std::string {
+      const auto value = as_number(text);
+      const bool good = value && *value > 0 && std::isfinite(*value);
+      return good ? "" : "'" + text.substr(0, 40) + "': expected a finite number > 0";
+    },
+    "");
+
+/// Keeps an empty text apart from none.
+CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help) {
+  return command.add_option_function<std::string>(
+      "--size", [&size](const std::string& text) { size = text; }, help);
+}
+
+void add_data(CLI::App& command, std::filesystem::path& data) {
+  command.add_option("--data", data, "folder of the models that cases call data")->capture_default_str();
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads,
+                  "threads, whatever their number the result is the same; default: all cores")
+      ->check(CLI::Range(1, kMostThreads));
+}
+
+void add_max_elements(CLI::App& command, long long& most, const char* help) {
+  command.add_option("--max-elements", most, help)->capture_default_str()->transform(kCount);
+}
+
+}  // namespace delquad

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+// Options that several commands have.
+
+namespace delquad {
+
+inline constexpr const char* kSizeHelp =
+    "wanted edge length: a number, an expression in x, y, z, 'boundary', or FILE[:FIELD], a field of an .msh "
+    "or .vtu file";
+inline constexpr const char* kUnsoundHelp =
+    "write meshes that are not sound (inverted or folded quads, lost parts, ...), marked in the record";
+inline constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
+inline constexpr int kMostThreads = 1024;
+
+/// A finite number above 0.
+extern const CLI::Validator kLength;
+
+/// Keeps an empty text apart from none.
+CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help);
+void add_data(CLI::App& command, std::filesystem::path& data);
+void add_threads(CLI::App& command, int& threads);
+/// A whole number, which may be written as 1e6.
+void add_max_elements(CLI::App& command, long long& most,
+                      const char* help = "refuse sizes that ask for more quads than this");
+
+}  // namespace delquad

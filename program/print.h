@@ -1,0 +1,26 @@
+#pragma once
+
+#include "delquad/mesher.h"
+#include "delquad/options.h"
+#include "metrics/metrics.h"
+#include "metrics/tables/tables.h"
+
+namespace delquad {
+
+// All to stdout.
+
+/// A measure on a line of its own; "-" where it is not defined.
+void print_metric(const Metric& metric, const MeshMetrics& metrics);
+/// Every measure but those of solvers.
+void print_metrics(const MeshMetrics& metrics);
+
+/// How long each step took, the times of all threads added up.
+void print_seconds(const StepTimes& times);
+
+/// How good the maps of a surface are, how it was cut and how the mesh fits it.
+void print_surface_report(const Prepared& prepared, const SurfaceReport& report);
+
+/// The tables of an experiment that have rows.
+void print_tables(const Outcome& outcome);
+
+}  // namespace delquad
