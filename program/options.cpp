@@ -5,7 +5,6 @@
 #include "base/text.h"
 
 namespace delquad {
-namespace {
 
 const CLI::Validator kCount(
     [](std::string& text) -> std::string {
@@ -18,8 +17,6 @@ const CLI::Validator kCount(
       return "";
     },
     "");
-
-}  // namespace
 
 const CLI::Validator kLength(
     [](std::string& text) -> std::string {

@@ -17,6 +17,8 @@ inline constexpr const char* kUnsoundHelp =
 inline constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
 inline constexpr int kMostThreads = 1024;
 
+/// A whole number from 1, which may be written as 1e6.
+extern const CLI::Validator kCount;
 /// A finite number above 0.
 extern const CLI::Validator kLength;
 
@@ -24,7 +26,6 @@ extern const CLI::Validator kLength;
 CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help);
 void add_data(CLI::App& command, std::filesystem::path& data);
 void add_threads(CLI::App& command, int& threads);
-/// A whole number, which may be written as 1e6.
 void add_max_elements(CLI::App& command, long long& most,
                       const char* help = "refuse sizes that ask for more quads than this");
 
