@@ -155,7 +155,7 @@ std::map<int, std::string> unreadable_entities(XSControl_Reader& reader) {
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   for (const auto& [i, why] : LossFinder(reader).find_unreadable())
     // Else it is what it refers to that cannot be read.
-    if (why.find("Transient") == std::string::npos)
+    if (why.find("Entity") == std::string::npos)
       by_number.emplace(std::atoi(model->StringLabel(model->Value(i))->ToCString() + 1), why);
   return by_number;
 }
