@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "algorithms/finish/lift_bad_quads.h"
@@ -14,6 +18,8 @@
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "metrics/judgement/soundness.h"
+#include "metrics/shape.h"
+#include "metrics/size_efficiency.h"
 
 namespace delquad {
 namespace {
@@ -26,6 +32,58 @@ std::string text_of_worst(const RunResult& run) {
       value("edge_min"), run.soundness.sound() ? "" : ", not sound");
 }
 
+/// With what is worst in it before its unsound quads were opened.
+RunResult as_it_was(RunResult given, const GivenWorst& worst) {
+  given.metrics.values["eta_worst"] = worst.eta;
+  given.metrics.values["edge_min"] = worst.side;
+  given.metrics.values["aspect_max"] = worst.aspect;
+  if (!worst.is_sound && given.soundness.sound()) given.soundness.reasons.emplace_back("given quads are not");
+  return given;
+}
+
+/// What it costs that quads are sound now, and where.
+std::string text_of_price(const Finishing& f, const RunResult& before) {
+  const Mesh& mesh = f.result.mesh;
+  const auto at_least = [&](const std::function<double(const std::array<Vec3, 4>&)>& quality) {
+    std::vector<double> of;
+    for (const auto& quad : mesh.quads) of.push_back(quality(corners_of(mesh, quad)));
+    return show_place(mesh,
+                      middle_of_quad(mesh, static_cast<int>(std::ranges::min_element(of) - of.begin())));
+  };
+  const auto eta = [&](const std::array<Vec3, 4>& x) {
+    return eta_of(element_shape(x, f.prepared.surface ? area_vector(x) : Vec3{0, 0, 1}).angle);
+  };
+  const auto side = [&](const std::array<Vec3, 4>& x) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k)
+      least = std::min(least, adimensional_length(x[k], x[(k + 1) % 4], *f.prepared.size.field));
+    return least;
+  };
+  const auto was_is = [&](const char* key) {
+    return fmt::format("from {:.3g} to {:.3g}", before.metrics.values.at(key),
+                       f.result.metrics.values.at(key));
+  };
+  const Harm harm = harm_of(f.result, before);
+  std::vector<std::string> prices;
+  if (harm.eta > 0)
+    prices.push_back(fmt::format("the worst eta goes {}, {}", was_is("eta_worst"), at_least(eta)));
+  if (harm.side > 0)
+    prices.push_back(fmt::format("the shortest edge goes {} sizes, {}", was_is("edge_min"), at_least(side)));
+  if (harm.aspect > 0)
+    prices.push_back(fmt::format("the largest aspect of sound quads goes {}, {}", was_is("aspect_max"),
+                                 at_least([](const auto& x) { return -quad_aspect(x); })));
+  if (harm.number > 0) prices.push_back(fmt::format("the number of quads goes {}", was_is("n_quads")));
+  return fmt::format("{}: given quads that were inverted, folded or flat are sound now, at a price: {}",
+                     f.label, fmt::join(prices, "; "));
+}
+
+/// Whether the first begins from what is given, and each from what the one before leaves.
+bool is_word_of_quads(const std::vector<const Stage*>& stages, const Stage* first) {
+  const auto follows = [](const Stage* before, const Stage* after) { return before->to != after->from; };
+  return stages[0]->from == first->from && stages.back()->to == PatchForm::kQuads &&
+         std::ranges::adjacent_find(stages, follows) == stages.end();
+}
+
 /// What these stages alone make.
 RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   MeshingState state = begin_meshing(f.prepared);
@@ -33,7 +91,8 @@ RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   Finishing on{f.prepared, state, f.left_out};
   on.result.mesh = put_together(on);
   measure(f.prepared, f.left_out, on.result);
-  if (repair_options(f.prepared.settings.options).across_cuts && are_cuts_in_the_way(f.prepared, stages))
+  if (repair_options(f.prepared.settings.options).across_cuts &&
+      are_cuts_in_the_way(f.prepared, state.of_quads))
     run_across_cuts(on);
   return std::move(on.result);
 }
@@ -43,9 +102,10 @@ RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
 /// another.
 bool keep_better(Finishing& on) {
   RunResult& result = on.result;
-  RunResult before;
-  before.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
-  measure(on.prepared, on.left_out, before);
+  RunResult given;
+  given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
+  measure(on.prepared, on.left_out, given);
+  const RunResult before = as_it_was(given, *on.prepared.given_worst);
   if (!is_worse(result, before)) return false;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
@@ -54,25 +114,43 @@ bool keep_better(Finishing& on) {
                     "--set repair.keep_given=false takes it all the same",
                     on.label, what, was, worse));
   };
+  // The least harm of what mends a mesh that was not sound.
+  std::optional<RunResult> best;
+  double least =
+      result.soundness.sound() ? harm_of(result, before).sum() : std::numeric_limits<double>::max();
+  const auto is_good = [&](RunResult& run) {
+    const bool is_mended = run.soundness.sound() || !(result.soundness.sound() || best);
+    if (is_mended && !is_worse(run, before)) return true;
+    const double harm = harm_of(run, before).sum();
+    if (!run.soundness.sound() || before.soundness.sound() || harm >= least) return false;
+    least = harm;
+    best = std::move(run);
+    return false;
+  };
   // As many stages as can be, the last ones sooner.
-  const std::vector<const Stage*>& stages = on.state.of_quads;
+  const std::vector<const Stage*>& stages = on.state.stages;
   const unsigned all = (1U << stages.size()) - 1;
   for (int n = static_cast<int>(stages.size()) - 1; n > 0; --n)
     for (unsigned mask = all; mask-- > 1;) {
-      if (std::popcount(mask) != n) continue;
       std::vector<const Stage*> fewer;
       std::string word;
       for (std::size_t i = 0; i < stages.size(); ++i)
         if ((mask >> i & 1U) != 0) fewer.push_back(stages[i]), word += stages[i]->letter;
+      if (std::popcount(mask) != n || !is_word_of_quads(fewer, stages[0])) continue;
       RunResult run = made_by(on, fewer);
-      if (is_worse(run, before)) continue;
+      if (!is_good(run)) continue;
       tell(fmt::format("{} alone ({})", word, text_of_worst(run)));
       take_mesh(std::move(run), result);
       return true;
     }
-  tell("the given mesh is kept");
-  take_mesh(std::move(before), result);
-  return true;
+  if (is_good(given)) {
+    tell("the given mesh is kept");
+    take_mesh(std::move(given), result);
+    return true;
+  }
+  if (best) take_mesh(std::move(*best), result);
+  if (result.soundness.sound()) result.warnings.push_back(text_of_price(on, before));
+  return best.has_value();
 }
 
 bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -18,6 +19,7 @@
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/check_lines.h"
+#include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 
 namespace delquad {
@@ -177,6 +179,12 @@ class PlanarSteps final : public ModelSteps {
                            },
                            {}});
     for (std::size_t i = 0; i < given_.size(); ++i) p.patches[i].given = std::move(given_[i]);
+    if (std::ranges::any_of(p.patches, [](const auto& patch) { return !patch.given.quads.empty(); })) {
+      std::vector<PatchMesh> given;
+      for (const PreparedPatch& patch : p.patches) given.push_back({PatchForm::kQuads, {}, patch.given, {}});
+      const std::vector<char> none(p.boundary.regions.size(), 0);
+      p.given_worst = worst_of_given(assemble(p, p.boundary.points, given, none), true, *p.size.field);
+    }
     for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
     add_grids(problem_.mapped, domain_.mapped, p);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);

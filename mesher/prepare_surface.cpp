@@ -28,6 +28,7 @@
 #include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 
 namespace delquad {
@@ -276,6 +277,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     p.size.field = surface_->size;
     p.size.expected_quads = expected_quads(model.fine, *surface_->size);
     check_(p.size.expected_quads);
+    if (!mesh_.quads.empty()) p.given_worst = worst_of_given(mesh_, false, *surface_->size);
     surface_->domain = make_kept_domain(model, std::move(flattening_), *surface_->size);
     given_.given_curve.resize(model.fine.curves.size(), -1);
     surface_->given = {mesh_.curves, mesh_.regions, given_.given_curve, given_.given_region};

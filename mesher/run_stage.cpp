@@ -70,6 +70,17 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
   return start;
 }
 
+/// What a word begins from with this stage, where that is quads or the halves of quads.
+void note_given_quads(const Stage& stage, const PreparedProblem& prepared, std::vector<PatchMesh>& given) {
+  const bool halves = std::ranges::all_of(
+      prepared.patches, [](const PreparedPatch& patch) { return patch.given.triangles.empty(); });
+  for (const PreparedPatch& patch : prepared.patches)
+    if (stage.from == PatchForm::kQuads)
+      given.push_back(given_to(stage, prepared, patch));
+    else if (prepared.given_worst && halves)
+      given.push_back({PatchForm::kQuads, {}, patch.given, patch.given_inside});
+}
+
 /// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
 std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
@@ -184,11 +195,11 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
   const Stopwatch watch;
   const DoingStage running(stage.name.c_str());
+  state.stages.push_back(&stage);
   if (stage.from == PatchForm::kQuads) state.of_quads.push_back(&stage);
   std::vector<PatchMesh>& patches = state.patches;
-  if (stage.from == PatchForm::kQuads && patches[0].form == PatchForm::kBoundary)
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      state.given.push_back(given_to(stage, prepared, prepared.patches[i]));
+  if (patches[0].form == PatchForm::kBoundary && stage.from != PatchForm::kBoundary)
+    note_given_quads(stage, prepared, state.given);
   std::vector<StageLog> logs(patches.size());
   parallel_for(
       patches.size(),

@@ -22,8 +22,9 @@ using RunResult = MeshResult;
 /// A pipeline on its way: what the stages so far have made of each patch.
 struct MeshingState {
   std::vector<PatchMesh> patches;
-  std::vector<PatchMesh> given;             ///< what the word began from, where it began from quads
-  std::vector<const Stage*> of_quads = {};  ///< stages that began from quads
+  std::vector<PatchMesh> given;             ///< the quads that the word began from, or halved
+  std::vector<const Stage*> stages = {};    ///< all that ran
+  std::vector<const Stage*> of_quads = {};  ///< those that began from quads
   std::vector<std::string> reasons;         ///< of each patch, to leave its face out; empty: none
   std::vector<Warning> warnings;
   SurfaceNodes nodes;  ///< those on curves

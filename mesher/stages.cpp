@@ -180,35 +180,37 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
 Vec3 as_place(const Vec2& p, double z) { return {p.x, p.y, z}; }
 Vec3 as_place(const Vec3& p, double) { return p; }
 
-/// What a quad must not be worse than.
-struct WorstOfQuads {
-  double eta = 1, aspect = 1, side = std::numeric_limits<double>::infinity();  ///< `side`: in sizes
-};
-
-template <class Vec>
-WorstOfQuads worst_of(const PreparedProblem& prepared, const std::vector<Vec>& points,
-                      const std::array<int, 4>& quad) {
-  std::array<Vec3, 4> corners;
-  for (int k = 0; k < 4; ++k) corners[k] = as_place(points[quad[k]], prepared.boundary.points[0].z);
-  const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
-  WorstOfQuads worst{eta_of(element_shape(corners, normal).angle), quad_aspect(corners)};
-  for (int k = 0; k < 4; ++k)
-    worst.side =
-        std::min(worst.side, adimensional_length(corners[k], corners[(k + 1) % 4], *prepared.size.field));
-  return worst;
-}
-
-/// Vertices of quads that are worse now than any was before go back, by halves of the way at first.
+/// Vertices of quads that are worse now than the worst that were given go back, by halves of the way at
+/// first. Those of quads that were not sound before stay where they are, as those near quads that are not
+/// sound yet.
 template <class Vec>
 void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
                 const std::vector<Vec2>& positions, const std::vector<std::array<int, 4>>& quads,
                 VertexTracks<Vec>& tracks, std::vector<Vec>& points) {
   constexpr double kLeastPart = 1.0 / 64;
-  WorstOfQuads worst;
-  for (const auto& quad : quads) {
-    const WorstOfQuads of = worst_of(prepared, before, quad);
-    worst = {std::min(worst.eta, of.eta), std::max(worst.aspect, of.aspect), std::min(worst.side, of.side)};
+  constexpr int kNear = 2;  // rings of quads
+  const auto corners = [&](const std::vector<Vec>& at, const std::array<int, 4>& quad) {
+    std::array<Vec3, 4> x;
+    for (int k = 0; k < 4; ++k) x[k] = as_place(at[quad[k]], prepared.boundary.points[0].z);
+    return x;
+  };
+  std::vector<char> stays(points.size(), 0);
+  const auto stay_at_unsound = [&](const std::vector<Vec>& at) {
+    for (const auto& quad : quads) {
+      const auto x = corners(at, quad);
+      const Vec3 normal = prepared.surface ? area_vector(x) : Vec3{0, 0, 1};
+      if (is_sound_quad(x, normal, element_shape(x, normal))) continue;
+      for (const int v : quad) stays[v] = 1;
+    }
+  };
+  stay_at_unsound(points);
+  for (int ring = 0; ring < kNear; ++ring) {
+    const std::vector<char> nearer = stays;
+    for (const auto& quad : quads)
+      if (std::ranges::any_of(quad, [&](int v) { return nearer[v] != 0; }))
+        for (const int v : quad) stays[v] = 1;
   }
+  stay_at_unsound(before);
   std::vector<double> part(points.size(), 1);  // of the way that each vertex went
   std::vector<Vec2> ways;
   for (std::size_t v = 0; v < points.size(); ++v)
@@ -216,10 +218,9 @@ void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
   for (bool again = true; again;) {
     again = false;
     for (const auto& quad : quads) {
-      const WorstOfQuads of = worst_of(prepared, points, quad);
-      if (of.eta >= worst.eta && of.aspect <= worst.aspect && of.side >= worst.side) continue;
+      if (!is_beyond_given(prepared, corners(points, quad))) continue;
       for (const int v : quad) {
-        if (!(norm(points[v] - before[v]) > 0)) continue;
+        if (stays[v] != 0 || !(norm(points[v] - before[v]) > 0)) continue;
         again = true;
         part[v] = part[v] > kLeastPart ? part[v] / 2 : 0;
         const Vec at = tracks.put(v, positions[v] + part[v] * ways[v]);
@@ -229,12 +230,11 @@ void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
   }
 }
 
-/// Optimises, but vertices of given quads that would be worse than the worst were, by eta, aspect or a side's
-/// length in sizes, go back where they were.
+/// Optimises, but vertices of quads that would be worse than those that were given go back.
 template <class Vec>
 OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
                              const std::vector<std::array<int, 4>>& quads, VertexTracks<Vec>& tracks) {
-  const bool keep = in.began_from_quads && repair_options(in.options).keep_given;
+  const bool keep = in.began_from_given && repair_options(in.options).keep_given;
   const std::vector<Vec> before = points;
   std::vector<Vec2> positions;
   for (std::size_t v = 0; keep && v < points.size(); ++v)

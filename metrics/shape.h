@@ -151,6 +151,12 @@ bool is_readable(const std::array<Vec3, N>& corners, const Vec3& normal, const E
          single_jacobian(corners, normal) > kLeastJacobian;
 }
 
+/// Whether a quad, seen from the tip of `normal`, is readable and not folded.
+inline bool is_sound_quad(const std::array<Vec3, 4>& corners, const Vec3& normal,
+                          const ElementShape<4>& shape) {
+  return is_readable(corners, normal, shape) && quad_warp(corners) <= kFold;
+}
+
 /// Longest over shortest side, at least 1; infinite where a side has no length [stimpson2007, edge ratio].
 inline double quad_aspect(const std::array<Vec3, 4>& p) {
   double shortest = norm(p[0] - p[3]), longest = shortest;

@@ -37,7 +37,7 @@ struct AllPatches {
   std::vector<PatchMesh>& patches;
   const std::vector<char>& left_out;  ///< by patch
   SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
-  bool began_from_quads = false;      ///< that were given
+  bool began_from_given = false;      ///< quads
 };
 
 /// Patches of quads that are not left out get the places of their points inside, where they have none yet.

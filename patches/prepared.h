@@ -73,6 +73,15 @@ struct PreparedPlane {
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
 };
 
+/// What is worst in a mesh of quads that is given: what is made of it must not be worse.
+struct GivenWorst {
+  double eta = 1;     ///< least of all quads, 0 where some are inverted
+  double side = 0;    ///< shortest of all edges, in sizes
+  double aspect = 1;  ///< largest of the quads that are sound (is_sound_quad()): of others it means nothing
+  double sound_eta = 1;  ///< least of these
+  bool is_sound = true;  ///< whether all quads are
+};
+
 /// What a problem says beside its model and fields; the members are as in MeshProblem.
 struct ProblemSettings {
   std::string name, where;
@@ -89,6 +98,7 @@ struct PreparedProblem : Preparation {
   PreparedPlane plane;
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
   std::shared_ptr<const LayerReport> layers;       ///< null: none
+  std::optional<GivenWorst> given_worst;           ///< of a GivenMesh with quads
 
   /// Whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }

@@ -134,6 +134,12 @@ void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> 
     warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
 }
 
+bool is_sound(const Mesh& mesh, int q) {
+  const auto corners = corners_of(mesh, mesh.quads[q]);
+  const Vec3 side = area_vector(corners);
+  return is_sound_quad(corners, side, element_shape(corners, side));
+}
+
 /// Below 0 the more a quad is inverted or folded, else its scaled Jacobian.
 double soundness_of(const Mesh& mesh, int q) {
   const auto corners = corners_of(mesh, mesh.quads[q]);
@@ -148,7 +154,7 @@ class BadQuadOpening {
   BadQuadOpening(double feature_angle, Mesh& mesh)
       : mesh_(mesh), stays_(mesh.points.size(), 0), around_(stays_.size()), quads_at_(stays_.size()) {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-      if (const int i = static_cast<int>(q); !(soundness_of(mesh, i) > kLeastJacobian)) bad_.push_back(i);
+      if (const int i = static_cast<int>(q); !is_sound(mesh, i)) bad_.push_back(i);
     if (bad_.empty()) return;
     find_neighbours();
     find_facets(feature_angle * std::numbers::pi / 180);
@@ -164,8 +170,7 @@ class BadQuadOpening {
       for (const int q : bad_)
         for (const int v : mesh_.quads[q]) moves = (!stays_[v] && improve(v)) || moves;
     }
-    const auto left =
-        std::ranges::count_if(bad_, [&](int q) { return !(soundness_of(mesh_, q) > kLeastJacobian); });
+    const auto left = std::ranges::count_if(bad_, [&](int q) { return !is_sound(mesh_, q); });
     warnings.push_back(fmt::format(
         "{}: {} quads are inverted, folded or without area, the first at {}: {} of them are no more so once "
         "their nodes are moved",

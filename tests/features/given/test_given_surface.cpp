@@ -10,6 +10,7 @@
 
 #include "delquad/mesher.h"
 #include "metrics/metrics.h"
+#include "metrics/shape.h"
 #include "tests/support/expect_input_error.h"
 
 namespace delquad {
@@ -177,6 +178,63 @@ TEST(GivenSurfaces, ASphereGetsBetterAndStaysRound) {
     // Chords of the given edges lie this deep.
     for (const Vec3& p : result.mesh.points) EXPECT_NEAR(norm(p), 1, 0.03);
   }
+}
+
+/// An 8 x 8 grid on a cylinder, some of whose nodes inside went too far.
+Mesh tangled_shell(double turn) {
+  Mesh mesh = woven(8, 8, false, false, [&](int i, int j) {
+    const double u = i / 8.0, v = j / 8.0;
+    const double s = i == 4 && j == 4 ? u + 0.16 : u, t = i == 4 && j == 4 ? v + 0.025 : v;
+    return Vec3{std::sin(turn * s), t, std::cos(turn * s)};
+  });
+  return mesh;
+}
+
+TEST(GivenSurfaces, WhatACureMakesWorseIsTold) {
+  int told = 0, n = 0;
+  for (const double turn : {1.0, 2.0, 4.0})
+    for (const char* word : {"CO", "O", "C", "BCO"}) {
+      SCOPED_TRACE(std::to_string(turn) + " " + word);
+      const Mesh given = tangled_shell(turn);
+      const MeshResult result = improve_in_space(given, word);
+      expect_kept_in_space(given, result);
+      EXPECT_TRUE(result.soundness.sound());
+      double aspect = 1;
+      for (const auto& quad : given.quads) {
+        const auto corners = corners_of(given, quad);
+        const Vec3 up = area_vector(corners);
+        if (is_sound_quad(corners, up, element_shape(corners, up)))
+          aspect = std::max(aspect, quad_aspect(corners));
+      }
+      const auto& values = result.metrics.values;
+      const auto before = evaluate_metrics(given, result.prepared->size.field.get()).values;
+      EXPECT_GT(before.at("n_folded"), 0);
+      const bool is_told = std::ranges::any_of(result.warnings, [](const Warning& w) {
+        return w.text.find("sound now, at a price: ") != std::string::npos;
+      });
+      const bool is_worse = values.at("aspect_max") > aspect * (1 + 1e-9) ||
+                            values.at("edge_min") < before.at("edge_min") * (1 - 1e-9) ||
+                            std::abs(values.at("n_quads") - 64) > 6.4;
+      EXPECT_EQ(is_worse, is_told);
+      told += is_told, ++n;
+    }
+  EXPECT_LT(2 * told, n);
+}
+
+/// A node of a rim went into the second row: no quad there can be a square.
+TEST(GivenSurfaces, ThePriceOfACureIsToldWithItsPlace) {
+  const Mesh given = woven(12, 12, false, false, [](int i, int j) {
+    const double u = i / 12.0, v = i == 6 && j == 0 ? 1.5 / 12 : j / 12.0;
+    return Vec3{std::sin(6 * u), 2 * v, std::cos(6 * u)};
+  });
+  const MeshResult result = improve_in_space(given, "CO");
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  const auto told = std::ranges::find_if(result.warnings, [](const Warning& w) {
+    return w.text.find("sound now, at a price: ") != std::string::npos;
+  });
+  ASSERT_NE(told, result.warnings.end());
+  EXPECT_NE(told->text.find("the largest aspect of sound quads goes from "), std::string::npos) << told->text;
+  EXPECT_NE(told->text.find(" at ("), std::string::npos) << told->text;
 }
 
 TEST(GivenSurfaces, TrianglesOfATorusAreMerged) {
