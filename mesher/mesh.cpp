@@ -17,6 +17,7 @@
 #include "mesher/number_of_quads.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "metrics/judgement/poor_quads.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
@@ -239,6 +240,7 @@ MeshResult Prepared::measure(Mesh of_others) const {
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(
       std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));
+  judge_by_criteria(*made_, true, result);
   result.prepared = *this;
   return result;
 }

@@ -13,6 +13,7 @@
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/judgement/poor_quads.h"
 
 namespace delquad {
@@ -78,8 +79,8 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinemen
 
 PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   PreparedProblem p;
-  p.settings = {problem.name,         problem.where,      problem.options,
-                problem.max_elements, problem.keep_going, problem.order};
+  p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
+                problem.keep_going, problem.order, problem.criteria};
   const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(PreparedProblem&)) {
     const Stopwatch watch;
     const DoingStage stage(doing);
@@ -99,8 +100,10 @@ Refinement as_read(const PreparedProblem& prepared) {
 
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
+  check_criteria(problem.criteria);
   PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
   check_order(prepared);
+  check_criteria(problem.criteria, prepared.boundary, asked_size(prepared));
   return prepared;
 }
 
@@ -146,6 +149,7 @@ RunResult finish_meshing(const PreparedProblem& prepared, const std::string& lab
       judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);
   result.bad_in_corners = bad.in_corners;
   result.bad_elsewhere = bad.elsewhere;
+  judge_by_criteria(prepared, false, result);
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);
 }

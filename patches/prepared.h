@@ -89,6 +89,7 @@ struct ProblemSettings {
   long long max_elements = 0;
   bool keep_going = false;
   int order = 1;
+  Criteria criteria = {};
 };
 
 /// What every pipeline on a case starts from.

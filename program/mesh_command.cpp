@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
 #include <ostream>
+#include <set>
 
 #include "base/activity.h"
 #include "base/context.h"
@@ -17,6 +20,7 @@
 #include "experiments/sweep/record.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "program/check_files.h"
 #include "program/commands.h"
@@ -41,6 +45,10 @@ MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared
     // The last one is the error then.
     if (!result.soundness.accepted() && !arguments.allow_unsound) warnings.pop_back();
     progress.warn(warnings);
+    if (result.criteria && !result.soundness.accepted() && !arguments.allow_unsound) {
+      progress.finish();
+      print_criteria(*result.criteria, result.mesh);
+    }
     if (!arguments.allow_unsound) require_sound(arguments.model.string(), result);
     return result;
   } catch (...) {
@@ -125,6 +133,35 @@ void print_after(const std::string& file, const MeshResult& result, double secon
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
   print_seconds(result.log.times);
   if (result.surface) print_surface_report(result.prepared, *result.surface);
+  if (result.criteria) print_criteria(*result.criteria, result.mesh);
+}
+
+/// Moves elements that fail to regions of their own, which have the names of theirs, "failing" and, by
+/// criterion, "failing_min_length".
+void name_failing(const CriteriaReport& report, Mesh& mesh) {
+  if (!mesh.periodic_faces.empty())
+    throw InputError("--failing-sets does not go with periodic faces, whose elements stay together");
+  std::vector<std::set<std::string>> sets(mesh.triangles.size() + mesh.quads.size());
+  for (const CriterionResult& result : report.results)
+    for (const int element : result.failing) sets[element].insert("failing_" + result.limit.key);
+  int tag = 0;
+  for (const Entity& region : mesh.regions) tag = std::max(tag, region.tag);
+  std::map<std::pair<int, std::set<std::string>>, int> made;
+  for (std::size_t e = 0; e < sets.size(); ++e) {
+    if (sets[e].empty()) continue;
+    const std::size_t n = mesh.triangles.size();
+    int& region = e < n ? mesh.triangle_region[e] : mesh.quad_region[e - n];
+    const auto [at, is_new] = made.try_emplace({region, sets[e]}, static_cast<int>(mesh.regions.size()));
+    if (is_new) {
+      Entity part = mesh.regions[region];
+      if (part.names.empty()) part.names.push_back(tag_label(2, part.tag));
+      part.tag = ++tag;
+      part.names.emplace_back("failing");
+      part.names.insert(part.names.end(), sets[e].begin(), sets[e].end());
+      mesh.regions.push_back(std::move(part));
+    }
+    region = at->second;
+  }
 }
 
 int mesh_command(const MeshArguments& arguments) {
@@ -166,8 +203,11 @@ int mesh_command(const MeshArguments& arguments) {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
     if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
+    std::optional<Mesh> with_sets;
+    if (arguments.failing_sets) name_failing(*result.criteria, with_sets.emplace(result.mesh));
     const Stopwatch writing;
-    (arguments.serendipity ? write_serendipity : write_mesh)(arguments.output, result.mesh, arguments.msh);
+    (arguments.serendipity ? write_serendipity : write_mesh)(
+        arguments.output, with_sets ? *with_sets : result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
     if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
   }

@@ -76,6 +76,9 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option(
       "--max-aspect", arguments.max_aspect,
       "an element whose longest side is longer than this times its shortest is an error, but in layers");
+  add_criteria(mesh, arguments.criteria, arguments.strict);
+  mesh.add_flag("--failing-sets", arguments.failing_sets,
+                "elements beyond the criteria are in sets 'failing', 'failing_min_length', ... of the mesh");
 }
 
 /// What "NAME=SIZE" says.
@@ -145,6 +148,14 @@ void set_options(const MeshArguments& arguments, Options& options) {
       throw InputError(fmt::format("--set: {}", error.what()));
     }
   }
+}
+
+void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
+  if (!arguments.criteria.empty()) criteria = read_criteria(arguments.criteria);
+  criteria.strict |= arguments.strict;
+  if ((arguments.failing_sets || arguments.strict) && criteria.empty())
+    throw InputError(fmt::format("{}: there are no criteria: expected --criteria, too",
+                                 arguments.strict ? "--strict" : "--failing-sets"));
 }
 
 }  // namespace
@@ -262,6 +273,7 @@ void set_problem(const MeshArguments& arguments, Case& c) {
   if (arguments.quads) c.quads = *arguments.quads;
   set_mapped(arguments, c.mapped);
   set_options(arguments, c.options);
+  set_criteria(arguments, c.criteria);
   set_surface(arguments, c);
   if (!arguments.cross.empty()) c.cross = {.text = arguments.cross, .where = "--cross"};
 }

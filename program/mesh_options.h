@@ -44,6 +44,8 @@ struct MeshArguments : SurfaceArguments {
   bool allow_triangles = false;
   bool allow_unsound = false;
   std::optional<double> min_angle, max_aspect;  ///< options limits.min_angle, limits.max_aspect
+  std::string criteria;                         ///< a preset or file; empty: as the model says
+  bool strict = false, failing_sets = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <tuple>
 
@@ -9,6 +11,7 @@
 #include "geometry/mesh/check_mesh.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/solve/solver_metrics.h"
 #include "program/check_files.h"
 #include "program/commands.h"
@@ -22,6 +25,8 @@ struct MetricsArguments {
   std::vector<std::string> solvers = {};  ///< that are to measure it, too
   std::filesystem::path mesh, json;
   std::optional<std::string> size;
+  std::string criteria;  ///< a preset or file; empty: none
+  bool strict = false;
 };
 
 void add_solver(const Mesh& mesh, const std::string& solver, MeshMetrics& metrics) {
@@ -60,6 +65,11 @@ void print_solver(const MeshMetrics& metrics, const std::string& solver) {
 int metrics_command(const MetricsArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
+  Criteria criteria;
+  if (!arguments.criteria.empty()) criteria = read_criteria(arguments.criteria);
+  if (arguments.strict && criteria.empty())
+    throw InputError("--strict: there are no criteria: expected --criteria, too");
+  criteria.strict |= arguments.strict;
   ReadNotes notes;
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
@@ -71,14 +81,22 @@ int metrics_command(const MetricsArguments& arguments) {
   if (!arguments.solvers.empty()) require_straight(mesh, arguments.mesh.string());
   if (mesh.order > 1) add_curved(mesh, metrics);
   for (const std::string& solver : arguments.solvers) add_solver(mesh, solver, metrics);
+  std::optional<CriteriaReport> report;
+  if (!arguments.criteria.empty()) {
+    report = judge(mesh, criteria, size.get());
+    metrics.values.merge(values_of(*report));
+  }
   if (!arguments.json.empty())
-    write_text_file(arguments.json,
-                    metrics_record(arguments.mesh.string(), arguments.size.value_or(""), metrics));
+    write_text_file(arguments.json, metrics_record(arguments.mesh.string(), arguments.size.value_or(""),
+                                                   metrics, report ? &*report : nullptr));
   fmt::print("{}\n", arguments.mesh.string());
   print_metrics(metrics);
   if (mesh.order > 1) print_curved(metrics);
   for (const std::string& solver : arguments.solvers) print_solver(metrics, solver);
-  return kDone;
+  if (report) print_criteria(*report, mesh);
+  if (!report || !criteria.strict || report->beyond().empty()) return kDone;
+  fmt::print(stderr, "error: {}: {}\n", arguments.mesh.string(), fmt::join(report->beyond(), "; "));
+  return kUnsound;
 }
 
 }  // namespace
@@ -93,6 +111,7 @@ void add_metrics(CLI::App& app, Commands& commands) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(solver_names()));
+  add_criteria(*metrics, arguments.criteria, arguments.strict);
   metrics->add_option("--json", arguments.json, "record to write");
   commands.push_back(
       {.app = metrics, .run = [given] { return metrics_command(*given); }, .has_time_limit = true});

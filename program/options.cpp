@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "metrics/judgement/criteria.h"
 
 namespace delquad {
 
@@ -34,6 +35,13 @@ CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const
 
 void add_data(CLI::App& command, std::filesystem::path& data) {
   command.add_option("--data", data, "folder of the models that cases call data")->capture_default_str();
+}
+
+void add_criteria(CLI::App& command, std::string& criteria, bool& strict) {
+  std::string names;
+  for (const Criteria& preset : criteria_presets()) names += preset.name + ", ";
+  command.add_option("--criteria", criteria, "judge elements by " + names + "or a file of limits (.toml)");
+  command.add_flag("--strict", strict, "elements beyond the criteria are an error (exit code 5)");
 }
 
 void add_threads(CLI::App& command, int& threads) {

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "metrics/judgement/criteria.h"
+#include "metrics/judgement/soundness.h"
 
 namespace delquad {
 namespace {
@@ -26,6 +28,25 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics) {
 
 void print_metrics(const MeshMetrics& metrics) {
   for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
+}
+
+void print_criteria(const CriteriaReport& report, const Mesh& mesh) {
+  const auto percent = [&](std::size_t n) {
+    return 100 * static_cast<double>(n) / static_cast<double>(report.elements);
+  };
+  fmt::print("  criteria{}: {} of {} elements fail, {:.3g} %\n", report.name.empty() ? "" : " " + report.name,
+             report.failing, report.elements, percent(static_cast<std::size_t>(report.failing)));
+  for (const CriterionResult& r : report.results) {
+    fmt::print("    {:<18} {:>13} {:>8} {:>7.3g} %  worst {:.4g}", r.limit.key, text_of(r.limit),
+               r.failing.size(), percent(r.failing.size()), r.worst);
+    if (!r.failing.empty()) fmt::print(" in {} ({})", show_place(mesh, r.at), r.cause);
+    fmt::print("{}\n", r.limit.on.empty() ? "" : " on '" + r.limit.on + "'");
+  }
+  fmt::print("    time step: critical {:.4g}, {:.3g} of that of squares of the least size; estimated",
+             report.critical_step, report.critical_step / report.step_of_squares);
+  for (const auto& [program, step] : report.estimated_step) fmt::print(" {} {:.4g}", program, step);
+  fmt::print("\n");
+  for (const std::string& why : report.why) fmt::print("    {}\n", why);
 }
 
 void print_seconds(const StepTimes& times) {

@@ -14,6 +14,9 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics);
 /// Every measure but those of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
+/// How a mesh does by criteria, and why.
+void print_criteria(const CriteriaReport& report, const Mesh& mesh);
+
 /// How long each step took, the times of all threads added up.
 void print_seconds(const StepTimes& times);
 

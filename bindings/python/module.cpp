@@ -121,6 +121,41 @@ py::dict dict_of(const StepTimes& times) {
   return all;
 }
 
+py::object dict_of(const CriteriaReport& report) {
+  using namespace py::literals;
+  py::list limits;
+  for (const CriterionResult& r : report.results)
+    limits.append(py::dict("criterion"_a = r.limit.key, "limit"_a = r.limit.value,
+                           "in_sizes"_a = r.limit.in_sizes, "on"_a = r.limit.on, "failing"_a = r.failing,
+                           "worst"_a = r.worst, "at"_a = py::make_tuple(r.at.at.x, r.at.at.y, r.at.at.z),
+                           "cause"_a = r.cause));
+  return py::dict("name"_a = report.name, "elements"_a = report.elements, "failing"_a = report.failing,
+                  "limits"_a = limits, "causes"_a = report.causes, "why"_a = report.why,
+                  "critical_step"_a = report.critical_step, "estimated_step"_a = report.estimated_step,
+                  "step_of_squares"_a = report.step_of_squares);
+}
+
+py::object judged(const Mesh& mesh, const Criteria& criteria, const std::optional<double>& size) {
+  if (!size) return dict_of(judge(mesh, criteria));
+  const auto constant = located("size", [&] { return make_constant_size(*size); });
+  return dict_of(judge(mesh, criteria, constant.get()));
+}
+
+void define_criteria(py::module_& m) {
+  py::class_<Criteria>(m, "Criteria", "Limits that elements are judged by.")
+      .def(py::init<>())
+      .def(py::init(&read_criteria))
+      .def("set", [](Criteria& c, const std::string& key, const std::string& value,
+                     const std::string& on) { c.set(key, value, on); })
+      .def("material",
+           [](Criteria& c, double young, double poisson, double density) {
+             c.material = Material{young, poisson, density};
+           })
+      .def_readwrite("time_step_by", &Criteria::time_step_by)
+      .def_readwrite("strict", &Criteria::strict);
+  m.def("judge", &judged, arg("mesh"), arg("criteria"), arg("size"));
+}
+
 void define_result(py::module_& m) {
   py::class_<Result, Mesh, std::shared_ptr<Result>>(m, "Result", "A mesh, and what is known of it.")
       .def_property_readonly("metrics", [](const Result& r) { return r.rest.metrics.values; })
@@ -160,7 +195,13 @@ void define_result(py::module_& m) {
           "why it is not sound")
       .def_property_readonly(
           "beyond_limits", [](const Result& r) { return r.rest.soundness.beyond; },
-          "which elements are beyond min_angle and max_aspect")
+          "which elements are beyond min_angle, max_aspect and strict criteria")
+      .def_property_readonly(
+          "criteria",
+          [](const Result& r) -> py::object {
+            return r.rest.criteria ? dict_of(*r.rest.criteria) : py::none();
+          },
+          "how it does by the criteria, see judge(); None: there were none")
       .def("_complaint", [](const Result& r) { return r.rest.soundness.complaint(); });
 }
 
@@ -334,6 +375,7 @@ void define_problem(py::module_& m) {
   c.def("option", [](Problem& p, const std::string& name, const OptionValue& value) {
     p.problem.options.set(name, value);
   });
+  c.def("criteria", [](Problem& p, const Criteria& criteria) { p.problem.criteria = criteria; });
   c.def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
       .def("seed", [](Problem& p, long long seed) { p.problem.seed = seed; })
       .def("order", [](Problem& p, int order) { p.problem.order = order; })
@@ -361,6 +403,7 @@ PYBIND11_MODULE(_core, m) {
   const auto& cancelled = py::register_exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
   py::register_exception<TimeIsUp>(m, "TimeIsUp", cancelled);
   define_mesh(m);
+  define_criteria(m);
   define_result(m);
   define_models(m);
   define_problem(m);

@@ -9,6 +9,7 @@
 #include "delquad/error.h"
 #include "experiments/sweep/machine.h"
 #include "io/cases/read_problem.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 
@@ -125,6 +126,18 @@ Json layer_json(const LayerSpec& layer) {
           {"fan", layer.fan}};
 }
 
+Json limit_json(const CriterionLimit& limit) {
+  return {{"criterion", limit.key}, {"limit", limit.value}, {"in_sizes", limit.in_sizes}, {"on", limit.on}};
+}
+
+Json criteria_json(const Criteria& criteria) {
+  Json json = {{"time_step_by", criteria.time_step_by}, {"strict", criteria.strict}};
+  for (const CriterionLimit& limit : criteria.limits) json["limits"].push_back(limit_json(limit));
+  if (const auto& material = criteria.material)
+    json["material"] = {material->young, material->poisson, material->density};
+  return json;
+}
+
 Json options_json(const Case& c) {
   Json json = {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
                {"size", size_json(c.size)},
@@ -151,6 +164,7 @@ Json options_json(const Case& c) {
   }
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
   if (word_start(c.model) == WordStart::kGivenMesh) json["start"] = true;
+  if (!c.criteria.empty()) json["criteria"] = criteria_json(c.criteria);
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
   return json;
 }
@@ -235,8 +249,10 @@ Json metric_json(const CellIdentity::IdentifiedMetric& of_cell) {
 }
 
 /// The measures that the project itself does not have, so that tables can be made from records alone.
-Json own_metrics_json(const CellIdentity* cell) {
+Json own_metrics_json(const MeshMetrics& metrics, const CellIdentity* cell) {
   Json json = Json::array();
+  for (const Metric& metric : criteria_metrics())
+    if (metrics.values.contains(metric.key)) json.push_back(metric_json(metric));
   for (const OwnMetric& own : own_metrics()) json.push_back(metric_json(*find_metric(own.key)));
   if (cell != nullptr)
     for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));
@@ -276,6 +292,27 @@ Json bad_quads_json(const MeshResult& result) {
           {"in_sharp_corners", result.bad_in_corners},
           {"elsewhere", result.bad_elsewhere},
           {"sharp_corners", corners}};
+}
+
+Json report_json(const CriteriaReport& report) {
+  Json limits = Json::array();
+  for (const CriterionResult& r : report.results) {
+    Json json = limit_json(r.limit);
+    json["failing"] = r.failing.size();
+    json["worst"] = r.worst;
+    json["at"] = point_json(r.at.at);
+    json["cause"] = r.cause;
+    limits.push_back(json);
+  }
+  return {{"name", report.name},
+          {"elements", report.elements},
+          {"failing", report.failing},
+          {"limits", limits},
+          {"causes", report.causes},
+          {"why", report.why},
+          {"critical_step", report.critical_step},
+          {"estimated_step", report.estimated_step},
+          {"step_of_squares", report.step_of_squares}};
 }
 
 Json topology_json(const Topology& t) {
@@ -441,7 +478,7 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 
 std::string run_record(const Case& c, const Word& word, const MeshResult& result, const CellIdentity* cell) {
   Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
-  if (const Json own = own_metrics_json(cell); !own.empty()) json["own_metrics"] = own;
+  if (const Json own = own_metrics_json(result.metrics, cell); !own.empty()) json["own_metrics"] = own;
   json["sound"] = result.soundness.accepted();
   if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
   for (const std::string& beyond : result.soundness.beyond) json["unsound"].push_back(beyond);
@@ -451,6 +488,7 @@ std::string run_record(const Case& c, const Word& word, const MeshResult& result
   json["warnings"] = texts(result.warnings);
   if (result.surface) json["surface"] = surface_json(result.prepared, *result.surface);
   if (!result.failures.empty()) json["left_out"] = failures_json(result);
+  if (result.criteria) json["criteria"] = report_json(*result.criteria);
   const StageLog& log = result.log;
   json["bad_quads"] = bad_quads_json(result);
   const bool is_peer = cell != nullptr && cell->peer != nullptr;
@@ -486,9 +524,10 @@ std::string metrics_by_command_record(const CellIdentity& cell) {
 std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
 std::string versions_record() { return versions_json().dump(); }
 
-std::string metrics_record(const std::string& mesh_file, const std::string& size,
-                           const MeshMetrics& metrics) {
+std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics,
+                           const CriteriaReport* criteria) {
   Json json = {{"mesh", mesh_file}, {"size", size.empty() ? Json() : Json(size)}};
+  if (criteria != nullptr) json["criteria"] = report_json(*criteria);
   add_metrics(json, metrics);
   add_origin(json);
   return print(json);

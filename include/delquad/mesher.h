@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -39,6 +40,81 @@ const Quality* find_quality(const std::string& name);
 const std::vector<Quality>& quality_registry();
 inline constexpr const char* kDefaultQuality = "good";
 
+/// Something that elements are measured by, with a limit.
+struct Criterion {
+  std::string key;     ///< "min_length"
+  std::string fails;   ///< what an element has that fails: "an edge shorter than"
+  std::string unit;    ///< behind numbers: " degrees"; empty: none
+  bool is_most;        ///< values above the limit fail, else those below
+  double least, most;  ///< what limits may be
+  bool of_length;      ///< may be told in parts of the wanted size
+  std::string source;
+};
+/// All of them, in the order of tables.
+const std::vector<Criterion>& criterion_registry();
+
+/// What no element should be beyond.
+struct CriterionLimit {
+  std::string key;        ///< of a Criterion
+  double value = 0;       ///< in its unit
+  bool in_sizes = false;  ///< in parts of the wanted size at the element
+  std::string on = {};    ///< a name: of elements of the regions, and along the curves, that have it alone
+  std::string where = {};
+  friend bool operator==(const CriterionLimit&, const CriterionLimit&) = default;
+};
+
+/// Of elastic shells, in any units that go together.
+struct Material {
+  double young = 0, poisson = 0, density = 0;
+};
+
+/// By what an engineer judges a mesh. Elements are as they are however it is judged.
+struct Criteria {
+  std::string name = {}, source = {};       ///< of a preset, or a file
+  std::vector<CriterionLimit> limits = {};  ///< one with a name counts in place of one without
+  std::optional<Material> material = {};    ///< none: times are lengths, at speed 1
+  /// Whose length of an element its time step goes by: "ls-dyna", "radioss" or "abaqus".
+  std::string time_step_by = "ls-dyna";
+  bool strict = false;  ///< elements that fail are in Soundness::beyond
+  std::string where = {};
+  bool empty() const { return limits.empty(); }
+  /// `value`: a number, or "0.33 size". In place of a limit of that key and name. Throws InputError for
+  /// unknown keys and values that cannot be.
+  Criteria& set(const std::string& key, const std::string& value, const std::string& on = {},
+                const std::string& set_where = "criteria");
+};
+/// "batch", "crash" and "static", with what they come from.
+const std::vector<Criteria>& criteria_presets();
+/// A preset by its name, or a file, see docs/meshing.md. Throws InputError with file and line.
+Criteria read_criteria(const std::string& preset_or_file);
+/// Throws InputError for limits that contradict each other, and times without a material.
+void check_criteria(const Criteria& criteria);
+
+/// How a mesh does by a limit.
+struct CriterionResult {
+  CriterionLimit limit;
+  double worst = 0;        ///< value of all elements, in parts of the size where the limit is
+  Place at = {};           ///< of that
+  std::string cause = {};  ///< why that fails; empty: it does not
+  std::string text = {};   ///< "3 elements have ..." with places, as Soundness::beyond; empty: none has
+  std::vector<int> failing = {};  ///< elements: triangles, then quads
+};
+struct CriteriaReport {
+  std::string name;
+  long long elements = 0, failing = 0;
+  std::vector<CriterionResult> results;     ///< by limit
+  std::map<std::string, long long> causes;  ///< failing quads by why they do
+  std::vector<std::string> why;             ///< the same for people, with places and what helps
+  /// The largest stable time step of central differences: of the mesh's membrane waves, with bilinear
+  /// elements and lumped mass; 0 where an element is inverted.
+  double critical_step = 0;
+  std::map<std::string, double> estimated_step;  ///< least of all elements by the length of a program
+  double step_of_squares = 0;                    ///< critical, of squares of the least wanted size
+  std::vector<std::string> beyond() const;       ///< as Soundness::beyond
+};
+/// Of any mesh: its curves are those of its model. `size`: that is wanted; null: the mean edge.
+CriteriaReport judge(const Mesh& mesh, const Criteria& criteria, const SizeField* size = nullptr);
+
 /// What is to be meshed, and how. A plain value: it can be copied, and meshed again.
 struct MeshProblem {
   std::string name = "model";   ///< in messages
@@ -54,6 +130,7 @@ struct MeshProblem {
   MappedSpec mapped = {};      ///< of planar models of curves, and of surfaces
   long long seed = 0;          ///< 0: as it is; else the domain is turned, and nodes are shifted along curves
   Options options = {};        ///< of the stages
+  Criteria criteria = {};      ///< that the mesh is judged by; none: not
   double refine = 1;           ///< all sizes are divided by it; numbers of edges and of layers grow with it
   std::optional<long long> quads = {};  ///< about so many, by sizes that are all larger or smaller
   int order = 1;                        ///< of the elements, 1 to 4: above 1 they are curved, see Mesh::order
@@ -181,11 +258,12 @@ struct MeshResult {
   std::vector<Warning> warnings;  ///< those of the preparation, then those on the mesh
   /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
   int bad_in_corners = 0, bad_elsewhere = 0;
-  std::vector<FaceFailure> failures;     ///< by face; empty unless problem.keep_going
-  std::optional<SurfaceReport> surface;  ///< of surfaces
-  double seconds = 0;                    ///< of the stages of the word, on the clock
-  long long lifting_cost = 0;            ///< of the library's own budget
-  long long peak_memory = 0;             ///< bytes, the most that the process has held so far
+  std::vector<FaceFailure> failures;       ///< by face; empty unless problem.keep_going
+  std::optional<CriteriaReport> criteria;  ///< where the problem has some
+  std::optional<SurfaceReport> surface;    ///< of surfaces
+  double seconds = 0;                      ///< of the stages of the word, on the clock
+  long long lifting_cost = 0;              ///< of the library's own budget
+  long long peak_memory = 0;               ///< bytes, the most that the process has held so far
   Prepared prepared;  ///< what it was made of: with smaller sizes where it would not have been sound
 
   std::vector<Warning> warnings_on_mesh() const {

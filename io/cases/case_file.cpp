@@ -16,6 +16,7 @@
 #include "geometry/surface/compound.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_keys.h"
+#include "io/cases/criteria_file.h"
 #include "io/cases/model_file.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
@@ -338,6 +339,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("periodic")) target.periodic.clear();
   for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {.text = table.expression("cross"), .where = table.where("cross")};
+  if (table.has("criteria")) target.criteria = read_criteria_key(table);
   target.order = static_cast<int>(integer_between(table, "order", 1, kMostOrder, target.order));
   if (table.has("refine")) target.refine = table.positive_number("refine");
   if (table.has("quads"))

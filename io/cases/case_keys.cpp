@@ -8,6 +8,8 @@
 
 #include "delquad/options.h"
 
+#include "delquad/mesher.h"
+
 namespace delquad {
 
 namespace toml_types {
@@ -258,6 +260,40 @@ const TomlKeys& layer_keys() {
   return keys;
 }
 
+const TomlKeys& material_keys() {
+  static const TomlKeys keys = {{"young", "Young's modulus", kPositive, nullptr, false, true},
+                                {"poisson", "Poisson's ratio", between("number", 0, 1), nullptr, false, true},
+                                {"density", "mass per volume", kPositive, nullptr, false, true}};
+  return keys;
+}
+
+namespace {
+
+/// Those that begin, then the limits.
+TomlKeys with_criteria(TomlKeys keys) {
+  for (const Criterion& criterion : criterion_registry())
+    keys.push_back({criterion.key, "limit, by " + criterion.source, kExpression});
+  return keys;
+}
+
+}  // namespace
+
+const TomlKeys& named_criteria_keys() {
+  static const TomlKeys keys = with_criteria({{"name", "of curves or regions", kText, nullptr, false, true}});
+  return keys;
+}
+
+const TomlKeys& criteria_keys() {
+  static const TomlKeys keys = with_criteria(
+      {{"name", "for reports", kText},
+       {"preset", "limits to begin with: batch, crash or static", one_of({"batch", "crash", "static"})},
+       {"on", "limits of what has a name, in place of the others", "", named_criteria_keys, true},
+       {"material", "for times", "", material_keys},
+       {"time_step_by", "whose length times go by", one_of({"ls-dyna", "radioss", "abaqus"})},
+       {"strict", "whether a mesh with elements that fail is not written", kFlag}});
+  return keys;
+}
+
 TomlKeys keys_of(const OptionGroup& group) {
   TomlKeys keys;
   for (const OptionKey& key : group.keys) keys.push_back({key.name, key.help, type_of(key)});
@@ -287,6 +323,7 @@ TomlKeys case_keys() {
       {"order", "of the elements, 1 to 4: curved above 1", at_least("integer", 1)},
       {"refine", "by which all sizes are divided", kPositive},
       {"quads", "about how many, by other sizes", at_least("integer", 1)},
+      {"criteria", "that meshes are judged by: a preset, a file or limits", kText, criteria_keys},
       {"seed", "above 0, the domain is changed a little at random", at_least("integer", 0)}};
   for (const OptionGroup& group : option_groups()) {
     if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end() || group.name == kCompare)

@@ -28,6 +28,9 @@ const TomlKeys& division_keys();
 const TomlKeys& size_keys();
 const TomlKeys& source_keys();
 const TomlKeys& layer_keys();
+const TomlKeys& criteria_keys();
+const TomlKeys& named_criteria_keys();
+const TomlKeys& material_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 

@@ -32,4 +32,8 @@ struct BadQuads {
 BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 
+/// Judges the result's mesh by the problem's criteria, where it has some: its report, measures of tables and,
+/// where that is strict, what is beyond. `is_others`: another program made the mesh, from the same model.
+void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResult& result);
+
 }  // namespace delquad

@@ -77,8 +77,8 @@ struct Tridiagonal {
   }
 };
 
-/// By Lanczos' method with full orthogonalisation [golub2013, sections 10.1 and 10.3], until the residual of
-/// the Ritz pair is below the tolerance. `apply` is symmetric; `project` takes away what is not asked about.
+}  // namespace
+
 double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vector&)>& apply,
                           const std::function<void(Vector&)>& project) {
   constexpr int kMost = 400;
@@ -105,11 +105,9 @@ double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vecto
     }
     v /= ritz.beside.back();
   }
-  throw InputError(fmt::format("the condition number is not known to {} after {} steps of Lanczos' method",
+  throw InputError(fmt::format("the largest eigenvalue is not known to {} after {} steps of Lanczos' method",
                                kEigenvalueTolerance, kMost));
 }
-
-}  // namespace
 
 Vector solve_directly(const LinearSystem& system) { return Factorisation(system).solve(system.right); }
 

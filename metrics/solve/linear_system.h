@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 #include <vector>
 
 namespace delquad {
@@ -19,6 +20,14 @@ struct LinearSystem {
 inline constexpr double kCgTolerance = 1e-8;
 /// How far off, at most, an eigenvalue of condition_number() may be, relative to itself.
 inline constexpr double kEigenvalueTolerance = 1e-3;
+
+/// Of a symmetric operator on vectors of this size, relative to itself to kEigenvalueTolerance. By Lanczos'
+/// method with full orthogonalisation [golub2013, sections 10.1 and 10.3], until the residual of the Ritz
+/// pair is below that. `project` takes away what is not asked about. Throws InputError when that does not
+/// converge.
+double largest_eigenvalue(
+    Eigen::Index n, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
+    const std::function<void(Eigen::VectorXd&)>& project = [](Eigen::VectorXd&) {});
 
 /// By Cholesky's factorisation; on each floating set the first unknown is 0. Throws InputError where the
 /// matrix is not as it should be.

@@ -153,3 +153,31 @@ def test_meshes_from_arrays():
     m = delquad.Mesh(SQUARE, [], [], [], [], [[0, 1, 2, 3]], [0], [], [(5, ["plate"])])
     assert m.points.shape == (4, 3) and m.regions == [(5, ["plate"])]
     assert math.isclose(np.ptp(m.points[:, 0]), 1)
+
+
+def test_criteria_judge_elements():
+    wedge = delquad.polygons([[(0, 0), (6, 0), (6, 2.8)]])
+    result = delquad.mesh(wedge, 0.4, criteria="batch")
+    report = result.criteria
+    angle = next(limit for limit in report["limits"] if limit["criterion"] == "min_angle")
+    assert 0 < report["failing"] < report["elements"] == len(result.quads)
+    assert angle["limit"] == 40 and angle["cause"] == "corner" and angle["worst"] < 40
+    assert result.metrics["failing"] == pytest.approx(100 * report["failing"] / report["elements"])
+    corners = result.points[result.quads[angle["failing"]]]
+    assert (np.linalg.norm(corners, axis=2).min(axis=1) < 2).any()
+    assert delquad.judge(result, "batch", 0.4)["failing"] == report["failing"]
+    assert delquad.mesh(wedge, 0.4).criteria is None
+    with pytest.raises(delquad.UnsoundError, match="an angle below 40 degrees"):
+        delquad.mesh(wedge, 0.4, criteria={"preset": "batch", "strict": True})
+    material = {"young": 200.0, "poisson": 0.0, "density": 2.0}
+    timed = delquad.mesh(wedge, 0.4, criteria={"min_time_step": 1e-9, "material": material}).criteria
+    assert timed["critical_step"] == pytest.approx(report["critical_step"] / 10)
+    for wrong, what in (
+        ({"min_lenght": 1}, "did you mean 'min_length'"),
+        ({"min_time_step": 1e-6}, "needs a material"),
+        ({"max_aspect": 2, "material": {"young": 1.0, "poisson": 0.3}}, "density"),
+        ({"min_length": 3, "max_length": 2}, "no element is within both"),
+        ("batchh", "did you mean 'batch'"),
+    ):
+        with pytest.raises(delquad.InputError, match=what):
+            delquad.mesh(wedge, 0.4, criteria=wrong)

@@ -37,7 +37,7 @@ from ._core import (
 )
 from ._exchange import from_meshio, read_mesh
 from ._hexahedra import extrude
-from ._mesh import UnsoundError, cad, improve, mesh, planar, polygons
+from ._mesh import UnsoundError, cad, improve, judge, mesh, planar, polygons
 
 __all__ = [name for name in dir() if not name.startswith("_")]
 

@@ -123,6 +123,37 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_b
         problem.unit(unit)
 
 
+def _criteria(criteria):
+    """A preset, the path of a file, or limits by name."""
+    if isinstance(criteria, (str, os.PathLike)):
+        return _core.Criteria(os.fspath(criteria))
+    limits = dict(criteria)
+    result = _core.Criteria(limits.pop("preset")) if "preset" in limits else _core.Criteria()
+    if "material" in limits:
+        material = limits.pop("material")
+        if set(material) != {"young", "poisson", "density"}:
+            raise _core.InputError("criteria: the material: expected 'young', 'poisson' and 'density'")
+        result.material(*(float(material[key]) for key in ("young", "poisson", "density")))
+    result.time_step_by = limits.pop("time_step_by", result.time_step_by)
+    result.strict = limits.pop("strict", result.strict)
+    for on, named in [("", limits), *limits.pop("on", {}).items()]:
+        for key, value in named.items():
+            result.set(key, value if isinstance(value, str) else repr(float(value)), on)
+    return result
+
+
+def judge(mesh, criteria, size=None):
+    """How the elements of any Mesh do by criteria, which are as for mesh(). size: that is wanted, a number; None: the
+    mean edge.
+
+    Returns a dict: "elements" and how many of them are "failing"; "limits", each with its "failing" elements (triangles
+    first), the "worst" value, where it is ("at"), and the "cause"; "causes" with the numbers of failing quads, and
+    "why" in words; "critical_step" and "estimated_step" by program, times where there is a material, else lengths;
+    "step_of_squares" of the least size.
+    """
+    return _core.judge(mesh, _criteria(criteria), None if size is None else float(size))
+
+
 def _embed(problem, embed):
     for entry in embed:
         points, name = entry if isinstance(entry, tuple) and isinstance(entry[-1], str) else (entry, "")
@@ -173,6 +204,7 @@ def mesh(
     allow_unsound=False,
     min_angle=None,
     max_aspect=None,
+    criteria=None,
     threads=0,
     time_limit=0,
     progress=None,
@@ -214,6 +246,9 @@ def mesh(
     allow_unsound: meshes that are not sound are returned, too.
     order: of the elements, 1 to 4: above 1 they are curved along the model, and arrays hold their corners only.
     min_angle, max_aspect: degrees, and longest over shortest side (but in layers), beyond which an element is an error.
+    criteria: that elements are judged by (Result.criteria): "batch", "crash", "static", the path of a file, or limits
+        {"preset": "batch", "min_length": "0.4 size", "max_aspect": 4, "on": {name: {"min_length": 2}}, "material":
+        {"young": 210e3, "poisson": 0.3, "density": 7.85e-9}, "strict": True}; see docs/meshing.md.
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
     options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
@@ -260,6 +295,8 @@ def mesh(
     for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):
         if value is not None:
             problem.option(limit, float(value))
+    if criteria is not None:
+        problem.criteria(_criteria(criteria))
     for key, value in (options or {}).items():
         problem.option(key, value.item() if hasattr(value, "item") else value)
     if name is not None:

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "io/mesh_io.h"
+#include "tests/program/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// With a corner of 25 degrees.
+const std::string kWedge = "[[loop]]\npolygon = [[0, 0], [6, 0], [6, 2.8]]\nregion = \"plate\"\n";
+
+TEST(Criteria, GiveATableAndSets) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", kWedge);
+  const ProgramResult plain = delquad({"mesh", model, "-o", folder / "plain.msh", "--size", "0.4"});
+  const ProgramResult judged =
+      delquad({"mesh", model, "-o", folder / "judged.msh", "--size", "0.4", "--criteria", "batch"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_EQ(read_text(folder / "plain.msh"), read_text(folder / "judged.msh"));
+  EXPECT_FALSE(contains(plain.out, "criteria"));
+  for (const char* part : {"criteria batch: ", " elements fail", "min_angle", "40 degrees", "(corner)",
+                           "time step: critical", "radioss", "in sharp corners of the model"})
+    EXPECT_TRUE(contains(judged.out, part)) << part << " in " << judged.out;
+
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "sets.inp", "--size", "0.4", "--criteria", "batch",
+                     "--failing-sets", "--json", folder / "r.json"})
+                .exit_code,
+            0);
+  const std::string inp = read_text(folder / "sets.inp"), record = read_text(folder / "r.json");
+  for (const char* set :
+       {"*ELSET, ELSET=failing\n", "*ELSET, ELSET=failing_min_angle\n", "*ELSET, ELSET=plate\n"})
+    EXPECT_TRUE(contains(inp, set)) << set;
+  for (const char* key : {"\"failing_min_angle\"", "\"critical_step\"", "\"cause\": \"corner\""})
+    EXPECT_TRUE(contains(record, key)) << key;
+}
+
+TEST(Criteria, AreAnErrorWhenStrict) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", kWedge);
+  const ProgramResult refused =
+      delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--criteria", "batch", "--strict"});
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(contains(refused.out, "criteria batch: ")) << refused.out;
+  EXPECT_TRUE(contains(refused.err, "an angle below 40 degrees")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.msh"));
+  const ProgramResult alone = delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--strict"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_TRUE(contains(alone.err, "expected --criteria")) << alone.err;
+}
+
+TEST(Criteria, JudgeMeshesOfOthers) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", kWedge);
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "m.obj", "--size", "0.4"}).exit_code, 0);
+  const ProgramResult result = delquad({"metrics", folder / "m.obj", "--size", "0.4", "--criteria", "batch"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "0.33 size")) << result.out;
+  EXPECT_EQ(delquad({"metrics", folder / "m.obj", "--criteria", "batch", "--strict"}).exit_code, 5);
+}
+
+TEST(Criteria, AreColumnsOfExperiments) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.toml", kWedge);
+  const auto experiment = write_text(folder / "e.toml",
+                                     "pipelines = [\"DB\"]\ncriteria = \"batch\"\nsize = 0.4\ncolumns = "
+                                     "[\"failing\", \"failing_min_angle\", \"time_step\"]\n"
+                                     "[[case]]\nname = \"wedge\"\nmodel = \"m.toml\"\n");
+  const ProgramResult run = delquad({"run", experiment, "-o", folder / "results"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramResult table = delquad({"tables", folder / "results"});
+  EXPECT_TRUE(contains(run.out + table.out, "failing min_angle")) << run.out << table.out;
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
