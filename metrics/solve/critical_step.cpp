@@ -9,7 +9,7 @@
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"
-#include "metrics/solve/element_points.h"
+#include "metrics/solve/discretisation.h"
 #include "metrics/solve/linear_system.h"
 
 namespace delquad {

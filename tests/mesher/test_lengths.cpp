@@ -45,10 +45,10 @@ int beyond_lengths(const Mesh& mesh, double size) {
 
 /// Optimisation gains angles without losing lengths.
 TEST(Lengths, AreKeptByOptimisation) {
-  constexpr double kSize = 0.02;
+  constexpr double kLength = 0.02;
   for (const std::string word : {"DBO", "DBCO", "DBCQO", "PBO"}) {
-    const Mesh quads = mesh(plate(4, kSize), word).mesh;
-    EXPECT_LE(beyond_lengths(quads, kSize), 0.002 * static_cast<double>(quads.quads.size())) << word;
+    const Mesh quads = mesh(plate(4, kLength), word).mesh;
+    EXPECT_LE(beyond_lengths(quads, kLength), 0.002 * static_cast<double>(quads.quads.size())) << word;
   }
 }
 
