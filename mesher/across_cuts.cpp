@@ -172,7 +172,7 @@ Stages that_move_nodes(const Stages& stages) {
 }
 
 /// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
-bool is_to_be_taken(const RunResult& after, const RunResult& before, bool is_given) {
+bool is_to_be_taken(const MeshResult& after, const MeshResult& before, bool is_given) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
   if (is_given) return is_better(after, before);
   return is_more_regular(after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
@@ -187,13 +187,13 @@ Options with_dearer(const Options& options, double dearer) {
 }
 
 /// `again`: what was made before, with other cuts.
-RunResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Options& options,
-                           const std::vector<char>& regions) {
+MeshResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Options& options,
+                            const std::vector<char>& regions) {
   const PreparedProblem& prepared = f.prepared;
   const bool is_given =
       prepared.surface->given.has_value() && repair_options(prepared.settings.options).keep_given;
   UncutMesh made = run_stages(again, f.state.of_quads, options, is_given);
-  RunResult after;
+  MeshResult after;
   after.mesh = made.mesh;
   measure(prepared, f.left_out, after);
   const Stages moving = that_move_nodes(f.state.of_quads);
@@ -211,7 +211,7 @@ RunResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Opt
 /// Whether what is made is better, and taken.
 bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& options,
                       const std::vector<char>& regions) {
-  RunResult after = made_across_cuts(on, again, options, regions);
+  MeshResult after = made_across_cuts(on, again, options, regions);
   if (!is_to_be_taken(after, on.result, on.prepared.surface->given.has_value())) return false;
   take_mesh(std::move(after), on.result);
   return true;

@@ -102,7 +102,7 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
   return mesh;
 }
 
-void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result) {
+void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result) {
   const DoingStage measuring("report");
   TimeSpent metrics_time, report_time, soundness_time;
   // A place that is not finite is nowhere near a surface.
@@ -139,10 +139,9 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
-/// Of a curved mesh, after its vertices moved.
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
-                           RunResult& result) {
-  RunResult straight;
+                           MeshResult& result) {
+  MeshResult straight;
   straight.mesh = straight_form(result.mesh);
   measure(prepared, left_out, straight);
   result.log.add(straight.log);

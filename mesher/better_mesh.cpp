@@ -19,15 +19,15 @@ constexpr double kOtherNumber = 0.1;
 /// Edges are near enough to their size with this tau, in percent.
 constexpr double kGoodTau = 91;
 
-double value(const RunResult& run, const char* key) { return run.metrics.values.at(key); }
+double value(const MeshResult& run, const char* key) { return run.metrics.values.at(key); }
 
 /// Not below both what is good and what there was.
-bool is_kept(const char* key, double good, const RunResult& after, const RunResult& before) {
+bool is_kept(const char* key, double good, const MeshResult& after, const MeshResult& before) {
   constexpr double kRounding = 1e-9;
   return value(after, key) > std::min(good, value(before, key)) - kRounding;
 }
 
-double score(const RunResult& run) {
+double score(const MeshResult& run) {
   return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
 }
 
@@ -70,7 +70,7 @@ bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>&
   return false;
 }
 
-Harm harm_of(const RunResult& after, const RunResult& before) {
+Harm harm_of(const MeshResult& after, const MeshResult& before) {
   const double number = value(after, "n_quads") / value(before, "n_quads");
   return {times_worse(value(before, "eta_worst"), value(after, "eta_worst")),
           times_worse(value(before, "edge_min"), value(after, "edge_min")),
@@ -78,7 +78,7 @@ Harm harm_of(const RunResult& after, const RunResult& before) {
           times_worse(number, 1 + kOtherNumber) + times_worse(1 - kOtherNumber, number)};
 }
 
-bool is_worse(const RunResult& after, const RunResult& before) {
+bool is_worse(const MeshResult& after, const MeshResult& before) {
   if (before.soundness.sound() && !after.soundness.sound()) return true;
   if (harm_of(after, before).sum() > 0) return true;
   if (after.soundness.sound() && !before.soundness.sound()) return false;
@@ -92,20 +92,20 @@ bool is_worse(const RunResult& after, const RunResult& before) {
   return worse;
 }
 
-bool is_better(const RunResult& after, const RunResult& before) {
+bool is_better(const MeshResult& after, const MeshResult& before) {
   return score(after) > score(before) && !is_worse(after, before);
 }
 
-bool is_more_regular(const RunResult& after, const RunResult& before) {
+bool is_more_regular(const MeshResult& after, const MeshResult& before) {
   return value(after, "n_irregular") < value(before, "n_irregular") &&
          is_kept("tau", kGoodTau, after, before);
 }
 
-bool keeps_worst_eta(double eta, const RunResult& after, const RunResult& before) {
+bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before) {
   return is_kept("eta_worst", eta, after, before);
 }
 
-void take_mesh(RunResult&& from, RunResult& result) {
+void take_mesh(MeshResult&& from, MeshResult& result) {
   result.mesh = std::move(from.mesh);
   result.metrics = std::move(from.metrics);
   result.soundness = std::move(from.soundness);

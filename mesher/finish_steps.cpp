@@ -24,7 +24,7 @@
 namespace delquad {
 namespace {
 
-std::string text_of_worst(const RunResult& run) {
+std::string text_of_worst(const MeshResult& run) {
   const auto value = [&](const char* key) { return run.metrics.values.at(key); };
   return fmt::format(
       "{:.0f} quads, eta mean {:.4g}, worst {:.4g}, d4 {:.4g} %, aspect to {:.4g}, edges from {:.3g}{}",
@@ -33,7 +33,7 @@ std::string text_of_worst(const RunResult& run) {
 }
 
 /// With what is worst in it before its unsound quads were opened.
-RunResult as_it_was(RunResult given, const GivenWorst& worst) {
+MeshResult as_it_was(MeshResult given, const GivenWorst& worst) {
   given.metrics.values["eta_worst"] = worst.eta;
   given.metrics.values["edge_min"] = worst.side;
   given.metrics.values["aspect_max"] = worst.aspect;
@@ -42,7 +42,7 @@ RunResult as_it_was(RunResult given, const GivenWorst& worst) {
 }
 
 /// What it costs that quads are sound now, and where.
-std::string text_of_price(const Finishing& f, const RunResult& before) {
+std::string text_of_price(const Finishing& f, const MeshResult& before) {
   const Mesh& mesh = f.result.mesh;
   const auto at_least = [&](const std::function<double(const std::array<Vec3, 4>&)>& quality) {
     std::vector<double> of;
@@ -85,7 +85,7 @@ bool is_word_of_quads(const std::vector<const Stage*>& stages, const Stage* firs
 }
 
 /// What these stages alone make.
-RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
+MeshResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   MeshingState state = begin_meshing(f.prepared);
   for (const Stage* stage : stages) run_stage(*stage, f.prepared, state);
   Finishing on{f.prepared, state, f.left_out};
@@ -101,11 +101,11 @@ RunResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
 /// fewer of the stages make, if that is not, or else the given mesh. A warning says so. Returns whether it is
 /// another.
 bool keep_better(Finishing& on) {
-  RunResult& result = on.result;
-  RunResult given;
+  MeshResult& result = on.result;
+  MeshResult given;
   given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
   measure(on.prepared, on.left_out, given);
-  const RunResult before = as_it_was(given, *on.prepared.given_worst);
+  const MeshResult before = as_it_was(given, *on.prepared.given_worst);
   if (!is_worse(result, before)) return false;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
@@ -115,10 +115,10 @@ bool keep_better(Finishing& on) {
                     on.label, what, was, worse));
   };
   // The least harm of what mends a mesh that was not sound.
-  std::optional<RunResult> best;
+  std::optional<MeshResult> best;
   double least =
       result.soundness.sound() ? harm_of(result, before).sum() : std::numeric_limits<double>::max();
-  const auto is_good = [&](RunResult& run) {
+  const auto is_good = [&](MeshResult& run) {
     const bool is_mended = run.soundness.sound() || !(result.soundness.sound() || best);
     if (is_mended && !is_worse(run, before)) return true;
     const double harm = harm_of(run, before).sum();
@@ -137,7 +137,7 @@ bool keep_better(Finishing& on) {
       for (std::size_t i = 0; i < stages.size(); ++i)
         if ((mask >> i & 1U) != 0) fewer.push_back(stages[i]), word += stages[i]->letter;
       if (std::popcount(mask) != n || !is_word_of_quads(fewer, stages[0])) continue;
-      RunResult run = made_by(on, fewer);
+      MeshResult run = made_by(on, fewer);
       if (!is_good(run)) continue;
       tell(fmt::format("{} alone ({})", word, text_of_worst(run)));
       take_mesh(std::move(run), result);
@@ -200,7 +200,7 @@ bool part_corners(Finishing& on) {
 }
 
 bool curve(Finishing& on) {
-  RunResult& result = on.result;
+  MeshResult& result = on.result;
   CurvingSummary summary;
   const bool moved =
       curve_mesh(on.prepared, on.state.nodes, result.mesh, result.soundness, result.warnings, summary);
@@ -311,7 +311,7 @@ void run_finish_steps(FinishAt at, Finishing& on) {
     if (step.at == at && (step.option == nullptr || options.*step.option) && step.applies(on)) run(step, on);
 }
 
-MeshWorth worth_of(const RunResult& measured) {
+MeshWorth worth_of(const MeshResult& measured) {
   const auto& values = measured.metrics.values;
   return {values.at("eta_mean"), values.at("eta_worst"), values.at("n_irregular"),
           static_cast<double>(measured.soundness.places.size())};

@@ -39,7 +39,7 @@ struct Finishing {
   const PreparedProblem& prepared;
   MeshingState& state;
   std::vector<char> left_out;  ///< by region
-  RunResult result = {};       ///< the mesh from FinishAt::kMesh on, its measures from FinishAt::kMeasured on
+  MeshResult result = {};      ///< the mesh from FinishAt::kMesh on, its measures from FinishAt::kMeasured on
   std::string label = {};      ///< names case and pipeline in warnings
 };
 
@@ -67,7 +67,7 @@ struct MeshWorth {
   double irregular;  ///< vertices
   double failing;    ///< places where the mesh is not sound, the first hundred for each reason
 };
-MeshWorth worth_of(const RunResult& measured);
+MeshWorth worth_of(const MeshResult& measured);
 /// The seconds of a step, and what it was worth where it changed the mesh. The sums over all steps are those
 /// of "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
@@ -104,7 +104,7 @@ using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 /// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
 /// more, and where the problem says keep_going, faces with such places are left out if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
-                    RunResult& result);
+                    MeshResult& result);
 
 /// Of a mesh, planar ones seen from above.
 GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size);
@@ -119,22 +119,22 @@ struct Harm {
   double eta, side, aspect, number;
   double sum() const { return eta + side + aspect + number; }
 };
-Harm harm_of(const RunResult& after, const RunResult& before);
+Harm harm_of(const MeshResult& after, const MeshResult& before);
 
 /// Whether what was made of a given mesh is worse: not sound where that was, with harm, or with none of eta
 /// mean, eta worst and d4 better and one of them worse, unless it is sound where that was not.
-bool is_worse(const RunResult& after, const RunResult& before);
+bool is_worse(const MeshResult& after, const MeshResult& before);
 
 /// Whether it is not worse, and the sum of eta mean, eta worst and the share of regular vertices is larger.
-bool is_better(const RunResult& after, const RunResult& before);
+bool is_better(const MeshResult& after, const MeshResult& before);
 
 /// Whether there are fewer irregular vertices, and edges are as near to their size.
-bool is_more_regular(const RunResult& after, const RunResult& before);
+bool is_more_regular(const MeshResult& after, const MeshResult& before);
 
 /// Whether the worst eta is above this or what it was.
-bool keeps_worst_eta(double eta, const RunResult& after, const RunResult& before);
+bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before);
 
 /// Takes another mesh and what is measured of it.
-void take_mesh(RunResult&& from, RunResult& result);
+void take_mesh(MeshResult&& from, MeshResult& result);
 
 }  // namespace delquad

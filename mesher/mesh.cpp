@@ -26,10 +26,13 @@
 namespace delquad {
 namespace {
 
-/// Tells of steps as they begin.
+/// Runs as the context says, and tells of steps as they begin.
 class Steps {
  public:
-  Steps(const Context& context, std::size_t steps) : context_(context), steps_(static_cast<double>(steps)) {}
+  Steps(const Context& context, std::size_t steps)
+      : context_(context),
+        steps_(static_cast<double>(steps)),
+        running_({.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit}) {}
   void begin(const std::string& stage) {
     check_cancelled();
     if (context_.progress) context_.progress({stage, static_cast<double>(begun_) / steps_});
@@ -39,12 +42,9 @@ class Steps {
  private:
   const Context& context_;
   double steps_;
+  RunScope running_;
   int begun_ = 0;
 };
-
-RunSettings settings_of(const Context& context) {
-  return {.threads = context.threads, .cancel = context.cancel, .seconds = context.time_limit};
-}
 
 Prepared prepare_now(MeshProblem problem, Steps& steps) {
   steps.begin("boundary and fields");
@@ -69,9 +69,6 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
 }
 
 MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
-  const MeshProblem& problem = prepared.problem();
-  const std::string label = problem.name + " " + word.text;
-  const bool allow_unsound = problem.allow_unsound;
   Meshing meshing(std::move(prepared));
   for (const Stage* stage : word.stages) {
     steps.begin(stage->name);
@@ -82,8 +79,9 @@ MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
   if (result.soundness.accepted()) return result;
   const std::string complaint = result.soundness.complaint();
   result.warnings.emplace_back(complaint);
-  if (allow_unsound) return result;
-  const std::string why = label + ": " + complaint;
+  const MeshProblem& problem = result.prepared.problem();
+  if (problem.allow_unsound) return result;
+  const std::string why = problem.name + " " + word.text + ": " + complaint;
   throw UnsoundError(why, std::make_shared<const MeshResult>(std::move(result)));
 }
 
@@ -158,14 +156,12 @@ MeshResult Meshing::finish() {
 }
 
 Prepared prepare(MeshProblem problem, const Context& context) {
-  const RunScope running(settings_of(context));
   Steps steps(context, 1);
   return prepare_now(std::move(problem), steps);
 }
 
 MeshResult mesh(const Prepared& prepared, const std::string& text, const Context& context) {
   const Word word = parse_word(text, word_start(prepared.problem().model));
-  const RunScope running(settings_of(context));
   Steps steps(context, word.stages.size() + 1);
   return mesh_now(prepared, word, steps);
 }
@@ -174,7 +170,6 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
   const Quality* quality = find_quality(text);
   const Word word =
       quality != nullptr ? ask_for(*quality, problem) : parse_word(text, word_start(problem.model));
-  const RunScope running(settings_of(context));
   Steps steps(context, word.stages.size() + 2);
   return mesh_now(prepare_now(std::move(problem), steps), word, steps);
 }

@@ -27,7 +27,7 @@ long long peak_memory() {
 
 /// Adds the faces of the patches that have a reason to be left out; marks all that are.
 std::vector<char> collect_failures(const PreparedProblem& prepared, const std::vector<std::string>& reasons,
-                                   RunResult& result) {
+                                   MeshResult& result) {
   result.failures = prepared.failures;
   for (std::size_t i = 0; i < reasons.size(); ++i)
     if (!reasons[i].empty()) result.failures.push_back({prepared.patches[i].region, reasons[i]});
@@ -111,18 +111,13 @@ void add_times(const StepTimes& times, StageLog& log) {
   for (const auto& [step, time] : times) log.add_time(step, time);
 }
 
-RunResult run_word(const PreparedProblem& prepared, const Word& word,
-                   const std::function<void(const std::string& stage)>& begins) {
+MeshResult run_word(const PreparedProblem& prepared, const Word& word) {
   MeshingState state = begin_meshing(prepared);
-  for (const Stage* stage : word.stages) {
-    if (begins) begins(stage->name);
-    run_stage(*stage, prepared, state);
-  }
-  if (begins) begins("metrics");
+  for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
   return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
 }
 
-void require_sound(const std::string& label, const RunResult& result) {
+void require_sound(const std::string& label, const MeshResult& result) {
   if (!result.soundness.accepted()) throw UnsoundError(label + ": " + result.soundness.complaint());
 }
 
@@ -131,9 +126,9 @@ Mesh put_together(Finishing& on) {
   return assemble(on.prepared, on.state.nodes.points, on.state.patches, on.left_out, &on.result.log);
 }
 
-RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
+MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
   Finishing on{prepared, state, {}, {}, label};
-  RunResult& result = on.result;
+  MeshResult& result = on.result;
   const Stopwatch watch;
   on.left_out = collect_failures(prepared, state.reasons, result);
   result.warnings = std::move(state.warnings);

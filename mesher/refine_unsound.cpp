@@ -79,16 +79,16 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
       prepared.settings.name, spots.size(), least.size, show_point(least.at));
 }
 
-long long quads_of(const PreparedProblem& prepared, const RunResult& result) {
+long long quads_of(const PreparedProblem& prepared, const MeshResult& result) {
   const long long steps = prepared.surface ? prepared.surface->domain.steps : 0;
   return static_cast<long long>(result.mesh.quads.size()) + result.lifting_cost / kCostPerQuad +
          steps / kStepsPerQuad;
 }
 
 /// Where it is not sound, the first hundred for each reason.
-std::size_t unsound_places(const RunResult& result) { return result.soundness.places.size(); }
+std::size_t unsound_places(const MeshResult& result) { return result.soundness.places.size(); }
 
-Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared, int rounds,
+Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, int rounds,
                        const char* why) {
   return fmt::format(
       "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
@@ -97,7 +97,7 @@ Warning warning_of_end(const RunResult& result, const PreparedProblem& prepared,
 }
 
 void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
-                RunResult& result) {
+                MeshResult& result) {
   // Lines that were given are kept.
   const bool can_be_finer =
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
@@ -125,7 +125,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
       if (++rounds >= kFirstWithFeatures) refinement.keep_features = true;
       const std::vector<SizeSpot> spots = refinement.spots;
       PreparedProblem finer = prepare_anew(refinement);
-      RunResult run = run_word(finer, word);
+      MeshResult run = run_word(finer, word);
       seconds += run.seconds;
       quads.spend(quads_of(finer, run));
       add_spots(finer, run.soundness, refinement.spots);
@@ -156,13 +156,13 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
 }
 
 /// Meshes without the faces where the mesh is not sound, while that leaves some.
-void leave_out_unsound(const Word& word, PreparedProblem& prepared, RunResult& result) {
+void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
       prepared.surface->given)
     return;
   const std::vector<FaceFailure> before = prepared.failures;
   double seconds = result.seconds;
-  RunResult run = result;
+  MeshResult run = result;
   try {
     while (!run.soundness.sound()) {
       const std::size_t n_known = prepared.failures.size();
@@ -188,7 +188,7 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, RunResult& r
 }  // namespace
 
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
-                    RunResult& result) {
+                    MeshResult& result) {
   make_finer(prepare_anew, word, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }

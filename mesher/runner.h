@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,6 @@
 #include "patches/prepared.h"
 
 namespace delquad {
-
-using RunResult = MeshResult;
 
 /// A pipeline on its way: what the stages so far have made of each patch.
 struct MeshingState {
@@ -40,10 +37,10 @@ struct Finishing;
 Mesh put_together(Finishing& on);
 /// Metrics of the mesh and, at the same time, the report of a surface and what is sound. `left_out`: by
 /// region.
-void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, RunResult& result);
+void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result);
 /// The same of a curved mesh, after its vertices moved: adds what is not sound of its straight form.
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
-                           RunResult& result);
+                           MeshResult& result);
 /// The mesh gets the curves and regions that were given, and no other lines.
 void put_back_entities(const GivenEntities& given, Mesh& mesh);
 /// Of a step that would have taken too long, and the tag of a face.
@@ -52,13 +49,11 @@ Warning stopped_early(const PreparedProblem& prepared, const std::string& step, 
 std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state);
 /// Puts the patches together, measures the mesh and says whether it is sound, with all finish steps but
 /// refine_unsound(). `label` names the case and pipeline in warnings.
-RunResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
+MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state);
 
 /// Meshes every patch stage by stage, puts the patches together, measures the mesh and says whether it is
-/// sound. `begins` is called with the name of each stage, and then of the measuring, before it. Throws
-/// InputError when the mesher had to stop.
-RunResult run_word(const PreparedProblem& prepared, const Word& word,
-                   const std::function<void(const std::string& stage)>& begins = {});
+/// sound. Throws InputError when the mesher had to stop.
+MeshResult run_word(const PreparedProblem& prepared, const Word& word);
 
 /// The patches as one mesh: boundary nodes, which are at `nodes`, stand once, the points inside each patch
 /// follow. Those of the faces that are `left_out` (by region), and what only they use, are missing. `log`

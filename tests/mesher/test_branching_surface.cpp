@@ -39,7 +39,7 @@ TEST(BranchingSurface, FacesShareTheirCurvesNodes) {
   MeshProblem c;
   c.name = c.where = "pages";
   const PreparedProblem prepared = prepare_surface(c, three_pages(), make_constant_size(0.25), [](double) {});
-  const RunResult result = run_word(prepared, parse_word("DB"));
+  const MeshResult result = run_word(prepared, parse_word("DB"));
   EXPECT_EQ(result.mesh.quads.size(), 3u * 16);
   EXPECT_TRUE(result.mesh.triangles.empty());
   ASSERT_TRUE(result.surface);

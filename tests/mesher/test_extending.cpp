@@ -25,7 +25,7 @@ MeshProblem disc() {
   return problem;
 }
 
-RunResult run(const MeshProblem& problem, const char* word) {
+MeshResult run(const MeshProblem& problem, const char* word) {
   return run_word(prepare_problem(problem), parse_word(word));
 }
 
@@ -63,7 +63,7 @@ TEST_F(OwnStage, TellsWhatItDid) {
   };
   MeshProblem problem = disc();
   problem.options.set("insertion.rejection", 0.6);
-  const RunResult result = run(problem, "DYB");
+  const MeshResult result = run(problem, "DYB");
   EXPECT_GT(result.log.summaries.number("own", "points"), 50);
   EXPECT_EQ(result.log.summaries.number("own", "rejection"), 0.6);
   EXPECT_TRUE(result.soundness.sound());
@@ -123,7 +123,7 @@ TEST(OwnPlacement, KnowsLayersAndTheSizeElsewhere) {
     add_stage(insertion_stage('W', "curious", [](const Options&) { return std::make_unique<Curious>(); }));
   MeshProblem problem = disc();
   problem.size.field = make_function_size([](const Vec3& x) { return 0.25 + 0.1 * x.x; }, "slope");
-  const RunResult result = run(problem, "W");
+  const MeshResult result = run(problem, "W");
   EXPECT_EQ(Curious::least_layer, 1);
   EXPECT_EQ(Curious::most_layers, result.log.summaries.number("insertion", "layers"));
   EXPECT_GT(Curious::most_layers, 2);
@@ -170,7 +170,7 @@ TEST_F(OwnSolver, IsChosenByItsOption) {
   solver_work() = [](const MatchingGraph& graph, MatchingResult& result) {
     result.fields = {{"nodes", static_cast<long long>(graph.n_nodes)}};
   };
-  const RunResult own = run(problem_, "DB"), usual = run(disc(), "DB");
+  const MeshResult own = run(problem_, "DB"), usual = run(disc(), "DB");
   EXPECT_EQ(own.log.summaries.number("recombination", "nodes"),
             own.log.summaries.number("recombination", "triangles"));
   EXPECT_EQ(usual.log.summaries.find("recombination")->find("nodes"), nullptr);

@@ -8,7 +8,7 @@
 namespace delquad {
 namespace {
 
-RunResult lens(const Options& options) {
+MeshResult lens(const Options& options) {
   MeshProblem problem;
   problem.name = problem.where = "lens";
   problem.options = options;
@@ -19,12 +19,12 @@ RunResult lens(const Options& options) {
 }
 
 TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
-  const RunResult all = lens({});
+  const MeshResult all = lens({});
   int n_ran = 0;
   for (const FinishStep& step : finish_steps()) {
     if (step.option == nullptr || !all.log.summaries.has(step.name)) continue;
     ++n_ran;
-    const RunResult without = lens(Options().set(std::string("repair.") + step.name, false));
+    const MeshResult without = lens(Options().set(std::string("repair.") + step.name, false));
     for (const FinishStep& other : finish_steps())
       EXPECT_EQ(without.log.summaries.has(other.name),
                 all.log.summaries.has(other.name) && other.name != std::string(step.name))

@@ -33,7 +33,7 @@ class KeepGoing : public ::testing::Test {
     auto& points = prepared_.patches[patch].boundary.points;
     std::swap(points[1], points[9]);
   }
-  RunResult run() { return run_word(prepared_, parse_word("DB")); }
+  MeshResult run() { return run_word(prepared_, parse_word("DB")); }
 
   testing_support::TemporaryFolder folder_;
   Case case_;
@@ -42,7 +42,7 @@ class KeepGoing : public ::testing::Test {
 
 TEST_F(KeepGoing, NothingIsLeftOutOfASoundModel) {
   prepared_.settings.keep_going = true;
-  const RunResult result = run();
+  const MeshResult result = run();
   EXPECT_TRUE(result.failures.empty());
   EXPECT_EQ(result.mesh.quads.size(), 96u);
   ASSERT_TRUE(result.surface);
@@ -58,7 +58,7 @@ TEST_F(KeepGoing, WithoutItTheFaceIsNamed) {
 TEST_F(KeepGoing, TheRestIsMeshed) {
   prepared_.settings.keep_going = true;
   damage(2);
-  const RunResult result = run();
+  const MeshResult result = run();
   ASSERT_EQ(result.failures.size(), 1u);
   EXPECT_EQ(result.failures[0].face, 2);
   EXPECT_EQ(result.failures[0].reason.rfind("face 3: ", 0), 0u) << result.failures[0].reason;
@@ -74,7 +74,7 @@ TEST_F(KeepGoing, LinesAndPointsOfMissingFacesGo) {
   // Two that share a curve, which bounds nothing then.
   damage(0);
   damage(2);
-  const RunResult result = run();
+  const MeshResult result = run();
   EXPECT_EQ(result.failures.size(), 2u);
   EXPECT_EQ(result.mesh.lines.size(), 11u * 4);
   EXPECT_TRUE(check_invariants(result.mesh).empty());

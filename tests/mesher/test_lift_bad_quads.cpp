@@ -32,7 +32,7 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
     c.options.set("curves.agreement", 0);  // with it, they are not needed
     const PreparedProblem prepared =
         prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4), [](double) {});
-    const RunResult result = run_word(prepared, parse_word("DB"));
+    const MeshResult result = run_word(prepared, parse_word("DB"));
     rings += result.log.summaries.number("lift_bad_quads", "rings");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
@@ -46,7 +46,7 @@ TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
     c.name = c.where = "ball";
     const PreparedProblem prepared =
         prepare_surface(c, rough_ball(seed, 0.3), make_constant_size(0.7), [](double) {});
-    const RunResult result = run_word(prepared, parse_word("DB"));
+    const MeshResult result = run_word(prepared, parse_word("DB"));
     mended += result.log.summaries.number("lift_bad_quads", "mended");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
@@ -59,7 +59,7 @@ TEST(LiftBadQuads, SaysWhatItWasWorth) {
   c.name = c.where = "ball";
   const PreparedProblem prepared =
       prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4), [](double) {});
-  const RunResult run = run_word(prepared, parse_word("DB"));
+  const MeshResult run = run_word(prepared, parse_word("DB"));
   const Summaries& done = run.log.summaries;
   ASSERT_GT(done.number("lift_bad_quads", "moved"), 0);
   const auto& lifted = done.get<Pairs>("lift_bad_quads", "eta_mean");

@@ -27,7 +27,7 @@ TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
                           make_constant_size(size), [](double) {});
       for (const char* word : {"F", "D", "DL", "FB", "DB", "PB", "DLB", "DBC", "DBCO"}) {
         SCOPED_TRACE(std::string(word) + " " + std::to_string(size) + " " + std::to_string(height));
-        const RunResult result = run_word(prepared, parse_word(word));
+        const MeshResult result = run_word(prepared, parse_word(word));
         EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
         EXPECT_EQ(result.surface->mesh.euler_characteristic, 2);
         EXPECT_TRUE(result.surface->mesh.watertight());

@@ -231,7 +231,7 @@ class SoundDomain : public testing::Test {
   testing_support::TemporaryFolder folder_;
   Case c_;
   PreparedProblem prepared_;
-  RunResult result_;
+  MeshResult result_;
   Mesh mesh_;
 };
 
@@ -290,7 +290,7 @@ TEST(SoundSurface, MayLookDown) {
     c.name = c.where = "square";
     const PreparedProblem prepared =
         prepare_surface(c, make_surface_model(square), make_constant_size(0.2), [](double) {});
-    const RunResult result = run_word(prepared, parse_word("DBCO"));
+    const MeshResult result = run_word(prepared, parse_word("DBCO"));
     EXPECT_TRUE(result.soundness.sound()) << down << ": " << result.soundness.text();
     EXPECT_EQ(result.metrics.values.at("n_inverted"), 0);
     EXPECT_NEAR(result.metrics.values.at("eta_worst"), 1, 1e-6);
@@ -308,13 +308,13 @@ TEST(SoundSurface, TwinsAreNot) {
   PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
                                              make_constant_size(5), [](double) {});
   const auto run = [&] { return run_word(prepared, parse_word("DB")); };
-  const RunResult parted = run();
+  const MeshResult parted = run();
   EXPECT_FALSE(has(parted.soundness, "conforming")) << parted.soundness.text();
   const Summaries& done = parted.log.summaries;
   ASSERT_TRUE(done.has("part_twins"));
   EXPECT_GT(done.number("part_twins", "chords") + done.number("part_twins", "rings"), 0);
   prepared.settings.options.set("repair.part_twins", false);
-  const RunResult twins = run();
+  const MeshResult twins = run();
   EXPECT_FALSE(twins.log.summaries.has("part_twins"));
   EXPECT_TRUE(has(twins.soundness, "conforming") || has(twins.soundness, "more or fewer"))
       << twins.soundness.text();

@@ -30,7 +30,7 @@ TEST(ThinCone, AtLeastThreeQuadsStayAround) {
       c.size.text = size;
       const PreparedProblem prepared = prepare_case(c);
       for (const char* word : {"DB", "DBC"}) {
-        const RunResult result = run_word(prepared, parse_word(word));
+        const MeshResult result = run_word(prepared, parse_word(word));
         EXPECT_TRUE(result.mesh.triangles.empty());
         EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
         EXPECT_EQ(result.surface->nonconforming_edges.count, 0) << half_angle << " " << size << " " << word;

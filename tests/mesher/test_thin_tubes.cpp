@@ -24,13 +24,13 @@ PreparedProblem prepared_surface(SurfaceModel model, double size) {
 }
 
 /// Elements do not meet themselves, and no two have the same vertices.
-RunResult mesh_of(const PreparedProblem& prepared, const char* word) {
-  RunResult result = run_word(prepared, parse_word(word));
+MeshResult mesh_of(const PreparedProblem& prepared, const char* word) {
+  MeshResult result = run_word(prepared, parse_word(word));
   EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
   return result;
 }
 
-RunResult mesh_of(SurfaceModel model, double size, const char* word) {
+MeshResult mesh_of(SurfaceModel model, double size, const char* word) {
   return mesh_of(prepared_surface(std::move(model), size), word);
 }
 
@@ -41,7 +41,7 @@ double worst_eta(const Mesh& mesh) {
 
 TEST(ThinTubes, QuadsDoNotMeetThemselvesAround) {
   for (const double size : {0.2, 0.5, 1.0, 2.0}) {
-    const RunResult result = mesh_of(surfaces::cylinder(16, 96, 0.1, 4), size, "DB");
+    const MeshResult result = mesh_of(surfaces::cylinder(16, 96, 0.1, 4), size, "DB");
     EXPECT_TRUE(result.mesh.triangles.empty());
     EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
     EXPECT_GT(worst_eta(result.mesh), 0.3) << size;
@@ -52,7 +52,7 @@ TEST(ThinTubes, TwoQuadsMeetAtAPointedTip) {
   for (const double degrees : {2, 5, 10, 20, 33}) {
     const double half_angle = degrees * std::numbers::pi / 180;
     for (const double size : {0.07, 0.2}) {
-      const RunResult result = mesh_of(surfaces::cone(48, 24, half_angle), size, "DB");
+      const MeshResult result = mesh_of(surfaces::cone(48, 24, half_angle), size, "DB");
       EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
       const auto at_tip = std::ranges::count_if(result.mesh.quads, [&](const auto& quad) {
         return std::ranges::any_of(quad, [&](int v) { return norm(result.mesh.points[v]) < 1e-12; });
@@ -74,7 +74,7 @@ TEST(ThinTubes, ATipDoesNotKeepTheRestFromTreatment) {
 }
 
 TEST(ThinTubes, VerticesMoveBesideTips) {
-  const RunResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
+  const MeshResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
   EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
   EXPECT_GT(worst_eta(result.mesh), 0.9 * 0.15 / (std::numbers::pi / 4));
 }
@@ -84,7 +84,7 @@ TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
       prepared_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
   ASSERT_EQ(prepared.surface->domain.sharp_corners.size(), 1u);
   EXPECT_LT(prepared.surface->domain.sharp_corners[0].eta_bound, 0.1);
-  RunResult result = mesh_of(prepared, "DB");
+  MeshResult result = mesh_of(prepared, "DB");
   EXPECT_EQ(result.bad_in_corners, 1);
   EXPECT_EQ(result.bad_elsewhere, 0);
   // A corner of its quad that opens to nearly 180 degrees is worse than the model's.
@@ -124,7 +124,7 @@ SurfaceModel slit_square(int lines) {
 TEST(ThinTubes, ASlitIsNone) {
   for (const int lines : {1, 5})
     for (const double size : {0.5, 1.0, 2.0}) {
-      const RunResult result = mesh_of(slit_square(lines), size, "DB");
+      const MeshResult result = mesh_of(slit_square(lines), size, "DB");
       EXPECT_LT(static_cast<double>(result.mesh.quads.size()), 1.5 * 100 / (size * size))
           << lines << " " << size;
       EXPECT_GT(worst_eta(result.mesh), 0.3) << lines << " " << size;

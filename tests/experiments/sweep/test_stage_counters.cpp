@@ -154,7 +154,7 @@ TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   const MeshProblem c = case_of("lens");
   const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
                                                    make_constant_size(0.3), [](double) {});
-  RunResult result;
+  MeshResult result;
   const Json record = record_of(c, prepared, "DBCQO", &result);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {
     const bool was_made = step != std::string("adaptation") && step != std::string("smoothing");

@@ -316,7 +316,7 @@ TEST_F(Cases, OptionsReachTheStages) {
   EXPECT_EQ(insertion.h_max, 1.2);
   EXPECT_EQ(insertion.rejection, 0.6);
   EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
-  const RunResult result = run_word(prepare_case(c), parse_word("FB"));
+  const MeshResult result = run_word(prepare_case(c), parse_word("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));
   EXPECT_FALSE(result.log.summaries.has("treatment"));
 }
@@ -327,7 +327,7 @@ TEST_F(Cases, CleanupOptionsReachTheStage) {
   EXPECT_EQ(cleanup_options(c.options).rounds, 2);
   EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
   EXPECT_EQ(cleanup_options(c.options).seed, 7);
-  const RunResult result = run_word(prepare_case(c), parse_word("FBC"));
+  const MeshResult result = run_word(prepare_case(c), parse_word("FBC"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("cleanup"));
   EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
@@ -344,7 +344,7 @@ TEST_F(Cases, OptimisationOptionsReachTheStage) {
   EXPECT_EQ(optimisation_options(c.options).iterations, 3);
   EXPECT_EQ(optimisation_options(c.options).size, 0);
   EXPECT_EQ(optimisation_options(c.options).alignment, 0.5);
-  const RunResult result = run_word(prepare_case(c), parse_word("FBO"));
+  const MeshResult result = run_word(prepare_case(c), parse_word("FBO"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("optimisation"));
   EXPECT_GT(done.number("optimisation", "iterations"), 0);
@@ -392,7 +392,7 @@ TEST_F(Cases, PatchesShareTheirInterface) {
       "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"
       "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = \"inside\"\n");
   for (const char* word : {"F", "D", "FB", "DB"}) {
-    const RunResult result = run_word(prepare_case(c), parse_word(word));
+    const MeshResult result = run_word(prepare_case(c), parse_word(word));
     EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{}) << word;
     EXPECT_EQ(result.mesh.regions.size(), 2u);
   }
