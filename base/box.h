@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <initializer_list>
 #include <span>
 #include <vector>
@@ -29,6 +30,7 @@ struct Box {
   /// The smallest one around some points, at least one.
   static Box around(std::initializer_list<V> points) { return around(std::span(points)); }
   static Box around(std::span<const V> points) {
+    assert(!points.empty());
     Box box{points[0], points[0]};
     for (const V& p : points) box.add(p);
     return box;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -49,8 +50,10 @@ class BoxTree {
         for (const int item : items(node)) visit(item);
         continue;
       }
+      assert(n + 2 <= kMostWaiting);
       waiting[n] = {bound(nodes_[node.right]), node.right};
       waiting[n + 1] = {bound(nodes_[index + 1]), index + 1};
+      assert(waiting[n].first >= least && waiting[n + 1].first >= least);
       if (waiting[n + 1].first > waiting[n].first) std::swap(waiting[n], waiting[n + 1]);
       n += 2;
     }

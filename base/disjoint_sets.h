@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -18,6 +19,7 @@ class DisjointSets {
     return parent_.back();
   }
   int root(int i) {
+    assert(i >= 0 && i < static_cast<int>(parent_.size()));
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -11,11 +12,15 @@ class Marks {
  public:
   /// Nothing has been met; there are n things, no fewer than before.
   void begin(std::size_t n) {
+    assert(n >= met_.size());
     ++pass_;
     met_.resize(n, 0);
   }
   /// Whether this is the first time in this pass.
-  bool meet(int i) { return std::exchange(met_[i], pass_) != pass_; }
+  bool meet(int i) {
+    assert(i >= 0 && i < static_cast<int>(met_.size()));
+    return std::exchange(met_[i], pass_) != pass_;
+  }
 
  private:
   std::vector<unsigned> met_;  ///< the last pass in which each was met

@@ -2,6 +2,8 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "fields/laplace.h"
@@ -45,6 +47,9 @@ void add_entry(std::vector<Eigen::Triplet<double>>& entries, int row, int column
 CrossDiffusion::CrossDiffusion(const std::vector<PatchUnknowns>& patches,
                                const std::vector<double>& alignment, std::vector<Complex>& z)
     : z_(z), row_(z.size()) {
+  assert(alignment.size() == z.size());
+  assert(std::ranges::all_of(alignment, [](double a) { return a >= 0 || a == kGiven; }));
+  assert(std::ranges::all_of(z, [](const Complex& value) { return std::abs(std::norm(value) - 1) < 1e-6; }));
   int n = 0;
   for (std::size_t i = 0; i < row_.size(); ++i) row_[i] = alignment[i] == kGiven ? -1 : n++;
   mass_.setZero(2 * n);
@@ -87,6 +92,7 @@ void CrossDiffusion::add_triangle(const PatchUnknowns& patch, int t,
 }
 
 void CrossDiffusion::step(double tau, double tolerance) {
+  assert(tau > 0 && tolerance > 0);
   if (mass_.size() == 0) return;
   const Vector weight = mass_ / tau;
   RowMatrix matrix = stiffness_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <optional>
 #include <stdexcept>
 
@@ -88,6 +89,8 @@ LocalStiffness local_stiffness(const TriPatch& tri, int t) { return stiffness(tr
 
 void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
                    const std::vector<char>& fixed, std::span<std::vector<double>> columns) {
+  assert(dofs.size() == tri.triangles.size());
+  assert(std::ranges::all_of(columns, [&](const auto& column) { return column.size() == fixed.size(); }));
   std::vector<int> row(fixed.size(), -1);
   int n = 0;
   for (std::size_t i = 0; i < fixed.size(); ++i) {

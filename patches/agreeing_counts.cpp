@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -130,6 +131,7 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
                      const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
                      std::vector<int>& counts) {
+  assert(wanted.demands.size() == curves.chains.size() && counts.size() == curves.chains.size());
   const std::vector<int> leader = leaders(curves);
   std::vector<AgreeingCurve> agreeing;
   for (const CurveDemand& d : joined_demands(wanted.demands, curves.images))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <ranges>
 #include <unordered_map>
@@ -71,6 +72,8 @@ constexpr int kMostPieces = 4096;
 
 SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
                            std::span<const double> limits) {
+  assert(chain.points.size() >= 2);
+  assert(limits.empty() || limits.size() == chain.points.size());
   constexpr double kGauss = 0.21132486540518713;  // (1 - 1/sqrt 3) / 2
   SizeIntegral table;
   int hint = -1;
@@ -97,6 +100,7 @@ SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const Size
 }
 
 double SizeIntegral::s_at(double part) const {
+  assert(entries.size() >= 2);
   const double target = part * total();
   const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, target,
                                       [](double x, const Entry& e) { return x < e.integral; });
@@ -106,6 +110,7 @@ double SizeIntegral::s_at(double part) const {
 }
 
 double SizeIntegral::part_at(double s) const {
+  assert(entries.size() >= 2);
   const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, s,
                                       [](double x, const Entry& e) { return x < e.s; });
   const Entry& before = *(after - 1);
@@ -114,6 +119,7 @@ double SizeIntegral::part_at(double s) const {
 }
 
 CurvePlaces equal_places(const std::vector<int>& counts) {
+  assert(std::ranges::all_of(counts, [](int n) { return n >= 1; }));
   CurvePlaces places;
   for (const int n : counts) {
     places.emplace_back();
@@ -123,6 +129,7 @@ CurvePlaces equal_places(const std::vector<int>& counts) {
 }
 
 Vec3 fine_point_at(const Mesh& fine, const CurveChain& chain, double s) {
+  assert(s >= 0 && s <= static_cast<double>(chain.points.size() - 1));
   const std::size_t line = std::min(static_cast<std::size_t>(s), chain.points.size() - 2);
   const Vec3 a = fine.points[chain.points[line]], b = fine.points[chain.points[line + 1]];
   return a + (s - static_cast<double>(line)) * (b - a);
@@ -139,6 +146,9 @@ Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const st
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places) {
+  assert(integrals.size() == chains.size() && places.size() == chains.size());
+  assert(std::ranges::all_of(places,
+                             [](const auto& at) { return at.size() >= 2 && std::ranges::is_sorted(at); }));
   const Mesh& fine = model.fine;
   SurfaceNodes nodes;
   std::unordered_map<int, int> node_of_point;  // only looked up, never iterated

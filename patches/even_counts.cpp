@@ -1,6 +1,7 @@
 #include "patches/even_counts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -103,6 +104,7 @@ void even_branches(const std::vector<CurveDemand>& curves, const std::vector<int
 }  // namespace
 
 int changed_by_one(int n, const CurveDemand& curve) {
+  assert(n >= 1);
   if (n - 1 < curve.minimum) return n + 1;
   const auto misfit = [&](int m) { return std::abs(std::log(m / std::max(curve.integral, 1e-3))); };
   return misfit(n - 1) < misfit(n + 1) ? n - 1 : n + 1;
@@ -115,6 +117,10 @@ double cost_of_change(int n, const CurveDemand& curve) {
 
 std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
                              const MatchingSolver& solver, std::vector<int>& odd_patches, ChangeCost cost) {
+  assert(std::ranges::all_of(curves, [&](const CurveDemand& curve) {
+    return std::isfinite(curve.integral) && curve.minimum >= 1 &&
+           std::ranges::all_of(curve.patches, [&](int p) { return p >= 0 && p < n_patches; });
+  }));
   std::vector<int> counts;
   std::vector<int> total(n_patches, 0);
   WeightedGraph graph{n_patches + 1, {}};  // the last node is the outside

@@ -1,6 +1,7 @@
 #include "patches/places_inside.h"
 
 #include <array>
+#include <cassert>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -72,6 +73,7 @@ std::vector<Vec3> places_inside(const SurfacePatch& patch, const SurfaceModel& m
                                 std::span<const Vec2> points, const std::vector<std::array<int, 2>>& sides,
                                 const std::vector<Vec3>& nodes) {
   std::vector<Vec3> places;
+  assert(points.size() >= patch.boundary.point_node.size());
   int hint = -1;
   const std::size_t n_boundary = patch.boundary.point_node.size();
   Shifts shifts(patch, model.fine, points, sides, nodes);
@@ -120,6 +122,7 @@ std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t pat
 }
 
 void place_inside(const AllPatches& all) {
+  assert(all.left_out.size() == all.patches.size());
   parallel_for(
       all.patches.size(),
       [&](std::size_t i) {

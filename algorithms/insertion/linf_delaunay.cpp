@@ -7,6 +7,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <map>
 
@@ -65,6 +66,7 @@ Edges linf_edges(const std::vector<Vec2>& points, const PointIndex& index) {
 LinfDelaunayComparison compare_linf_delaunay(const std::vector<Vec2>& points) {
   PointIndex index;
   for (size_t i = 0; i < points.size(); ++i) index[{points[i].x, points[i].y}] = static_cast<int>(i);
+  assert(index.size() == points.size());
   std::vector<char> on_hull(points.size(), 0);
   Edges l2 = l2_edges(points, index, on_hull), linf = linf_edges(points, index);
   for (Edges* edges : {&l2, &linf}) {

@@ -1,6 +1,7 @@
 #include "algorithms/insertion/linf_geometry.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,7 @@ Frame Frame::from_angle(double theta) {
 }
 
 CanonicalEdge::CanonicalEdge(Vec2 p, Vec2 q, const Frame& axes) : middle(0.5 * (p + q)) {
+  assert(p != q);
   const Vec2 half = 0.5 * (q - p);
   const Vec2 a = axes.to_local(half);
   const bool along_first = std::abs(a.x) >= std::abs(a.y);

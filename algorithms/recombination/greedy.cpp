@@ -1,6 +1,7 @@
 #include "algorithms/recombination/recombine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 #include <vector>
 
@@ -103,6 +104,7 @@ class Pairing {
 }  // namespace
 
 QuadPatch recombine_greedily(const TriPatch& tri, const GreedyOptions& options, RecombineSummary* summary) {
+  assert(options.least_eta > 0);
   const Stopwatch watch;
   QuadPatch mesh;
   mesh.points = tri.points;

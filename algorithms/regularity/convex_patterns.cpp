@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -151,11 +152,13 @@ class ConvexSearch {
 }  // namespace
 
 double strain_of(Vec2 a, Vec2 b, int edges, double delta) {
+  assert(edges > 0 && delta > 0);
   const double misfit = std::log(std::max(norm(a - b), 1e-3 * delta) / (edges * delta));
   return edges * misfit * misfit;
 }
 
 std::optional<Pattern> best_convex(const Outline& outline, const PolygonSides& sides) {
+  assert(std::ranges::all_of(outline.turn, [](int turn) { return turn >= 0; }));
   return ConvexSearch(outline, sides).best();
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -221,6 +222,7 @@ int irregular_vertices(const Pattern& pattern) {
 }
 
 std::optional<Pattern> best_pattern(const Outline& outline, int most) {
+  assert(outline.delta.size() == outline.places.size() && outline.turn.size() == outline.places.size());
   return search(outline, most, kMostCuts);
 }
 

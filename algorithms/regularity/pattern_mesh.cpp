@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 
 #include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/polygon_sides.h"
@@ -157,6 +158,7 @@ class PatternMesher {
 }  // namespace
 
 PatternMesh mesh_pattern(const Outline& outline, const Pattern& pattern) {
+  assert(outline.delta.size() == outline.places.size() && outline.turn.size() == outline.places.size());
   Loop loop{{}, outline.turn};
   for (std::size_t i = 0; i < outline.places.size(); ++i) loop.vertex.push_back(static_cast<int>(i));
   PatternMesher mesher(outline.places);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -306,6 +307,13 @@ class Agreement {
 
 void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
                   const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts) {
+  assert(counts.size() == curves.size());
+  [[maybe_unused]] const auto is_patch = [&](int p) { return p >= 0 && p < n_patches; };
+  assert(std::ranges::all_of(curves, [&](const AgreeingCurve& curve) {
+    return curve.want > 0 && curve.least >= 1 && curve.weight >= 0 &&
+           std::ranges::all_of(curve.patches, is_patch);
+  }));
+  assert(std::ranges::all_of(sums, is_patch, &ClosureSum::patch));
   Agreement(curves, n_patches, sums, steps, counts).run();
 }
 

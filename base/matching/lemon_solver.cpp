@@ -5,6 +5,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <cassert>
 #include <exception>
 #include <system_error>
 
@@ -35,6 +36,8 @@ class NegatedCosts {
 };
 
 MatchingResult match(const MatchingGraph& graph) {
+  assert(std::all_of(graph.edges.begin(), graph.edges.end(),
+                     [](const auto& e) { return e.cost >= 0 && e.a != e.b; }));
   MatchingResult result;
   if (graph.n_nodes % 2 != 0) return result;
   lemon::SmartGraph g;

@@ -1,6 +1,7 @@
 #include "base/matching/edge_counts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -274,6 +275,9 @@ class Balance {
 
 std::vector<UnbalancedFace> balance_counts(std::vector<CountedCurve>& curves,
                                            const std::vector<CountedFace>& faces) {
+  assert(std::ranges::all_of(curves, [](const CountedCurve& c) { return c.want > 0 && c.least >= 1; }));
+  assert(std::ranges::all_of(
+      faces, [](const CountedFace& f) { return f.n_sides == 0 || f.n_sides == 3 || f.n_sides == 4; }));
   return Balance(curves, faces).run();
 }
 

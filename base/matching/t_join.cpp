@@ -1,9 +1,11 @@
 #include "base/matching/edge_counts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "base/cancel.h"
@@ -62,6 +64,8 @@ std::vector<int> leave_odd_ones(std::vector<int>& terminals, std::vector<Paths>&
 
 TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals,
                      const MatchingSolver& solver) {
+  assert(std::ranges::all_of(graph.edges, [](const auto& e) { return e.cost >= 0; }));
+  assert(std::set<int>(terminals.begin(), terminals.end()).size() == terminals.size());
   std::vector<std::vector<int>> incident(graph.n_nodes);
   for (size_t e = 0; e < graph.edges.size(); ++e) {
     incident[graph.edges[e].a].push_back(static_cast<int>(e));

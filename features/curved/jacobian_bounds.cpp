@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <queue>
 #include <vector>
@@ -151,6 +152,7 @@ Eigen::MatrixXd coefficients_of_values(int degree) {
 template <class T, class F, class G, class Times>
 Bernstein<T> product(const Bernstein<F>& f, const Bernstein<G>& g, const Times& times) {
   const int du = f.du + g.du, dv = f.dv + g.dv;
+  assert(du <= kMostDegree && dv <= kMostDegree);
   Bernstein<T> result{du, dv, std::vector<T>(static_cast<std::size_t>(du + 1) * (dv + 1))};
   const auto part = [](int m, int i, int n, int k) {
     return binomial(m, i) * binomial(n, k) / binomial(m + n, i + k);
@@ -171,6 +173,8 @@ Bernstein<T> product(const Bernstein<F>& f, const Bernstein<G>& g, const Times& 
 }  // namespace
 
 Bernstein<Vec3> bernstein_of(std::span<const Vec3> nodes, int order) {
+  assert(order >= 1 && order <= kMostOrder);
+  assert(nodes.size() == static_cast<std::size_t>((order + 1) * (order + 1)));
   static const std::array matrices{coefficients_of_values(1), coefficients_of_values(2),
                                    coefficients_of_values(3), coefficients_of_values(4)};
   const Eigen::MatrixXd& m = matrices[order - 1];
@@ -198,6 +202,7 @@ Vec3 value_at(const Bernstein<Vec3>& f, double u, double v) {
 }
 
 Bernstein<Vec3> derivative_u(const Bernstein<Vec3>& f) {
+  assert(f.du > 0);
   Bernstein<Vec3> d{f.du - 1, f.dv, {}};
   for (int j = 0; j <= f.dv; ++j)
     for (int i = 0; i < f.du; ++i) d.c.push_back(f.du * (f.at(i + 1, j) - f.at(i, j)));
@@ -205,6 +210,7 @@ Bernstein<Vec3> derivative_u(const Bernstein<Vec3>& f) {
 }
 
 Bernstein<Vec3> derivative_v(const Bernstein<Vec3>& f) {
+  assert(f.dv > 0);
   Bernstein<Vec3> d{f.du, f.dv - 1, {}};
   for (int j = 0; j < f.dv; ++j)
     for (int i = 0; i <= f.du; ++i) d.c.push_back(f.dv * (f.at(i, j + 1) - f.at(i, j)));

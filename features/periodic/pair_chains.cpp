@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <optional>
 #include <set>
@@ -214,6 +215,7 @@ ChainPairs pair_chains(const SurfaceModel& model, const std::vector<CurveChain>&
 
 void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
                       const std::vector<SizeIntegral>& integrals, CurvePlaces& places) {
+  assert(integrals.size() == curves.chains.size() && places.size() == curves.chains.size());
   for (const ChainPair& pair : curves.images) {
     const SizeIntegral &own = integrals[pair.chain], &of = integrals[pair.master];
     const CurveChain &chain = curves.chains[pair.chain], &master = curves.chains[pair.master];
@@ -237,6 +239,7 @@ void place_images(const SurfaceModel& model, const SurfaceCurves& curves, Surfac
   for (int round = 0; round < kRoundsOfChains; ++round)
     for (const ChainPair& pair : curves.images) {
       const auto &own = nodes.on_curve[pair.chain], &of = nodes.on_curve[pair.master];
+      assert(own.size() == of.size());
       for (std::size_t k = 0; k < own.size(); ++k) {
         Vec3& x = nodes.points[own[pair.forward ? k : own.size() - 1 - k].node];
         const Vec3 image = pair.motion(nodes.points[of[k].node]);

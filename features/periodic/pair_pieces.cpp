@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
@@ -128,6 +129,7 @@ void pair_pieces(const PlanarModel& model, const std::vector<PeriodicPair>& peri
 
 void add_node_pairs(int curve, int master, const Motion& motion, const std::vector<int>& images,
                     const std::vector<int>& masters, std::vector<PeriodicNodes>& all) {
+  assert(images.size() == masters.size());
   auto at = std::ranges::find_if(
       all, [&](const PeriodicNodes& p) { return p.curve == curve && p.master == master; });
   if (at == all.end()) at = all.insert(all.end(), {curve, master, motion, {}});

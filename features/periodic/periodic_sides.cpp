@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -121,6 +122,7 @@ class FaceCopy {
 }  // namespace
 
 void add_face_images(const std::vector<char>& left_out, Mesh& mesh) {
+  assert(left_out.size() == mesh.regions.size());
   std::erase_if(mesh.periodic_faces, [&](const PeriodicFaces& pair) { return left_out[pair.face] != 0; });
   for (PeriodicFaces& pair : mesh.periodic_faces) {
     FaceCopy copy(pair, mesh);

@@ -1,6 +1,7 @@
 #include "features/symmetry/symmetry_planes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,8 @@
 namespace delquad {
 
 SymmetryPlanes::SymmetryPlanes(const std::vector<SymmetryPlane>& planes) {
+  assert(planes.size() <= 3);
+  assert(std::ranges::all_of(planes, [](const SymmetryPlane& p) { return norm(p.normal) > 0; }));
   for (const SymmetryPlane& p : planes) planes_.push_back({p.point, (1 / norm(p.normal)) * p.normal});
 }
 
@@ -21,6 +24,7 @@ std::vector<SymmetryPlane> SymmetryPlanes::all() const {
 Vec3 SymmetryPlanes::put_on(int plane, const Vec3& x) const { return x - height(plane, x) * normal(plane); }
 
 Vec3 SymmetryPlanes::put_on_all(int mask, Vec3 x) const {
+  assert(mask >= 0 && mask < 1 << count());
   for (int k = 0; k < count(); ++k)
     if (mask >> k & 1) x = put_on(k, x);
   return x;
@@ -31,6 +35,7 @@ Vec3 SymmetryPlanes::reflect(int plane, const Vec3& x) const {
 }
 
 Vec3 SymmetryPlanes::reflect_all(int mask, Vec3 x) const {
+  assert(mask >= 0 && mask < 1 << count());
   for (int k = 0; k < count(); ++k)
     if (mask >> k & 1) x = reflect(k, x);
   return x;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -31,6 +32,7 @@ void for_each_element(const Mesh& mesh, Visit visit) {
 inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
   std::vector<int> start(mesh.points.size() + 1, 0);
   for_each_element(mesh, [&](int, const auto& v) {
+    assert(std::ranges::all_of(v, [&](int i) { return i >= 0 && i < static_cast<int>(mesh.points.size()); }));
     for (size_t k = 0; k < v.size(); ++k) ++start[std::min(v[k], v[(k + 1) % v.size()]) + 1];
   });
   for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
@@ -67,6 +69,7 @@ inline std::span<const HalfEdge> sides_of_edge(std::span<const HalfEdge> sides, 
 /// Calls visit(span of its sides) once for each edge of sorted half-edges.
 template <class Visit>
 void for_each_edge(std::span<const HalfEdge> sides, Visit visit) {
+  assert(std::ranges::is_sorted(sides, {}, [](const HalfEdge& s) { return std::pair(s.lo, s.hi); }));
   for (size_t i = 0; i < sides.size();) {
     size_t j = i + 1;
     while (j < sides.size() && sides[j].lo == sides[i].lo && sides[j].hi == sides[i].hi) ++j;

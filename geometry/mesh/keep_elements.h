@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@ namespace delquad {
 /// about.
 template <class Elements, class Keep>
 std::size_t keep_elements(Elements& elements, std::vector<int>& entity_of, Keep keep) {
+  assert(elements.size() == entity_of.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!keep(i)) continue;

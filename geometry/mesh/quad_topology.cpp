@@ -1,12 +1,15 @@
 #include "geometry/mesh/quad_topology.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <stdexcept>
 
 namespace delquad {
 
 QuadTopology::QuadTopology(const QuadPatch& mesh, int first_held)
     : n_boundary_(mesh.n_boundary), first_held_(first_held), points_(mesh.points) {
+  assert(first_held >= 0 && first_held <= mesh.n_boundary);
   corner_.reserve(4 * (mesh.quads.size() + mesh.triangles.size()));
   for (const auto& q : mesh.quads) corner_.insert(corner_.end(), q.begin(), q.end());
   for (const auto& t : mesh.triangles) corner_.insert(corner_.end(), {t[0], t[1], t[2], -1});
@@ -106,6 +109,7 @@ bool QuadTopology::adjacent(int a, int b) const {
 }
 
 std::array<int, 6> QuadTopology::hexagon(int h) const {
+  assert(twin_[h] >= 0 && is_quad(element(h)) && is_quad(element(twin_[h])));
   const int t = twin_[h];
   const int bc = next(h), cd = next(bc), ae = next(t), ef = next(ae);
   return {corner_[bc], corner_[cd], target(cd), corner_[ae], corner_[ef], target(ef)};
@@ -127,6 +131,7 @@ bool QuadTopology::can_rotate(int h, bool counterclockwise) const {
 }
 
 void QuadTopology::open(int h, bool counterclockwise) {
+  assert(can_open(h));
   // By place in the hexagon; 6 and 7 are the new vertices, next to 1 and 4 or to 2 and 5.
   using Quads = std::array<std::array<int, 4>, 4>;
   constexpr Quads kCounterclockwise{{{0, 1, 6, 7}, {1, 2, 3, 6}, {3, 4, 7, 6}, {4, 5, 0, 7}}};
@@ -165,6 +170,7 @@ void QuadTopology::open(int h, bool counterclockwise) {
 }
 
 int QuadTopology::rotate(int h, bool counterclockwise) {
+  assert(can_rotate(h, counterclockwise));
   const int a_side = element(h), b_side = element(twin_[h]);
   const auto [b, c, d, a, e, f] = hexagon(h);
   const int bc = next(h), cd = next(bc), da = next(cd);
@@ -202,6 +208,7 @@ bool QuadTopology::can_collapse(int h) const {
 }
 
 void QuadTopology::collapse(int h) {
+  assert(can_collapse(h));
   const int ab = h, bc = next(ab), cd = next(bc), da = next(cd);
   const int a = corner_[ab], b = corner_[bc], c = corner_[cd], d = corner_[da];
   const int t_ab = twin_[ab], t_bc = twin_[bc], t_cd = twin_[cd], t_da = twin_[da];
@@ -235,6 +242,7 @@ bool QuadTopology::can_split(int from, int to) const {
 }
 
 void QuadTopology::split(int from, int to) {
+  assert(can_split(from, to));
   const int v = corner_[from], a = target(from), b = target(to), t_from = twin_[from], t_to = twin_[to];
   const int opened = add_vertex(points_[v]), quad = add_element();
   int moving = 0;
@@ -257,6 +265,7 @@ bool QuadTopology::can_remove_doublet(int v) const {
 }
 
 void QuadTopology::remove_doublet(int v) {
+  assert(can_remove_doublet(v));
   const std::array<int, 2> start{out_[v], around(out_[v])};
   std::array<int, 4> corners{-1, -1, -1, -1}, twins{-1, -1, -1, -1};
   int n = 0;
@@ -289,6 +298,7 @@ bool QuadTopology::can_pillow(std::span<const int> quads) const {
 }
 
 void QuadTopology::pillow(std::span<const int> quads) {
+  assert(can_pillow(quads));
   const std::vector<int> sides = outline(quads);
   const int n = static_cast<int>(sides.size()), first_vertex = vertex_slots(), first_quad = element_slots();
   std::vector<int> corner, across;
@@ -339,6 +349,8 @@ bool QuadTopology::has_double_edge(std::span<const int> vertices) const {
 
 bool QuadTopology::refill(std::span<const int> quads, std::span<const int> rim, std::span<const Vec2> inside,
                           std::span<const std::array<int, 4>> fill) {
+  assert(std::ranges::all_of(quads, [&](int e) { return is_quad(e); }));
+  assert(std::ranges::is_permutation(rim, outline(quads)));
   const Mark start = mark();
   const int n_rim = static_cast<int>(rim.size());
   std::vector<int> vertex, across;
@@ -383,11 +395,14 @@ bool QuadTopology::refill(std::span<const int> quads, std::span<const int> rim, 
 }
 
 void QuadTopology::move(int v, Vec2 to) {
+  assert(v >= 0 && v < vertex_slots() && std::isfinite(to.x) && std::isfinite(to.y));
   move_log_.push_back({v, points_[v]});
   points_[v] = to;
 }
 
 void QuadTopology::rollback(const Mark& mark) {
+  assert(mark.ints <= int_log_.size() && mark.moves <= move_log_.size());
+  assert(mark.vertices <= points_.size() && 4 * mark.elements <= corner_.size());
   for (; int_log_.size() > mark.ints; int_log_.pop_back())
     array(int_log_.back().array)[int_log_.back().index] = int_log_.back().old;
   for (; move_log_.size() > mark.moves; move_log_.pop_back())

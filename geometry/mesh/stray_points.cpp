@@ -1,15 +1,19 @@
 #include "geometry/mesh/stray_points.h"
-#include "base/sort_unique.h"
-#include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "base/sort_unique.h"
+#include "base/text.h"
+#include "geometry/mesh/check_invariants.h"
 
 namespace delquad {
 
 std::vector<StrayPoint> stray_points(const Mesh& mesh) {
+  assert(has_finite_points(mesh));
   std::vector<int> used;
   const auto add = [&](const auto& elements) {
     for (const auto& v : elements) used.insert(used.end(), v.begin(), v.end());

@@ -1,5 +1,6 @@
 #include "geometry/mesh/tri_topology.h"
 
+#include <cassert>
 #include <utility>
 
 namespace delquad {
@@ -18,6 +19,7 @@ int facing_side(const TriPatch& tri, int t, int u) {
 }
 
 void swap_side(TriPatch& tri, int t, int k) {
+  assert(tri.neighbours[t][k] >= 0);
   auto &v = tri.triangles, &n = tri.neighbours;
   const int u = n[t][k], m = facing_side(tri, u, t);
   const int a = v[t][k], b = v[t][(k + 1) % 3], c = v[t][(k + 2) % 3], d = v[u][m];
@@ -30,6 +32,7 @@ void swap_side(TriPatch& tri, int t, int k) {
 }
 
 void split_side(TriPatch& tri, int t, int k, Vec2 at) {
+  assert(tri.neighbours[t][k] >= 0);
   auto &v = tri.triangles, &n = tri.neighbours;
   const int u = n[t][k], m = facing_side(tri, u, t), i = static_cast<int>(tri.points.size());
   const int a = v[t][k], b = v[t][(k + 1) % 3], c = v[t][(k + 2) % 3], d = v[u][m];
@@ -76,6 +79,7 @@ void TriTopology::note(int t) {
 }
 
 void TriTopology::star(int i, std::vector<TriCorner>& corners) const {
+  assert(vertex_alive(i) && !on_boundary(i));
   corners.clear();
   const int first = triangle_of_[i];
   int t = first;
@@ -108,6 +112,7 @@ TriCorner TriTopology::find_inner_edge(int a, int b) const {
 }
 
 bool TriTopology::adjacent(int a, int b) const {
+  assert(vertex_alive(a) && vertex_alive(b));
   if (a == b) return false;
   for (const int way : {1, 2}) {
     int t = triangle_of_[a];
@@ -137,6 +142,7 @@ int TriTopology::split(int t, int k, Vec2 at) {
 }
 
 void TriTopology::collapse(int from, int to, const std::vector<TriCorner>& star) {
+  assert(!on_boundary(from) && adjacent(from, to));
   auto &v = tri_.triangles, &n = tri_.neighbours;
   for (const auto& [t, k] : star) {
     const bool gone = vertex(t, k + 1) == to || vertex(t, k + 2) == to;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -161,12 +162,14 @@ double ArcMeasure::find(const Cell& cell, double begin, double target) const {
 }
 
 std::vector<double> ArcMeasure::interior_nodes(int n) const {
+  assert(n >= 1);
   std::vector<double> targets;
   for (int k = 1; k < n; ++k) targets.push_back(integral() * k / n);
   return nodes_at(targets);
 }
 
 std::vector<double> ArcMeasure::nodes_at(const std::vector<double>& targets) const {
+  assert(std::ranges::is_sorted(targets));
   std::vector<double> nodes;
   nodes.reserve(targets.size());
   std::size_t c = 0;

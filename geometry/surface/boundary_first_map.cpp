@@ -1,5 +1,7 @@
+#include <cassert>
 #include <cmath>
 
+#include "geometry/surface/chart.h"
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/laplacian.h"
 
@@ -36,6 +38,7 @@ std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vec
 }  // namespace
 
 std::vector<Vec2> boundary_first_map(const Chart& chart) {
+  assert(chart.loops.size() == 1 && genus(chart) == 0);
   const std::size_t n = chart.points.size(), n_boundary = static_cast<std::size_t>(chart.n_boundary);
   std::vector<char> fixed(n, 0);
   std::fill_n(fixed.begin(), n_boundary, 1);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <numbers>
 #include <utility>
 
@@ -171,6 +172,8 @@ double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
 
 std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
                                   const std::vector<char>& open) {
+  assert(wanted.size() == fine.triangles.size());
+  assert(open.empty() || open.size() == fine.lines.size());
   Gluing gluing(fine, wanted, open);
   std::vector<std::vector<int>> members(fine.triangles.size());
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)

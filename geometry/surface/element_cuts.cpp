@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -176,6 +177,9 @@ Parts best_level(const Chart& chart, const ElementGraph& graph) {
 
 std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartElements& elements,
                                             const std::vector<char>& from, const std::vector<char>& to) {
+  assert(elements.element.size() == chart.triangles.size());
+  assert(elements.avoided.empty() || elements.avoided.size() == chart.points.size());
+  assert(from.size() == chart.points.size() && to.size() == chart.points.size());
   const std::size_t n = chart.points.size();
   const std::vector<int>& element = elements.element;
   std::vector<std::vector<int>> beside(n);
@@ -218,6 +222,7 @@ std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartEleme
 }
 
 std::vector<char> plan_division(const Chart& chart, const ChartElements& elements) {
+  assert(elements.element.size() == chart.triangles.size());
   const ElementGraph graph(chart, elements);
   if (graph.size() < 2) return {};
   Parts part = best_level(chart, graph);

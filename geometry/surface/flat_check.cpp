@@ -1,6 +1,7 @@
 #include "geometry/surface/flatten.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -31,6 +32,7 @@ double signed_area(const std::vector<Vec2>& points, const std::vector<int>& loop
 }  // namespace
 
 bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat) {
+  assert(flat.size() == chart.points.size());
   for (const Vec2& p : flat)
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
   for (const auto& [a, b, c] : chart.triangles)
@@ -47,6 +49,7 @@ bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat) {
 }
 
 FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat) {
+  assert(is_one_to_one(chart, flat));
   const std::vector<double> areas = triangle_areas(chart);
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   // Triangles without area have no shape to keep.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -563,6 +564,9 @@ class Flattener {
 }  // namespace
 
 Flattening flatten(SurfaceModel& model, const FlattenOptions& options) {
+  assert(options.left_out.empty() || options.left_out.size() == model.fine.regions.size());
+  assert(options.element.empty() || options.element.size() == model.fine.triangles.size());
+  assert(options.avoided.empty() || options.avoided.size() == model.fine.points.size());
   return Flattener(model, options).run();
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -50,6 +51,8 @@ struct LaplaceSolver::System {
 
 LaplaceSolver::LaplaceSolver(const Chart& chart, std::vector<char> fixed, double shift)
     : system_(std::make_unique<System>()) {
+  assert(fixed.size() == chart.points.size());
+  assert(shift > 0 || std::ranges::find(fixed, 1) != fixed.end());
   System& s = *system_;
   s.fixed = std::move(fixed);
   s.unknown.assign(chart.points.size(), -1);
@@ -91,6 +94,7 @@ LaplaceSolver& LaplaceSolver::operator=(LaplaceSolver&&) noexcept = default;
 
 std::vector<double> LaplaceSolver::solve(const std::vector<double>& values,
                                          const std::vector<double>& load) const {
+  assert(values.size() == system_->fixed.size() && load.size() == values.size());
   const System& s = *system_;
   std::vector<double> x(values);
   for (std::size_t v = 0; v < x.size(); ++v)
@@ -107,6 +111,7 @@ std::vector<double> LaplaceSolver::solve(const std::vector<double>& values,
 }
 
 std::vector<double> LaplaceSolver::apply(const std::vector<double>& x) const {
+  assert(x.size() == system_->fixed.size());
   std::vector<double> y(x.size());
   const auto n = static_cast<Eigen::Index>(x.size());
   Eigen::Map<Eigen::VectorXd>(y.data(), n) = system_->all * Eigen::Map<const Eigen::VectorXd>(x.data(), n);

@@ -1,5 +1,7 @@
 #include <Eigen/SparseCholesky>
 
+#include <cassert>
+
 #include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/laplacian.h"
 
@@ -44,6 +46,7 @@ Eigen::SparseMatrix<double> conformal_energy(const Chart& chart) {
 }  // namespace
 
 std::vector<Vec2> spectral_map(const Chart& chart) {
+  assert(!chart.loops.empty());
   constexpr int kMaxIterations = 25;
   constexpr double kSettled = 1e-7;  // change of the boundary, relative
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(conformal_energy(chart));

@@ -1,6 +1,7 @@
 #include "geometry/surface/surface_editor.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace delquad {
 
@@ -47,6 +48,7 @@ void SurfaceEditor::replace_corner(int triangle, int from, int to) {
 int SurfaceEditor::split_edge(int a, int b, const Vec3& x) {
   const std::vector<int> on_edge = triangles_on(a, b);
   const int line = line_on(a, b);
+  assert(!on_edge.empty() || line >= 0);
   const int node = static_cast<int>(mesh_.points.size());
   mesh_.points.push_back(x);
   triangles_at_.emplace_back();
@@ -76,6 +78,7 @@ int SurfaceEditor::split_edge(int a, int b, const Vec3& x) {
 }
 
 int SurfaceEditor::split_triangle(int triangle, const Vec3& x) {
+  assert(triangle >= 0 && triangle < static_cast<int>(mesh_.triangles.size()));
   const auto corners = mesh_.triangles[triangle];
   const int node = static_cast<int>(mesh_.points.size());
   mesh_.points.push_back(x);
@@ -109,6 +112,9 @@ bool SurfaceEditor::flip_edge(int a, int b) {
 }
 
 int SurfaceEditor::add_curve(std::span<const int> chain) {
+  assert(chain.size() >= 2 && std::ranges::adjacent_find(chain, [&](int a, int b) {
+                                return triangles_on(a, b).empty();
+                              }) == chain.end());
   const int curve = static_cast<int>(mesh_.curves.size());
   int tag = 0;
   for (const Entity& e : mesh_.curves) tag = std::max(tag, e.tag);

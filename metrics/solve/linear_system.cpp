@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -24,6 +25,7 @@ class Factorisation {
  public:
   explicit Factorisation(const LinearSystem& system) {
     std::vector<char> is_pin(static_cast<std::size_t>(system.matrix.rows()), 0);
+    assert(std::ranges::none_of(system.floating, [](const auto& set) { return set.empty(); }));
     for (const auto& set : system.floating) pins_.push_back(set.front());
     for (const int pin : pins_) is_pin[static_cast<std::size_t>(pin)] = 1;
     Matrix pinned = system.matrix;
@@ -112,6 +114,7 @@ double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vecto
 Vector solve_directly(const LinearSystem& system) { return Factorisation(system).solve(system.right); }
 
 int cg_iterations(const LinearSystem& system) {
+  assert(system.scale.size() == system.right.size() && (system.scale.array() > 0).all());
   constexpr int kMost = 1'000'000;
   const double goal = kCgTolerance * system.right.norm();
   Vector residual = system.right, direction = residual.cwiseQuotient(system.scale);

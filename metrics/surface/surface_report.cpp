@@ -1,6 +1,7 @@
 #include "metrics/surface/surface_report.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "metrics/surface/near_cuts.h"
@@ -376,6 +378,8 @@ SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceC
 SurfaceReport report_surface(const SurfaceModel& model, std::span<const SurfaceCut> cuts,
                              const std::vector<char>& left_out, const Mesh& mesh,
                              std::span<const HalfEdge> sides, const SizeField* size) {
+  assert(left_out.size() == model.fine.regions.size());
+  assert(has_finite_points(mesh));
   return Comparison(model, cuts, left_out, mesh, sides, size).run();
 }
 

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/binomial.hpp>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -85,6 +86,7 @@ double redrawn_mean(const DomainSamples& domain, RandomIndex& draw) {
 
 /// With linear interpolation between sorted values.
 double quantile_of(const std::vector<double>& sorted, double part) {
+  assert(!sorted.empty() && std::ranges::is_sorted(sorted) && part >= 0 && part <= 1);
   const double at = part * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
@@ -190,6 +192,9 @@ std::vector<double> holm(std::span<const double> p) {
 }
 
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y) {
+  assert(x.size() == y.size());
+  assert(std::ranges::all_of(x, [](double value) { return value > 0; }));
+  assert(std::ranges::all_of(y, [](double value) { return value > 0; }));
   std::vector<double> u, v;
   for (const double value : x) u.push_back(std::log(value));
   for (const double value : y) v.push_back(std::log(value));
@@ -205,6 +210,7 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
 }
 
 double domain_mean(const DomainSamples& domain) {
+  assert(std::ranges::none_of(domain, [](const auto& seeds) { return seeds.empty(); }));
   double sum = 0;
   for (const std::vector<double>& seeds : domain) sum += mean(seeds);
   return sum / static_cast<double>(domain.size());
@@ -225,11 +231,13 @@ std::optional<Interval> bootstrap_interval(const std::vector<DomainSamples>& dom
 }
 
 std::size_t ClaimFamily::add(const RankTest& test) {
+  assert(findings_.empty());
   tests_.push_back(test);
   return tests_.size() - 1;
 }
 
 void ClaimFamily::decide() {
+  assert(findings_.empty());
   findings_.assign(tests_.size(), Finding::kTooFew);
   adjusted_.assign(tests_.size(), std::numeric_limits<double>::quiet_NaN());
   const double level = reach(tests_);

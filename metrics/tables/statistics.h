@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,7 @@ class RandomIndex {
  public:
   explicit RandomIndex(std::uint64_t seed) : random_(seed) {}
   std::size_t operator()(std::size_t n) {
+    assert(n > 0);
     const double part = std::ldexp(static_cast<double>(random_() >> 11), -53);
     return static_cast<std::size_t>(part * static_cast<double>(n));
   }
@@ -94,7 +96,10 @@ class ClaimFamily {
   /// To be called once, after all tests are added and before anything is asked.
   void decide();
   const RankTest& test(std::size_t test) const { return tests_[test]; }
-  Finding finding(std::size_t test) const { return findings_[test]; }
+  Finding finding(std::size_t test) const {
+    assert(test < findings_.size());
+    return findings_[test];
+  }
   /// Holm's; NaN of those that do not count.
   double adjusted_p(std::size_t test) const { return adjusted_[test]; }
   std::size_t size() const { return tests_.size(); }

@@ -4,6 +4,7 @@
 #include <ceres/gradient_problem_solver.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -34,6 +35,10 @@ double power(double x, int n) {
 template <class Vec>
 QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights)
     : weights_(weights), start_(std::move(mesh.points)), moving_(std::move(mesh.moving)) {
+  assert(mesh.delta.size() == start_.size());
+  assert(std::ranges::all_of(mesh.delta, [](double delta) { return delta > 0; }));
+  assert(mesh.least_lengths.size() == mesh.quads.size() && mesh.least_sine.size() == mesh.quads.size());
+  assert(mesh.weight.size() == mesh.quads.size());
   slot_of_.assign(start_.size(), -1);
   add_pieces(mesh);
   find_slots_of_moving();
@@ -47,7 +52,10 @@ QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& w
 template <class Vec>
 void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
   std::vector<int> moving(start_.size(), -1);
-  for (std::size_t i = 0; i < moving_.size(); ++i) moving[moving_[i].vertex] = static_cast<int>(i);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    assert(moving[moving_[i].vertex] < 0);
+    moving[moving_[i].vertex] = static_cast<int>(i);
+  }
   const auto moves = [&](int v) { return moving[v] >= 0; };
   std::vector<int> first_side(start_.size(), -1),
       next_side;  // sides seen so far, chained by their lesser end
@@ -312,6 +320,7 @@ EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations) {
   EnergyDescent descent;
   descent.x.assign(energy.variables(), 0.0);
   if (descent.x.empty()) return descent;
+  assert(energy.evaluate(descent.x.data(), descent.energy_before, nullptr));
   ceres::GradientProblemSolver::Options options;
   options.line_search_direction_type = ceres::LBFGS;
   options.line_search_type = ceres::WOLFE;
