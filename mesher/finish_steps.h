@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/counters.h"
 #include "delquad/options.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -81,19 +80,6 @@ bool are_cuts_in_the_way(const PreparedProblem& prepared, const std::vector<cons
 /// Runs the stages that begin from quads once more with other cuts, in faces that have cuts. The mesh that
 /// they made is replaced where that is better; it has no lines on cuts then. Returns whether it was.
 bool run_across_cuts(Finishing& on);
-
-/// What refine_unsound() did.
-struct RefinementSummary {
-  int rounds = 0;  ///< how often the problem was meshed anew
-  int spots = 0;   ///< places around which the size is smaller
-};
-
-template <>
-struct Counters<RefinementSummary> {
-  using S = RefinementSummary;
-  static constexpr const char* step = "refine_unsound";
-  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
-};
 
 /// prepare_problem() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;

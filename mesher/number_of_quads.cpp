@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "base/calibration.h"
+#include "base/counters.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/scaling/scale_sizes.h"
@@ -13,6 +15,19 @@
 #include "patches/prepared.h"
 
 namespace delquad {
+/// What meet_quads() did.
+struct NumberSummary {
+  int asked = 0;
+  int meshes = 0;  ///< that were made, the first and the last included
+};
+
+template <>
+struct Counters<NumberSummary> {
+  using S = NumberSummary;
+  static constexpr const char* step = "number_of_quads";
+  static constexpr auto all = std::tuple{counter("asked", &S::asked), counter("meshes", &S::meshes)};
+};
+
 namespace {
 
 /// How near the number of quads is to come, as a part of it, by how many meshes.

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/box.h"
 #include "base/budget.h"
+#include "base/counters.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirrored_surface.h"
@@ -14,6 +16,19 @@
 #include "metrics/judgement/soundness.h"
 
 namespace delquad {
+/// What refine_unsound() did.
+struct RefinementSummary {
+  int rounds = 0;  ///< how often the problem was meshed anew
+  int spots = 0;   ///< places around which the size is smaller
+};
+
+template <>
+struct Counters<RefinementSummary> {
+  using S = RefinementSummary;
+  static constexpr const char* step = "refine_unsound";
+  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
+};
+
 namespace {
 
 /// How often a problem is meshed anew; in a row without fewer places that are not sound.

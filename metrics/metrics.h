@@ -3,6 +3,8 @@
 #include <deque>
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "delquad/metrics.h"
 #include "geometry/mesh/half_edges.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include "base/counters.h"
 #include "patches/places_inside.h"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <tuple>
+#include <vector>
+
 #include "base/counters.h"
 #include "delquad/extend.h"
 #include "delquad/fields.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include "base/counters.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 #include "base/counters.h"
 #include "delquad/fields.h"

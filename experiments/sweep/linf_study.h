@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "experiments/console/progress.h"
 #include "experiments/sweep/experiment.h"

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/process_tree.h"

@@ -3,6 +3,7 @@
 #include <ceres/first_order_function.h>
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "delquad/mesh.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "delquad/mesh.h"
 #include "features/curved/curved_geometry.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "delquad/mesher.h"
 #include "geometry/surface/triangulated_model.h"
 

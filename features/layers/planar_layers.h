@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "patches/prepared.h"
 
 namespace delquad {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "delquad/mesher.h"
 
 namespace delquad {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "delquad/model.h"
 #include "geometry/surface/surface_model.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {

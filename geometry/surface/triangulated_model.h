@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "delquad/options.h"
 #include "io/cases/toml_keys.h"

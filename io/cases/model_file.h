@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/planar/planar_model.h"
 #include "io/cases/toml_reader.h"
 

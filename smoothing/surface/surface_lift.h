@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "base/budget.h"
 #include "smoothing/surface/surface_tracks.h"

@@ -33,6 +33,41 @@ PRIMITIVES = [
     (r"(line_curve|triangle_region)\[kept\+\+\]", "keep_lines(), keep_triangles()", "geometry/mesh/keep_elements.h"),
     (r"while \((parent|root|leader)_?\[\w+\] != ", "DisjointSets", "base/disjoint_sets.h"),
 ]
+# Names of the standard library and the header that a header which uses them includes itself.
+STANDARD = {
+    "algorithm": "clamp copy fill find max min nth_element sort lower_bound upper_bound",
+    "array": "array",
+    "atomic": "atomic",
+    "chrono": "chrono",
+    "cmath": "abs atan2 copysign cos hypot isfinite isnan log pow sin sqrt",
+    "complex": "complex polar",
+    "cstddef": "ptrdiff_t size_t",
+    "cstdint": "int32_t int64_t uint8_t uint16_t uint32_t uint64_t",
+    "filesystem": "filesystem",
+    "functional": "function",
+    "initializer_list": "initializer_list",
+    "limits": "numeric_limits",
+    "map": "map multimap",
+    "memory": "make_shared make_unique shared_ptr unique_ptr weak_ptr",
+    "mutex": "mutex lock_guard unique_lock",
+    "numbers": "numbers",
+    "numeric": "accumulate iota",
+    "optional": "nullopt optional",
+    "random": "mt19937_64",
+    "set": "set multiset",
+    "span": "span",
+    "stdexcept": "invalid_argument runtime_error",
+    "stop_token": "stop_token",
+    "string": "string to_string",
+    "string_view": "string_view",
+    "tuple": "tuple tie",
+    "unordered_map": "unordered_map",
+    "unordered_set": "unordered_set",
+    "utility": "exchange forward move pair swap",
+    "variant": "get_if holds_alternative variant visit",
+    "vector": "vector",
+}
+HEADER_OF = {name: header for header, names in STANDARD.items() for name in names.split()}
 
 
 def rooms(root):
@@ -128,6 +163,18 @@ def check_public(root):
                 yield f"{path.relative_to(root)}: includes {header}: expected the standard library or delquad/"
 
 
+def check_standard_headers(root, links):
+    """Headers include what they use of the standard library, whoever includes them."""
+    headers = [path for room in links for path in sources(root, room, links) if path.suffix == ".h"]
+    for path in [*headers, *sorted((root / "include/delquad").glob("*.h"))]:
+        text = path.read_text()
+        included = set(re.findall(r"#include <([a-z_]+)>", text))
+        used = re.findall(r"\bstd::(\w+)", re.sub(r"//.*", "", text))
+        for header in sorted({HEADER_OF[name] for name in used if name in HEADER_OF} - included):
+            names = ", ".join(sorted({f"std::{name}" for name in used if HEADER_OF.get(name) == header}))
+            yield f"{path.relative_to(root)}: uses {names}: expected <{header}>"
+
+
 def check_lengths(root, links):
     opening = re.compile(r"^( *)[^ #/}].*[)a-z\]] \{$")
     for room in links:
@@ -148,7 +195,7 @@ def check_lengths(root, links):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     links = rooms(root)
-    checks = (check_links, check_library, check_door, check_primitives, check_lengths)
+    checks = (check_links, check_library, check_door, check_primitives, check_standard_headers, check_lengths)
     wrong = [*check_public(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
