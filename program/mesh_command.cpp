@@ -141,6 +141,11 @@ void print_after(const std::string& file, const MeshResult& result, double secon
 void name_failing(const CriteriaReport& report, Mesh& mesh) {
   if (!mesh.periodic_faces.empty())
     throw InputError("--failing-sets does not go with periodic faces, whose elements stay together");
+  for (const Entity& region : mesh.regions)
+    for (const std::string& name : region.names)
+      if (name.starts_with("failing"))
+        throw InputError(
+            fmt::format("--failing-sets: region '{}' has the name of such a set: expected another", name));
   std::vector<std::set<std::string>> sets(mesh.triangles.size() + mesh.quads.size());
   for (const CriterionResult& result : report.results)
     for (const int element : result.failing) sets[element].insert("failing_" + result.limit.key);
@@ -153,8 +158,10 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
     int& region = e < n ? mesh.triangle_region[e] : mesh.quad_region[e - n];
     const auto [at, is_new] = made.try_emplace({region, sets[e]}, static_cast<int>(mesh.regions.size()));
     if (is_new) {
+      // A set without a name is written by its tag, of which there are two now.
+      if (mesh.regions[region].names.empty())
+        mesh.regions[region].names.push_back(tag_label(2, mesh.regions[region].tag));
       Entity part = mesh.regions[region];
-      if (part.names.empty()) part.names.push_back(tag_label(2, part.tag));
       part.tag = ++tag;
       part.names.emplace_back("failing");
       part.names.insert(part.names.end(), sets[e].begin(), sets[e].end());

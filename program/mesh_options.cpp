@@ -153,6 +153,11 @@ void set_options(const MeshArguments& arguments, Options& options) {
 void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   if (!arguments.criteria.empty()) criteria = read_criteria(arguments.criteria);
   criteria.strict |= arguments.strict;
+  // Elsewhere an element is in one set, and would leave that of its region.
+  if (arguments.failing_sets && arguments.output.extension() != ".inp")
+    throw InputError(
+        fmt::format("--failing-sets: {}: expected an .inp file, where an element may be in several sets",
+                    arguments.output.string()));
   if ((arguments.failing_sets || arguments.strict) && criteria.empty())
     throw InputError(fmt::format("{}: there are no criteria: expected --criteria, too",
                                  arguments.strict ? "--strict" : "--failing-sets"));

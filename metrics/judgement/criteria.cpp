@@ -187,10 +187,11 @@ void check_criteria(const Criteria& criteria) {
     step_length_named(criteria.time_step_by);
     if (!criteria.material) return;
     const auto& [young, poisson, density] = *criteria.material;
-    if (!(young > 0) || !(density > 0) || !(poisson >= 0 && poisson < 1) || !std::isfinite(young / density))
+    if (!(young > 0) || !(density > 0) || !(poisson >= 0 && poisson <= 0.5) ||
+        !std::isfinite(young / density))
       throw InputError(fmt::format(
           "the material has young {}, poisson {} and density {}: expected 'young' and 'density' above 0, "
-          "'poisson' from 0 to below 1",
+          "'poisson' from 0 to 0.5",
           young, poisson, density));
   });
 }

@@ -30,6 +30,10 @@ TEST(Criteria, GiveATableAndSets) {
   for (const char* set :
        {"*ELSET, ELSET=failing\n", "*ELSET, ELSET=failing_min_angle\n", "*ELSET, ELSET=plate\n"})
     EXPECT_TRUE(contains(inp, set)) << set;
+  const ProgramResult other = delquad(
+      {"mesh", model, "-o", folder / "sets.msh", "--size", "0.4", "--criteria", "batch", "--failing-sets"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(other.err, "expected an .inp file")) << other.err;
   for (const char* key : {"\"failing_min_angle\"", "\"critical_step\"", "\"cause\": \"corner\""})
     EXPECT_TRUE(contains(record, key)) << key;
 }
