@@ -38,6 +38,8 @@ constexpr int kWorstPower = 3;
 constexpr double kHopelessShape = 3;
 /// No edge becomes shorter than this part of what it was, or of delta where that is less.
 constexpr double kShortest = 0.2;
+/// The same of edges that are beyond the wall already.
+constexpr double kShort = 0.9;
 /// Where a move makes a quad bad it is halved, and left out below this part of it.
 constexpr double kLeastPart = 0.2;
 
@@ -370,7 +372,8 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
     for (std::size_t q = begin; q < end; ++q)
       for (int k = 0; k < 4; ++k) {
         const int a = quads_[q][k], b = quads_[q][(k + 1) % 4];
-        least_lengths_[q][k] = kShortest * std::min({norm(points_[b] - points_[a]), delta_[a], delta_[b]});
+        const double length = norm(points_[b] - points_[a]), delta = std::min(delta_[a], delta_[b]);
+        least_lengths_[q][k] = (length < kShortWall * delta ? kShort : kShortest) * std::min(length, delta);
       }
   });
   find_room();
