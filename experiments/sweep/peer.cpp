@@ -20,6 +20,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "metrics/surface/surface_report.h"
+#include "metrics/tables/result_records.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {
