@@ -19,8 +19,8 @@ namespace {
 
 /// Where |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
-/// What it costs to be beyond the walls of lengths, and how far (as a logarithm) that still can be cured.
-constexpr double kWall = 80, kCurable = 0.25;
+/// How far beyond the walls of lengths (as a logarithm) still can be cured.
+constexpr double kCurable = 0.25;
 /// Quads in a piece.
 constexpr std::size_t kPieceLength = 1024;
 
@@ -274,11 +274,11 @@ bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
                        : ratio > kLongWall ? std::log(kLongWall / ratio)
                                            : 0;
   const double soft = 1 / (1 + lacks * lacks / (kCurable * kCurable));
-  energy += weights_.size * (1 - lack) + kWall * lacks * lacks * soft +
+  energy += weights_.size * (1 - lack) + weights_.wall * lacks * lacks * soft +
             4 * weights_.alignment * c2 * (1 - c2) + too_short;
   if constexpr (!kSlope) return true;
   const double by_length = weights_.size * sinh * (cosh / rounded - 1) * inverse -
-                           2 * kWall * lacks * soft * soft * inverse -
+                           2 * weights_.wall * lacks * soft * soft * inverse -
                            too_short / (length - edge.least_length);
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   side.slope = side.slope + (by_length * u + by_cosine * (edge.arm - c * u));

@@ -20,6 +20,7 @@ struct QuadEnergyWeights {
   double size = 0.25;       ///< of the edges' lengths
   double alignment = 0.02;  ///< of the edges' directions
   double barrier = 0.002;   ///< of the corners' barrier
+  double wall = 80;         ///< of lengths beyond the walls
 };
 
 /// A vertex that moves, to its place + x * axes[0] + y * axes[1]. Along a curve: the second axis is zero.
@@ -51,7 +52,7 @@ struct QuadEnergyMesh {
 ///     some bad quads,
 ///   size * (1 - min(l/d, d/l)) over the edges, l the length, d the mean of delta at both ends: what an edge
 ///     lacks in tau,
-///   80 * m^2 / (1 + 16 m^2) over the edges, m by how much log(l/d) is beyond log .4 or log 1.65: walls, as
+///   wall * m^2 / (1 + 16 m^2) over the edges, m by how much log(l/d) is beyond log .4 or log 1.65: walls, as
 ///     angles alone would leave some edges too short or long; they level off, since lengths that the model
 ///     forbids are not to outweigh shapes,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,

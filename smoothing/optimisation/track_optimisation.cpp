@@ -33,13 +33,15 @@ constexpr double kLeastTrackedGain = 0.05;
 /// For the worst: weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
 constexpr double kWorstWeight = 30;
 constexpr int kWorstPower = 3;
+/// And that of walls: angles come first there.
+constexpr double kWorstWall = 20;
 /// Sum over the corners of 1/sin alpha - 1 from which on quads weigh less, so that those beyond help do not
 /// drown the others.
 constexpr double kHopelessShape = 3;
 /// No edge becomes shorter than this part of what it was, or of delta where that is less.
 constexpr double kShortest = 0.2;
 /// The same of edges that are beyond the wall already.
-constexpr double kShort = 0.9;
+constexpr double kShort = 0.5;
 /// Where a move makes a quad bad it is halved, and left out below this part of it.
 constexpr double kLeastPart = 0.2;
 
@@ -384,6 +386,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
   QuadEnergyWeights for_worst = weights;
   for_worst.bad = kWorstWeight;
   for_worst.bad_power = kWorstPower;
+  for_worst.wall = kWorstWall;
   for (int pass = 0; pass < options_.passes; ++pass) {
     descend(around_below(kWorstEta), for_worst);
     const EnergyDescent descent = descend(pass == 0 ? free_ : around_below(kSettledEta), weights);
