@@ -40,7 +40,10 @@ void add_data(CLI::App& command, std::filesystem::path& data) {
 void add_criteria(CLI::App& command, std::string& criteria, bool& strict) {
   std::string names;
   for (const Criteria& preset : criteria_presets()) names += preset.name + ", ";
-  command.add_option("--criteria", criteria, "judge elements by " + names + "or a file of limits (.toml)");
+  command.add_option("--criteria", criteria, "judge elements by " + names + "or a file of limits (.toml)")
+      ->check([](const std::string& text) {
+        return text.empty() ? "it is empty: expected a name or a file" : std::string();
+      });
   command.add_flag("--strict", strict, "elements beyond the criteria are an error (exit code 5)");
 }
 

@@ -47,6 +47,10 @@ TEST(Criteria, AreAnErrorWhenStrict) {
   EXPECT_TRUE(contains(refused.out, "criteria batch: ")) << refused.out;
   EXPECT_TRUE(contains(refused.err, "an angle below 40 degrees")) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "m.msh"));
+  const ProgramResult none =
+      delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--criteria", ""});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_TRUE(contains(none.err, "--criteria: it is empty")) << none.err;
   const ProgramResult alone = delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--strict"});
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_TRUE(contains(alone.err, "expected --criteria")) << alone.err;
