@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 
@@ -39,7 +40,7 @@ ElementShape<N> element_shape(const std::array<Vec3, N>& corners, const Vec3& no
 inline double eta_of(const std::array<double, 4>& angle) {
   double eta = 1;
   for (const double a : angle) {
-    const double corner = 1 - std::abs(std::numbers::pi / 2 - a) * 2 / std::numbers::pi;
+    const double corner = eta_of_deviation(std::abs(std::numbers::pi / 2 - a));
     if (!(corner > 0)) return 0;
     eta = std::min(eta, corner);
   }

@@ -11,6 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/parallel_collect.h"
+#include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/tri_topology.h"
 
 namespace delquad {
@@ -211,8 +212,6 @@ DualGraph build_dual_graph(const TriPatch& tri) {
 
 namespace {
 
-constexpr double kRightAngle = std::numbers::pi / 2;
-
 struct Corner {
   double cross, dot;  ///< of the sides that leave the corner, forwards and backwards
 };
@@ -225,7 +224,7 @@ Corner corner(Vec2 before, Vec2 at, Vec2 after) {
 /// |angle - 90 deg|, the angle in [0, 360) degrees.
 double deviation(Corner c) {
   const double angle = std::atan2(c.cross, c.dot);
-  return std::abs((angle < 0 ? angle + 2 * std::numbers::pi : angle) - kRightAngle);
+  return std::abs((angle < 0 ? angle + 2 * std::numbers::pi : angle) - std::numbers::pi / 2);
 }
 
 }  // namespace
@@ -239,10 +238,10 @@ double signed_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     convex = convex && k.cross > 0;
     worst = std::max(worst, std::abs(k.dot) / k.cross);
   }
-  if (convex) return 1 - std::atan(worst) / kRightAngle;
+  if (convex) return eta_of_deviation(std::atan(worst));
   worst = 0;
   for (const Corner& k : corners) worst = std::max(worst, deviation(k));
-  return 1 - worst / kRightAngle;
+  return eta_of_deviation(worst);
 }
 
 }  // namespace delquad

@@ -39,6 +39,9 @@ struct QuadCorner<Vec3> {
   double sine;
 };
 
+/// eta of a quad whose worst corner is so far from a right angle [equation (4)]; radians.
+inline double eta_of_deviation(double radians) { return 1 - radians * 2 / std::numbers::pi; }
+
 /// Of a quad, by the sine of its worst corner: eta is 1 for 90 degrees, 0 for 0 and for 180, and negative
 /// where the corner is reflex. A sine beyond +-1, by rounding, counts as that.
 inline double eta_of_sine(double sine) {
