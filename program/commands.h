@@ -21,6 +21,7 @@ using Commands = std::vector<Command>;
 
 // Each adds a command, or several, with its options. They are explained in this order.
 void add_run(CLI::App& app, Commands& commands);
+void add_batch(CLI::App& app, Commands& commands);
 /// tables, rerun, verify, merge and report.
 void add_results(CLI::App& app, Commands& commands);
 /// schema and formats.

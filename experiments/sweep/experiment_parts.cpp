@@ -101,7 +101,8 @@ void Experiment::read_metric(const TomlTable& table) {
                      "': the name of a metric is a letter, then letters, digits, '_' and '-'");
   std::vector<std::string> taken = keys_of_metrics();
   for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
-  for (const char* key : {"seconds", kRowEnds, kFinishSeconds, kFinishEta}) taken.emplace_back(key);
+  taken.emplace_back("seconds");
+  for (const TableColumn& column : columns_of_records()) taken.push_back(column.key);
   if (std::ranges::find(taken, metric.key) != taken.end())
     throw InputError(table.where("name") + ": there is a metric '" + metric.key + "' already");
   command.command = read_command(table, "command");

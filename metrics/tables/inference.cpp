@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kSecondsTotal = "seconds_total";
 constexpr const char* kTauGiven = "tau_given";
-constexpr int kTimeDigits = 2, kFinishDigits = 4;
+constexpr int kTimeDigits = 2;
 /// What the paper's tables show, with the counts, and what eta cannot see.
 const std::vector<std::pair<const char*, int>> kColumns = {
     {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0},   {"eta_worst", 3},
@@ -101,9 +101,8 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
   for (const std::string& key : study.columns) {
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
     if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
-    if (key == kRowEnds) columns.push_back({key, "row ends", 0});
-    if (key == kFinishSeconds) columns.push_back({key, "finish s", kTimeDigits});
-    if (key == kFinishEta) columns.push_back({key, "finish eta", kFinishDigits});
+    for (const TableColumn& column : columns_of_records())
+      if (key == column.key) columns.push_back(column);
     if (const auto metric = metric_of(key, own)) columns.push_back({key, metric->title, metric->digits});
     for (const StepTime& step : step_times_of_tables())
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,7 +15,6 @@
 #include "io/digest.h"
 #include "metrics/tables/json_problem.h"
 #include "metrics/tables/study_file.h"
-#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {
@@ -57,6 +58,41 @@ std::string text_of_variant(const std::vector<std::pair<std::string, std::string
   return text;
 }
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+double number(const Json& value) { return value.is_null() ? kNoNumber : value.get<double>(); }
+
+double at(const Json& json, const char* pointer) {
+  return number(json.value(Json::json_pointer(pointer), Json()));
+}
+
+struct Derived {
+  TableColumn column;
+  std::function<double(const Json& record)> value;
+};
+
+const std::vector<Derived>& derived() {
+  static const std::vector<Derived> all = {
+      {{"row_ends", "row ends", 0}, [](const Json& r) { return at(r, "/cross_field/row_ends"); }},
+      {{kFinishSeconds, "finish s", 2}, [](const Json& r) { return at(r, "/finish/seconds"); }},
+      {{"finish_eta", "finish eta", 4},
+       [](const Json& r) {
+         return r.contains("finish") ? number(r["finish"].value("eta_mean", Json(0))) : kNoNumber;
+       }},
+      {{"deviation", "deviation, sizes", 3},
+       [](const Json& r) {
+         const std::string distances = "/surface/distances_in_diagonals/";
+         return std::fmax(at(r, (distances + "mesh_to_surface/max_in_sizes").c_str()),
+                          at(r, (distances + "surface_to_mesh/max_in_sizes").c_str()));
+       }},
+      {{"warnings", "warnings", 0},
+       [](const Json& r) {
+         return r.contains("warnings") ? static_cast<double>(r["warnings"].size()) : kNoNumber;
+       }},
+  };
+  return all;
+}
+
 CellRecord parse(const Json& json) {
   CellRecord record;
   json.at("case").get_to(record.name);
@@ -72,9 +108,6 @@ CellRecord parse(const Json& json) {
     record.kind = json.value("kind", "");
     return record;
   }
-  const auto number = [](const Json& value) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-  };
   for (const auto& [key, value] : json.at("metrics").get<std::map<std::string, Json>>())
     record.values[key] = number(value);
   for (const Json& metric : json.value("own_metrics", Json::array()))
@@ -82,11 +115,7 @@ CellRecord parse(const Json& json) {
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
   record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
-  record.values[kRowEnds] = number(json.value("/cross_field/row_ends"_json_pointer, Json()));
-  if (const auto finish = json.find("finish"); finish != json.end()) {
-    record.values[kFinishSeconds] = finish->at("seconds");
-    record.values[kFinishEta] = number(finish->value("eta_mean", Json(0)));
-  }
+  for (const auto& [column, of_record] : derived()) record.values[column.key] = of_record(json);
   if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
@@ -160,6 +189,15 @@ std::string head_value(std::string_view head, const std::string& key) {
 }
 
 }  // namespace
+
+const std::vector<TableColumn>& columns_of_records() {
+  static const std::vector<TableColumn> all = [] {
+    std::vector<TableColumn> columns;
+    for (const Derived& one : derived()) columns.push_back(one.column);
+    return columns;
+  }();
+  return all;
+}
 
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records) {
   std::vector<Metric> metrics;

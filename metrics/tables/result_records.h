@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delquad/metrics.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 
@@ -55,6 +56,8 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 /// The measures of records that the project itself does not have, each once, in the order of records: with a
 /// measure for each of the values that a command gave, "name.part".
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
+/// Columns for what records say beside measures and times: tables have them where an experiment asks for it.
+const std::vector<TableColumn>& columns_of_records();
 
 /// The records of an experiment below a folder, in the order of its study.json, if there is one, and by path.
 /// What is no record, or was changed since its digest was taken, is a cell that failed, "damaged record: "

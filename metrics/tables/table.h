@@ -44,10 +44,8 @@ struct TableRow {
 inline constexpr const char* kNotApplicable = "not applicable";
 /// The column that says of how many runs the values are.
 inline constexpr const char* kRuns = "n";
-/// Of the problem, not the mesh: rows of quads that are expected to end.
-inline constexpr const char* kRowEnds = "row_ends";
-/// Of a mesh, what its finish steps took and by how much they raised the mean eta.
-inline constexpr const char *kFinishSeconds = "finish_seconds", *kFinishEta = "finish_eta";
+/// What finish steps took.
+inline constexpr const char* kFinishSeconds = "finish_seconds";
 
 /// The second column, where it says so when meshes are not sound or runs have failed.
 std::string shown_name(const TableRow& row);
