@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "geometry/mesh/half_edges.h"
-#include "metrics/shape.h"
-#include "metrics/size_efficiency.h"
+#include "features/given/given_worst.h"
 
 namespace delquad {
 namespace {
 
 /// Differences that count, as a part of the value.
 constexpr double kChange = 1e-9;
-/// The number of quads may differ by this part.
-constexpr double kOtherNumber = 0.1;
 /// Edges are near enough to their size with this tau, in percent.
 constexpr double kGoodTau = 91;
 
@@ -31,52 +26,7 @@ double score(const MeshResult& run) {
   return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
 }
 
-/// How many times worse, as a logarithm; 0: it is not.
-double times_worse(double is, double was) { return is > was * (1 + kChange) ? std::log(is / was) : 0; }
-
 }  // namespace
-
-GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size) {
-  GivenWorst worst;
-  double aspect = 0;
-  for (const auto& quad : mesh.quads) {
-    const auto corners = corners_of(mesh, quad);
-    const Vec3 side = is_in_plane ? Vec3{0, 0, 1} : area_vector(corners);
-    const ElementShape<4> shape = element_shape(corners, side);
-    const double eta = eta_of(shape.angle);
-    worst.eta = std::min(worst.eta, eta);
-    if (!is_sound_quad(corners, side, shape)) {
-      worst.is_sound = false;
-      continue;
-    }
-    worst.sound_eta = std::min(worst.sound_eta, eta);
-    aspect = std::max(aspect, quad_aspect(corners));
-  }
-  worst.aspect = aspect > 0 ? aspect : std::numeric_limits<double>::infinity();
-  worst.side = fit_to_size(mesh, sorted_half_edges(mesh), size).shortest;
-  return worst;
-}
-
-bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>& corners) {
-  constexpr double kPoorEta = 0.2;
-  const GivenWorst& worst = *prepared.given_worst;
-  const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
-  if (eta_of(element_shape(corners, normal).angle) <
-          std::max(worst.eta, std::min(worst.sound_eta, kPoorEta)) ||
-      quad_aspect(corners) > worst.aspect)
-    return true;
-  for (int k = 0; k < 4; ++k)
-    if (adimensional_length(corners[k], corners[(k + 1) % 4], *prepared.size.field) < worst.side) return true;
-  return false;
-}
-
-Harm harm_of(const MeshResult& after, const MeshResult& before) {
-  const double number = value(after, "n_quads") / value(before, "n_quads");
-  return {times_worse(value(before, "eta_worst"), value(after, "eta_worst")),
-          times_worse(value(before, "edge_min"), value(after, "edge_min")),
-          times_worse(value(after, "aspect_max"), value(before, "aspect_max")),
-          times_worse(number, 1 + kOtherNumber) + times_worse(1 - kOtherNumber, number)};
-}
 
 bool is_worse(const MeshResult& after, const MeshResult& before) {
   if (before.soundness.sound() && !after.soundness.sound()) return true;

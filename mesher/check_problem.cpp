@@ -8,23 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "base/length_unit.h"
-#include "base/located.h"
 #include "features/curves/compose_size.h"
+#include "features/curves/surface_input.h"
+#include "features/divisions/divisions.h"
 #include "features/given/given_surface.h"
-#include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
-#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 namespace {
-
-/// Refuses a number that is neither 0, for "none", nor finite and positive.
-void check_length(double value, const std::string& what, const std::string& where) {
-  if (!(value >= 0) || !std::isfinite(value))
-    throw InputError(fmt::format("{}: {} {}: expected a finite number above 0, or 0 for none", where, what,
-                                 std::isnan(value) ? "NaN" : fmt::format("{}", value)));
-}
 
 void check(const PlanarModel& model, const std::string& where) {
   if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
@@ -70,44 +61,6 @@ void check(const ExampleModel& model, const std::string& where) {
   if (model.name.empty()) throw InputError(where + ": the example has no name");
 }
 
-void check(const NamedSize& n) {
-  check_length(n.size, "the size of '" + n.name + "'", n.where);
-  check_length(n.reach, "the reach of '" + n.name + "'", n.where);
-  if (!(n.growth > 0) || !std::isfinite(n.growth))
-    throw InputError(fmt::format("{}: sizes grow away from '{}' by {}: expected a finite number above 0",
-                                 n.where, n.name, n.growth));
-  check_length(n.curvature, "the curvature of '" + n.name + "'", n.where);
-  if (n.curvature > 0 && n.curvature < kLeastPerTurn)
-    throw InputError(
-        fmt::format("{}: the curvature of '{}' is {}: expected at least {} elements per full turn", n.where,
-                    n.name, n.curvature, kLeastPerTurn));
-  if (!(n.size > 0) && !(n.curvature > 0))
-    throw InputError(fmt::format("{}: '{}' has neither a size nor a curvature", n.where, n.name));
-}
-
-void check(const CurveDivision& d) {
-  if (d.edges < 1)
-    throw InputError(fmt::format("{}: {} edges for '{}': expected at least 1", d.where, d.edges, d.name));
-  for (const auto& [value, what] : {std::pair(d.progression, "progression"), std::pair(d.bump, "bump")})
-    if (!(value > 0) || !std::isfinite(value))
-      throw InputError(fmt::format("{}: the {} of '{}' is {}: expected a finite number above 0", d.where,
-                                   what, d.name, value));
-}
-
-void check(const SizeSpec& size) {
-  if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
-    throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
-  for (const NamedSize& named : size.named) check(named);
-  check_length(size.gradation, "gradation", size.where);
-  check_length(size.curvature, "curvature", size.where);
-  if (size.curvature > 0 && size.curvature < kLeastPerTurn)
-    throw InputError(fmt::format("{}: curvature {}: expected at least {} elements per full turn", size.where,
-                                 size.curvature, kLeastPerTurn));
-  check_length(size.min, "the least size", size.where);
-  check_length(size.max, "the largest size", size.where);
-  check_size_limits(size.curvature, size.min, size.max, size.where);
-}
-
 void check(const CrossSpec& cross) {
   const int given = (cross.field != nullptr) + (cross.function != nullptr);
   if (cross.kind == CrossKind::kField && given != 1)
@@ -115,25 +68,6 @@ void check(const CrossSpec& cross) {
                                  cross.where, given == 0 ? "none" : "both"));
   if (cross.kind != CrossKind::kField && given > 0)
     throw InputError(cross.where + ": a field or a function of crosses is given, and another kind asked for");
-}
-
-void check(const SurfaceSpec& surface, const std::string& where) {
-  check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
-  check_length(surface.merge_curves, "the length of curves that are merged", where);
-  if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
-  if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
-  if (!surface.unit.empty()) located(where, [&] { length_unit(surface.unit); });
-  if (surface.compounds == Compounds::kGroups) {
-    if (surface.groups.empty()) throw InputError(where + ": compounds by groups need a group of faces");
-    for (const auto& group : surface.groups)
-      if (group.size() < 2) throw InputError(where + ": a compound has two faces or more");
-  }
-  if (!surface.mirror) return;
-  const MirrorPlane& mirror = *surface.mirror;
-  if (!std::isfinite(norm(mirror.point))) throw InputError(where + ": the mirror's point is not finite");
-  if (!(norm(mirror.normal) > 0) || !std::isfinite(norm(mirror.normal)))
-    throw InputError(where + ": the normal of the mirror's plane has no finite length");
-  checked_weld_tolerance(mirror.tolerance, where, "the mirror's tolerance");
 }
 
 /// Refuses what is for models whose curves are meshed.
@@ -242,16 +176,16 @@ void check_problem(const MeshProblem& problem) {
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
   if (!problem.layers.empty() && !is_planar)
     throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
-  check(problem.size);
+  check_size(problem.size);
   const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
     if (!((is_flat ? std::hypot(plane.normal.x, plane.normal.y) : norm(plane.normal)) > 0) ||
         !std::isfinite(norm(plane.normal) + norm(plane.point)))
       throw InputError(fmt::format("{}: the normal of a plane of symmetry has no finite length{}",
                                    problem.symmetry.where, is_flat ? " in the plane" : ""));
-  for (const CurveDivision& division : problem.divisions) check(division);
+  for (const CurveDivision& division : problem.divisions) check_division(division);
   check(problem.cross);
-  check(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
+  check_surface(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
   check_kind(problem);
 }
 

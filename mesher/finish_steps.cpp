@@ -17,6 +17,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
+#include "features/given/given_worst.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
@@ -30,51 +31,6 @@ std::string text_of_worst(const MeshResult& run) {
       "{:.0f} quads, eta mean {:.4g}, worst {:.4g}, d4 {:.4g} %, aspect to {:.4g}, edges from {:.3g}{}",
       value("n_quads"), value("eta_mean"), value("eta_worst"), value("d4"), value("aspect_max"),
       value("edge_min"), run.soundness.sound() ? "" : ", not sound");
-}
-
-/// With what is worst in it before its unsound quads were opened.
-MeshResult as_it_was(MeshResult given, const GivenWorst& worst) {
-  given.metrics.values["eta_worst"] = worst.eta;
-  given.metrics.values["edge_min"] = worst.side;
-  given.metrics.values["aspect_max"] = worst.aspect;
-  if (!worst.is_sound && given.soundness.sound()) given.soundness.reasons.emplace_back("given quads are not");
-  return given;
-}
-
-/// What it costs that quads are sound now, and where.
-std::string text_of_price(const Finishing& f, const MeshResult& before) {
-  const Mesh& mesh = f.result.mesh;
-  const auto at_least = [&](const std::function<double(const std::array<Vec3, 4>&)>& quality) {
-    std::vector<double> of;
-    for (const auto& quad : mesh.quads) of.push_back(quality(corners_of(mesh, quad)));
-    return show_place(mesh,
-                      middle_of_quad(mesh, static_cast<int>(std::ranges::min_element(of) - of.begin())));
-  };
-  const auto eta = [&](const std::array<Vec3, 4>& x) {
-    return eta_of(element_shape(x, f.prepared.surface ? area_vector(x) : Vec3{0, 0, 1}).angle);
-  };
-  const auto side = [&](const std::array<Vec3, 4>& x) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 4; ++k)
-      least = std::min(least, adimensional_length(x[k], x[(k + 1) % 4], *f.prepared.size.field));
-    return least;
-  };
-  const auto was_is = [&](const char* key) {
-    return fmt::format("from {:.3g} to {:.3g}", before.metrics.values.at(key),
-                       f.result.metrics.values.at(key));
-  };
-  const Harm harm = harm_of(f.result, before);
-  std::vector<std::string> prices;
-  if (harm.eta > 0)
-    prices.push_back(fmt::format("the worst eta goes {}, {}", was_is("eta_worst"), at_least(eta)));
-  if (harm.side > 0)
-    prices.push_back(fmt::format("the shortest edge goes {} sizes, {}", was_is("edge_min"), at_least(side)));
-  if (harm.aspect > 0)
-    prices.push_back(fmt::format("the largest aspect of sound quads goes {}, {}", was_is("aspect_max"),
-                                 at_least([](const auto& x) { return -quad_aspect(x); })));
-  if (harm.number > 0) prices.push_back(fmt::format("the number of quads goes {}", was_is("n_quads")));
-  return fmt::format("{}: given quads that were inverted, folded or flat are sound now, at a price: {}",
-                     f.label, fmt::join(prices, "; "));
 }
 
 /// Whether the first begins from what is given, and each from what the one before leaves.
@@ -149,7 +105,8 @@ bool keep_better(Finishing& on) {
     return true;
   }
   if (best) take_mesh(std::move(*best), result);
-  if (result.soundness.sound()) result.warnings.push_back(text_of_price(on, before));
+  if (result.soundness.sound())
+    result.warnings.push_back(fmt::format("{}: {}", on.label, text_of_price(on.prepared, result, before)));
   return best.has_value();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -91,21 +90,6 @@ using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 /// more, and where the problem says keep_going, faces with such places are left out if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result);
-
-/// Of a mesh, planar ones seen from above.
-GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size);
-
-/// Whether a quad is worse than the worst of the given ones, or below an eta that is poor and that of these
-/// that are sound.
-bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>& corners);
-
-/// How many times the worst angle (eta), the shortest edge (in sizes), the largest aspect, and a number of
-/// quads that differs by more than a tenth, are worse: logarithms, 0 where they are not.
-struct Harm {
-  double eta, side, aspect, number;
-  double sum() const { return eta + side + aspect + number; }
-};
-Harm harm_of(const MeshResult& after, const MeshResult& before);
 
 /// Whether what was made of a given mesh is worse: not sound where that was, with harm, or with none of eta
 /// mean, eta worst and d4 better and one of them worse, unless it is sound where that was not.

@@ -8,6 +8,7 @@
 #include "features/crosses/size_aware.h"
 #include "features/curves/compose_size.h"
 #include "features/given/given_domain.h"
+#include "features/given/given_worst.h"
 #include "features/given/named_domain.h"
 #include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
@@ -19,7 +20,6 @@
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/check_lines.h"
-#include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 
 namespace delquad {

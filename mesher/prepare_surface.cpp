@@ -16,6 +16,7 @@
 #include "features/embedded/imprint.h"
 #include "features/given/given_domain.h"
 #include "features/given/given_surface.h"
+#include "features/given/given_worst.h"
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
@@ -28,7 +29,6 @@
 #include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 
 namespace delquad {

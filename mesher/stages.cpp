@@ -17,6 +17,7 @@
 #include "base/activity.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
+#include "features/given/given_worst.h"
 #include "mesher/finish_steps.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"

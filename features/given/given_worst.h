@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "delquad/mesher.h"
+#include "patches/prepared.h"
+
+namespace delquad {
+
+/// Of a mesh, planar ones seen from above.
+GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size);
+
+/// Whether a quad is worse than the worst of the given ones, or below an eta that is poor and that of these
+/// that are sound.
+bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>& corners);
+
+/// A given mesh with what was worst in it before its unsound quads were opened.
+MeshResult as_it_was(MeshResult given, const GivenWorst& worst);
+
+/// How many times the worst angle (eta), the shortest edge (in sizes), the largest aspect, and a number of
+/// quads that differs by more than a tenth, are worse: logarithms, 0 where they are not.
+struct Harm {
+  double eta, side, aspect, number;
+  double sum() const { return eta + side + aspect + number; }
+};
+Harm harm_of(const MeshResult& after, const MeshResult& before);
+
+/// What it costs that quads are sound now, and where.
+std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
+
+}  // namespace delquad
