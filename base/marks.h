@@ -10,9 +10,8 @@ namespace delquad {
 /// Which of some numbered things have been met in this pass. To begin another one costs nothing.
 class Marks {
  public:
-  /// Nothing has been met; there are n things, no fewer than before.
+  /// Nothing has been met; there are n things.
   void begin(std::size_t n) {
-    assert(n >= met_.size());
     ++pass_;
     met_.resize(n, 0);
   }

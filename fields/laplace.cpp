@@ -6,10 +6,10 @@
 #include <array>
 #include <cassert>
 #include <optional>
-#include <stdexcept>
+
+#include "delquad/error.h"
 
 namespace delquad {
-
 namespace {
 
 // Twice the least area a triangle is taken to have, relative to its longest side squared: slivers below it
@@ -103,7 +103,7 @@ void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& d
     solution = Factors(tri, dofs, row, n, columns, part).solution();
     if (solution) break;
   }
-  if (!solution) throw std::runtime_error("the background mesh's Laplace matrix is singular");
+  if (!solution) throw Error("the background mesh's Laplace matrix is singular");
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     if (row[i] < 0) continue;
     for (std::size_t k = 0; k < columns.size(); ++k)

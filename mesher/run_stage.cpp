@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <new>
-#include <stdexcept>
 
 #include "base/activity.h"
 #include "base/located.h"
@@ -30,7 +29,7 @@ bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, i
 /// Stages from outside may leave anything: what the next ones rely on, as far as they would crash.
 void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh) {
   const auto refuse = [&](const char* what) {
-    throw std::runtime_error(fmt::format("stage {} ({}) left {}", stage.letter, stage.name, what));
+    throw Error(fmt::format("stage {} ({}) left {}", stage.letter, stage.name, what));
   };
   if (mesh.form != stage.to) refuse("a mesh of another form than it says");
   if (mesh.form == PatchForm::kBoundary) return;
@@ -115,8 +114,7 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
       throw InputError(prepared.settings.where + ": " + title + error.what());
     return title + error.what();
   } catch (const std::exception& error) {
-    if (!prepared.settings.keep_going)
-      throw std::runtime_error(prepared.settings.where + ": " + title + error.what());
+    if (!prepared.settings.keep_going) throw Error(prepared.settings.where + ": " + title + error.what());
     return title + error.what();
   }
 }

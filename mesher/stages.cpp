@@ -347,7 +347,7 @@ Stage insertion_stage(char letter, const std::string& name,
   return {letter, name, PatchForm::kBoundary, PatchForm::kTriangles,
           [make = std::move(make_placement)](const StageInput& in, PatchMesh& patch, StageLog& log) {
             const auto placement = make(in.options);
-            if (!placement) throw std::runtime_error("the stage made no placement of points");
+            if (!placement) throw Error("the stage made no placement of points");
             insert_points(mesh_frontal, *placement, in, patch, log);
           }};
 }

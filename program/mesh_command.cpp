@@ -8,6 +8,8 @@
 #include <optional>
 #include <ostream>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "base/activity.h"
 #include "base/context.h"
@@ -107,6 +109,15 @@ void print_before(const std::string& file, const Mesh& mesh, const Prepared& pre
   print_metrics(prepared.metrics(mesh));
 }
 
+/// The least and the largest wanted size at nodes.
+std::pair<double, double> size_on(const Mesh& mesh, const SizeField& size) {
+  std::vector<double> at;
+  int hint = -1;
+  for (const Vec3& x : mesh.points) at.push_back(size.at(x, hint));
+  const auto [least, most] = std::ranges::minmax(at);
+  return {least, most};
+}
+
 /// `seconds`: on the clock, of the whole command.
 void print_after(const std::string& file, const MeshResult& result, double seconds) {
   const Preparation& prepared = *result.prepared;
@@ -126,6 +137,11 @@ void print_after(const std::string& file, const MeshResult& result, double secon
   if (log.has("grids"))
     fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
                log.number("grids", "asked"), log.number("grids", "quads"));
+  if (const auto quads = result.prepared.problem().quads) {
+    const auto [least, most] = size_on(result.mesh, *prepared.size.field);
+    fmt::print("  size: {:.6g}{} for {} quads\n", least,
+               most > least ? fmt::format(" to {:.6g}", most) : "", *quads);
+  }
   if (!prepared.size.adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
                fmt::join(prepared.size.adapted_to, " and "));

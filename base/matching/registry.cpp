@@ -26,7 +26,7 @@ class CheckedSolver final : public MatchingSolver {
  public:
   CheckedSolver(std::string name, std::unique_ptr<MatchingSolver> solver)
       : name_(std::move(name)), solver_(std::move(solver)) {
-    if (!solver_) throw std::runtime_error("matching solver '" + name_ + "': its factory made none");
+    if (!solver_) throw Error("matching solver '" + name_ + "': its factory made none");
   }
 
   std::string name() const override { return name_; }
@@ -39,7 +39,7 @@ class CheckedSolver final : public MatchingSolver {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw std::runtime_error("matching solver '" + name_ + "': its result " + what);
+    throw Error("matching solver '" + name_ + "': its result " + what);
   }
 
   void check(const MatchingGraph& graph, const MatchingResult& result) const {

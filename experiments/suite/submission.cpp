@@ -8,6 +8,7 @@
 
 #include "base/located.h"
 #include "base/text.h"
+#include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "experiments/suite/suite_list.h"
 #include "experiments/suite/write_suite.h"
@@ -96,7 +97,7 @@ class Adding {
     try {
       write(c, identity, file);
       ++count_.measured;
-    } catch (const std::runtime_error& error) {  // InputError or PeerError
+    } catch (const Error& error) {
       ++count_.refused;
       refuse(c, identity, "bad input", fmt::format("{}: {}", file.filename().string(), error.what()));
     }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "delquad/error.h"
 #include "experiments/suite/model_makers.h"
 #include "geometry/cad/example_models.h"
 #include "io/text_writer.h"
@@ -59,7 +60,7 @@ std::string sha256(const std::string& bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
   unsigned length = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("SHA-256 failed");
+    throw Error("SHA-256 failed");
   std::string text;
   for (unsigned i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
   return text;

@@ -6,6 +6,7 @@
 
 #include "base/activity.h"
 #include "base/stopwatch.h"
+#include "delquad/error.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
 #include "io/digest.h"
@@ -55,7 +56,7 @@ std::string version_of(const Peer& peer, std::string& why) {
   if (const auto at = known.find(asked); at != known.end()) return at->second;
   try {
     return known[asked] = peer_version(peer);
-  } catch (const std::runtime_error& error) {  // PeerError, InputError
+  } catch (const Error& error) {
     why = error.what();
     known.erase(asked);
     return "";

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "delquad/error.h"
 #include "delquad/extend.h"
 #include "io/cases/case.h"
 #include "metrics/tables/table.h"
@@ -47,15 +47,15 @@ struct Peer {
 };
 
 /// The case is none that the peer can be told: nothing has failed.
-class NotApplicable : public std::runtime_error {
+class NotApplicable : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// A peer is missing, failed, or wrote no sound mesh of the case.
-class PeerError : public std::runtime_error {
+class PeerError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// What stands for something in the words of its command.

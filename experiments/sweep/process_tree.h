@@ -2,9 +2,10 @@
 
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "delquad/error.h"
 
 namespace delquad {
 
@@ -18,9 +19,9 @@ struct ProcessFailure {
 };
 
 /// Thrown by work that cannot go on, since a job of its own failed: it has failed for that reason.
-class JobFailed : public std::runtime_error {
+class JobFailed : public Error {
  public:
-  explicit JobFailed(const ProcessFailure& why) : std::runtime_error(why.reason), kind_(why.kind) {}
+  explicit JobFailed(const ProcessFailure& why) : Error(why.reason), kind_(why.kind) {}
   const std::string& kind() const { return kind_; }
 
  private:

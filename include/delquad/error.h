@@ -8,10 +8,16 @@
 
 namespace delquad {
 
-/// Input that cannot be meshed: the message names the file, line or entity and says what was expected.
-class InputError : public std::runtime_error {
+/// All that is thrown on purpose, for people to read, but misuse by a program: that is std::logic_error.
+class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Input that cannot be meshed: the message names the file, line or entity and says what was expected.
+class InputError : public Error {
+ public:
+  using Error::Error;
 };
 
 /// A face of a surface that cannot be meshed, where others perhaps can.
@@ -26,9 +32,9 @@ class FaceError : public InputError {
 };
 
 /// Work was given up, because it was cancelled. The message says at what it was.
-class Cancelled : public std::runtime_error {
+class Cancelled : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// The same, because its time was up.

@@ -78,7 +78,7 @@ using MatchingSolverFactory = std::function<std::unique_ptr<MatchingSolver>(cons
 /// std::invalid_argument for a name that is taken or empty.
 void add_matching_solver(const std::string& name, MatchingSolverFactory factory);
 /// The solver of that name; what it returns is checked: a result that is no perfect matching of the graph is
-/// a std::runtime_error that names the solver. Throws InputError, naming those known.
+/// an Error that names the solver. Throws InputError, naming those known.
 std::unique_ptr<MatchingSolver> matching_solver(const std::string& name, const Options& options = {});
 /// The project's own first.
 std::vector<std::string> matching_solver_names();

@@ -273,10 +273,10 @@ struct MeshResult {
 };
 
 /// A mesh is not sound, or beyond the limits of its elements: see Soundness. The message has the reasons.
-class UnsoundError : public std::runtime_error {
+class UnsoundError : public Error {
  public:
   explicit UnsoundError(const std::string& message, std::shared_ptr<const MeshResult> made = nullptr)
-      : std::runtime_error(message), result(std::move(made)) {}
+      : Error(message), result(std::move(made)) {}
   std::shared_ptr<const MeshResult> result;  ///< with the mesh; null where it was not made by mesh()
 };
 

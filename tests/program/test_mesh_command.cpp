@@ -40,10 +40,12 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
 TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare + "size = 0.1\nrefine = 2\n");
+  std::string printed;
   const auto quads = [&](std::vector<std::string> more, const std::string& of) {
     more.insert(more.begin(), {"mesh", of, "-o", folder / "out.msh", "--json", folder / "record.json"});
     const ProgramResult result = delquad(more);
     EXPECT_EQ(result.exit_code, 0) << result.err;
+    printed = result.out;
     return read_mesh(folder / "out.msh").quads.size();
   };
   EXPECT_EQ(quads({}, model), 400u);
@@ -51,6 +53,7 @@ TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
   EXPECT_EQ(quads({"--refine", "3"}, model), 900u);
   const auto counted = write_text(folder / "counted.toml", kSquare + "quads = 1600\n");
   EXPECT_EQ(quads({}, counted), 1600u);
+  EXPECT_TRUE(contains(printed, "size: 0.05 for 1600 quads")) << printed;
   EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"asked\": 1600"));
   EXPECT_NEAR(double(quads({"--quads", "900", "--size", "0.1 + 0.3*x"}, counted)), 900, 27);
   for (const auto& [given, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
