@@ -44,6 +44,7 @@ CadShape make_example(const std::string& name) {
       {"fins", make_fins},
       {"free_form", make_free_form},
       {"loft", make_loft},
+      {"sheet", make_sheet},
       {"thin_box", make_thin_box},
       {"variable_fillet", make_variable_fillet},
   };

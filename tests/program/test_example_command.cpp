@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(All, Examples,
                                            Example{"blended_tee", "5", -2}, Example{"cone_tip", "4", 0},
                                            Example{"cross_drilled", "4", -6}, Example{"elbow", "4", 0},
                                            Example{"fins", "4", 0}, Example{"free_form", "4", -2},
-                                           Example{"loft", "4", 2}, Example{"thin_box", "4", -10},
-                                           Example{"variable_fillet", "4", 0}),
+                                           Example{"loft", "4", 2}, Example{"sheet", "4", -5},
+                                           Example{"thin_box", "4", -10}, Example{"variable_fillet", "4", 0}),
                          [](const auto& param) { return param.param.name; });
 
 TEST(ExampleCommand, KeepsTheNamesOfFacesInStep) {

@@ -1,11 +1,15 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -43,6 +47,28 @@ CadShape make_variable_fillet() {
   for (int e = 1; e <= along.Extent(); ++e) fillet.Add(2, 3.0 * e, TopoDS::Edge(along(e)));
   CadShape cad;
   cad.shape = BRepAlgoAPI_Cut(fillet.Shape(), cylinder({40, 25, -1}, {0, 0, 1}, 8, 32));
+  return cad;
+}
+
+CadShape make_sheet() {
+  constexpr double kWidth = 60, kLength = 100, kRadius = 6;
+  const gp_Pnt bend(kLength, 0, 0), side(kLength + kRadius, 0, kRadius);
+  const double along = kRadius * std::numbers::sqrt2 / 2;
+  BRepBuilderAPI_MakeWire profile;
+  profile.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), bend));
+  profile.Add(BRepBuilderAPI_MakeEdge(
+      GC_MakeArcOfCircle(bend, gp_Pnt(kLength + along, 0, kRadius - along), side).Value()));
+  profile.Add(BRepBuilderAPI_MakeEdge(side, gp_Pnt(kLength + kRadius, 0, 40)));
+  TopoDS_Shape sheet = BRepPrimAPI_MakePrism(profile.Wire(), gp_Vec(0, kWidth, 0));
+  const auto cut = [&](const TopoDS_Shape& tool) { sheet = BRepAlgoAPI_Cut(sheet, tool); };
+  for (const double y : {18.0, 42.0}) cut(cylinder({25, y, -1}, {0, 0, 1}, 5, 2));
+  cut(cylinder({kLength - 5, 30, 24}, {1, 0, 0}, 8, 20));
+  // Two holes that leave a web of .2 between them, a step of .3 in the outline, and a pinhole.
+  for (const double x : {60.0, 70.2}) cut(cylinder({x, 30, -1}, {0, 0, 1}, 5, 2));
+  cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, kWidth - 0.3, -1), 46, 1, 2));
+  cut(cylinder({85, 12, -1}, {0, 0, 1}, 0.3, 2));
+  CadShape cad;
+  cad.shape = sheet;
   return cad;
 }
 

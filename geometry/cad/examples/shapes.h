@@ -20,6 +20,7 @@ CadShape make_elbow();
 CadShape make_fins();
 CadShape make_free_form();
 CadShape make_loft();
+CadShape make_sheet();
 CadShape make_thin_box();
 CadShape make_variable_fillet();
 
