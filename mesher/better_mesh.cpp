@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/mesh/half_edges.h"
+#include "metrics/judgement/poor_quads.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 
@@ -92,12 +93,14 @@ bool is_worse(const MeshResult& after, const MeshResult& before) {
   return worse;
 }
 
-bool is_better(const MeshResult& after, const MeshResult& before) {
-  return score(after) > score(before) && !is_worse(after, before);
+bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  const double is = failing_part(prepared, after.mesh), was = failing_part(prepared, before.mesh);
+  return (is == was ? score(after) > score(before) : is < was) && !is_worse(after, before);
 }
 
-bool is_more_regular(const MeshResult& after, const MeshResult& before) {
-  return value(after, "n_irregular") < value(before, "n_irregular") &&
+bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  return failing_part(prepared, after.mesh) <= failing_part(prepared, before.mesh) &&
+         value(after, "n_irregular") < value(before, "n_irregular") &&
          is_kept("tau", kGoodTau, after, before);
 }
 
