@@ -172,10 +172,10 @@ Stages that_move_nodes(const Stages& stages) {
 }
 
 /// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
-bool is_to_be_taken(const MeshResult& after, const MeshResult& before, bool is_given) {
+bool is_to_be_taken(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
-  if (is_given) return is_better(after, before);
-  return is_more_regular(after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
+  if (prepared.surface->given) return is_better(prepared, after, before);
+  return is_more_regular(prepared, after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
 }
 
 /// What may be done in cavities in the second run.
@@ -197,7 +197,7 @@ MeshResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Op
   after.mesh = made.mesh;
   measure(prepared, f.left_out, after);
   const Stages moving = that_move_nodes(f.state.of_quads);
-  if (prepared.surface->given || moving.empty() || !is_more_regular(after, f.result) ||
+  if (prepared.surface->given || moving.empty() || !is_more_regular(prepared, after, f.result) ||
       keeps_worst_eta(kGoodEta, after, f.result))
     return after;
   // Nodes on these cuts could not go anywhere.
@@ -212,7 +212,7 @@ MeshResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Op
 bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& options,
                       const std::vector<char>& regions) {
   MeshResult after = made_across_cuts(on, again, options, regions);
-  if (!is_to_be_taken(after, on.result, on.prepared.surface->given.has_value())) return false;
+  if (!is_to_be_taken(on.prepared, after, on.result)) return false;
   take_mesh(std::move(after), on.result);
   return true;
 }

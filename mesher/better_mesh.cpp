@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "features/given/given_worst.h"
+#include "metrics/judgement/poor_quads.h"
 
 namespace delquad {
 namespace {
@@ -42,12 +43,14 @@ bool is_worse(const MeshResult& after, const MeshResult& before) {
   return worse;
 }
 
-bool is_better(const MeshResult& after, const MeshResult& before) {
-  return score(after) > score(before) && !is_worse(after, before);
+bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  const double is = failing_part(prepared, after.mesh), was = failing_part(prepared, before.mesh);
+  return (is == was ? score(after) > score(before) : is < was) && !is_worse(after, before);
 }
 
-bool is_more_regular(const MeshResult& after, const MeshResult& before) {
-  return value(after, "n_irregular") < value(before, "n_irregular") &&
+bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  return failing_part(prepared, after.mesh) <= failing_part(prepared, before.mesh) &&
+         value(after, "n_irregular") < value(before, "n_irregular") &&
          is_kept("tau", kGoodTau, after, before);
 }
 

@@ -95,11 +95,12 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
 /// mean, eta worst and d4 better and one of them worse, unless it is sound where that was not.
 bool is_worse(const MeshResult& after, const MeshResult& before);
 
-/// Whether it is not worse, and the sum of eta mean, eta worst and the share of regular vertices is larger.
-bool is_better(const MeshResult& after, const MeshResult& before);
+/// Whether it is not worse, and fewer quads fail, see failing_part(), or as many, and the sum of eta mean,
+/// eta worst and the share of regular vertices is larger.
+bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
 
-/// Whether there are fewer irregular vertices, and edges are as near to their size.
-bool is_more_regular(const MeshResult& after, const MeshResult& before);
+/// Whether there are fewer irregular vertices, no more quads fail, and edges are as near to their size.
+bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
 
 /// Whether the worst eta is above this or what it was.
 bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before);

@@ -52,6 +52,7 @@ class CleanupProcess {
 
   void run() {
     relocation_.keep_convex_corners();
+    relocation_.hold_lengths();
     relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
     relocation_.activate_all(block_);
     summary_.relocated += relocation_.relax(kSettled, 10);
@@ -159,7 +160,7 @@ class CleanupProcess {
     for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
       for (const int v : touched_) relocation_.step(v);
       const ElementQuality after = quality(touched_);
-      if (after.least_sine >= least && after.crowding <= before.crowding &&
+      if (after.least_sine >= least && after.crowding <= before.crowding && after.failing <= before.failing &&
           after.value >= before.value - loss) {
         count(move);
         return true;

@@ -65,10 +65,11 @@ int count_irregular(const QuadPatch& mesh);
 /// delta'.
 ///
 /// The sum never grows, and the least eta of the mesh never falls below both kCleanupFloorEta and what it
-/// was. Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the
-/// same topology type; leftover triangles stay. Edges without length are opened first. The same input and
-/// seed give the same mesh. Time is linear in the number of irregular vertices: after the first scan only
-/// they are visited. Throws std::invalid_argument where the input is not conforming.
+/// was. No edit makes more quads fail, see ElementQuality. Boundary points stay where they are, in their
+/// order; the mesh stays conforming, oriented and of the same topology type; leftover triangles stay. Edges
+/// without length are opened first. The same input and seed give the same mesh. Time is linear in the number
+/// of irregular vertices: after the first scan only they are visited. Throws std::invalid_argument where the
+/// input is not conforming.
 QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options = {},
                    CleanupSummary* summary = nullptr);
 

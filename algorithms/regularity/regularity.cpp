@@ -38,8 +38,6 @@ constexpr double kQuadsPerIrregular = 10;
 /// Quads that a cavity may have for each irregular vertex less in the first round, and how many times more in
 /// each further one; the last one has no limit. Of the fills of larger ones one in thirty would be kept.
 constexpr double kQuadsPerGain = 15, kMoreQuads = 3;
-/// Sides around a fill are no longer, in sizes, or than they were: the sum hardly feels a single one.
-constexpr double kLongestSide = 2.5;
 /// Sweeps within which a fill must settle.
 constexpr int kFillSweeps = 12;
 /// A fill is given up where a sweep mends less than this part of what it loses too much, or of what its worst
@@ -66,6 +64,7 @@ class RegularityProcess {
 
   void run() {
     relocation_.keep_convex_corners();
+    relocation_.hold_lengths();
     relocation_.keep_sines_above(sine_of_eta(kCleanupFloorEta));
     for (int round = 0; round < options_.rounds; ++round) {
       tolerance_ =
@@ -111,7 +110,7 @@ class RegularityProcess {
   struct Quality {
     double mean = 0;  ///< of their values
     double least_sine = 1;
-    double longest = 0;  ///< side, over delta'
+    int failing = 0;
     double crowding = 0;
     int n = 0;
   };
@@ -288,7 +287,6 @@ class RegularityProcess {
   /// Relocates the region; whether the loss of the mean gets as small as allowed.
   bool settles(const Quality& before, double allowed, double& loss) {
     const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
-    const double longest = std::max(before.longest, kLongestSide);
     const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
     double last_loss = 0, last_sine = 0;
     const auto is_slow = [](double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; };
@@ -298,7 +296,7 @@ class RegularityProcess {
         for (const int v : region_) relocation_.step(v);
       const Quality after = quality();
       loss = before.mean - after.mean;
-      if (after.least_sine >= least && after.longest <= longest && after.crowding <= before.crowding &&
+      if (after.least_sine >= least && after.failing <= before.failing && after.crowding <= before.crowding &&
           loss <= allowed)
         return true;
       if (loss > hopeless) return false;
@@ -321,7 +319,7 @@ class RegularityProcess {
     ElementQuality total;
     for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
     const int n = static_cast<int>(elements_.size());
-    return {total.value / std::max(n, 1), total.least_sine, total.longest, total.crowding, n};
+    return {total.value / std::max(n, 1), total.least_sine, total.failing, total.crowding, n};
   }
 
   void accept() {

@@ -54,11 +54,11 @@ struct Counters<RegularitySummary> {
 /// What has failed is not tried again before the tolerance is above what it lost, or other quads are there.
 ///
 /// The number of irregular vertices never grows, and the least eta of the mesh never falls below both
-/// kCleanupFloorEta and what it was. No fill is kept with a side longer than both 2.5 delta' and what there
-/// was: the sum hardly feels a single one. A mesh in which no fill is kept stays as it is. Boundary points
-/// stay where they are, in their order, and leftover triangles stay; the mesh stays conforming, oriented and
-/// of the same topology type. The same input gives the same mesh. Time is linear in the number of irregular
-/// vertices. Throws std::invalid_argument where the input is not conforming.
+/// kCleanupFloorEta and what it was. No fill is kept that makes more quads fail, see
+/// ElementQuality: the sum hardly feels a single one. A mesh in which no fill is kept stays as it is.
+/// Boundary points stay where they are, in their order, and leftover triangles stay; the mesh stays
+/// conforming, oriented and of the same topology type. The same input gives the same mesh. Time is linear in
+/// the number of irregular vertices. Throws std::invalid_argument where the input is not conforming.
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size,
                        const RegularityOptions& options = {}, RegularitySummary* summary = nullptr);
 

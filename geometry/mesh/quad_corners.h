@@ -63,6 +63,17 @@ inline int ideal_quads(double right_angles) {
 /// only.
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
+/// What engineers ask of quads (criteria "batch"): sides over the wanted size, longest over shortest side,
+/// corners from 40 to 140 degrees.
+inline constexpr double kAskedShort = 0.33, kAskedLong = 1.75, kAskedAspect = 5, kAskedEta = 4.0 / 9;
+/// Whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the least.
+inline bool is_beyond_asked(double shortest, double longest, double aspect, double sine) {
+  static const double asked_sine = sine_of_eta(kAskedEta);
+  return shortest < kAskedShort || longest > kAskedLong || aspect > kAskedAspect || sine < asked_sine;
+}
+/// Walls of sides over delta: within that, so that vertices that move hold it.
+inline constexpr double kShortWall = 0.4, kLongWall = 1.65;
+
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
 /// The least of them.

@@ -12,6 +12,7 @@
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 namespace {
@@ -49,7 +50,7 @@ std::vector<std::string> names_of(const Mesh& mesh) {
 }
 
 Criteria preset(const char* name, const char* source,
-                std::initializer_list<std::pair<const char*, const char*>> limits) {
+                std::initializer_list<std::pair<const char*, std::string>> limits) {
   Criteria criteria{.name = name, .source = source, .where = fmt::format("criteria '{}'", name)};
   for (const auto& [key, value] : limits) criteria.set(key, value, "", criteria.where);
   return criteria;
@@ -140,11 +141,11 @@ const std::vector<Criteria>& criteria_presets() {
           "lengths and warpage: Altair, BatchMesher, Guidelines and Recommended Practices (2017); aspect: "
           "Altair, HyperMesh, Element Quality Calculations; angles: Siemens, NX Open, sample criteria of its "
           "batch mesher; Jacobian: the same, at corners",
-          {{"min_length", "0.33 size"},
-           {"max_length", "1.75 size"},
-           {"max_aspect", "5"},
-           {"min_angle", "40"},
-           {"max_angle", "140"},
+          {{"min_length", fmt::format("{} size", kAskedShort)},
+           {"max_length", fmt::format("{} size", kAskedLong)},
+           {"max_aspect", fmt::format("{}", kAskedAspect)},
+           {"min_angle", fmt::format("{}", 90 * kAskedEta)},
+           {"max_angle", fmt::format("{}", 180 - 90 * kAskedEta)},
            {"max_warpage", "20"},
            {"min_jacobian", "0.5"}}),
       preset("crash",

@@ -200,6 +200,16 @@ void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResu
     std::ranges::copy(result.criteria->beyond(), std::back_inserter(result.soundness.beyond));
 }
 
+double failing_part(const PreparedProblem& prepared, const Mesh& mesh) {
+  const Criteria& asked = prepared.settings.criteria;
+  const Criteria& criteria =
+      asked.empty() ? *std::ranges::find(criteria_presets(), "batch", &Criteria::name) : asked;
+  const ElementSides sides = sides_of(prepared, mesh);
+  const FailingElements failing(
+      {mesh, sides, &asked_size(prepared), &prepared, quads_on_purpose(prepared, mesh)}, criteria, false);
+  return static_cast<double>(failing.elements.size()) / static_cast<double>(mesh.quads.size());
+}
+
 BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness) {
   const auto& values = metrics.values;

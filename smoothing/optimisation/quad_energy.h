@@ -10,9 +10,6 @@
 
 namespace delquad {
 
-/// Walls of the edges' lengths over delta: within what engineers ask for (.33 to 1.75), so that they hold it.
-inline constexpr double kShortWall = 0.4, kLongWall = 1.65;
-
 /// How the parts of the energy are weighed against each other.
 struct QuadEnergyWeights {
   double bad = 2;           ///< of the quads' second term, against the first
@@ -52,7 +49,7 @@ struct QuadEnergyMesh {
 ///     some bad quads,
 ///   size * (1 - min(l/d, d/l)) over the edges, l the length, d the mean of delta at both ends: what an edge
 ///     lacks in tau,
-///   wall * m^2 / (1 + 16 m^2) over the edges, m by how much log(l/d) is beyond log .4 or log 1.65: walls, as
+///   wall * m^2 / (1 + 16 m^2) over the edges, m by how much log(l/d) is beyond kShortWall or kLongWall, as
 ///     angles alone would leave some edges too short or long; they level off, since lengths that the model
 ///     forbids are not to outweigh shapes,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,

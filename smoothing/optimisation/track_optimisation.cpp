@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/cancel.h"
@@ -66,6 +67,7 @@ class TrackOptimisation {
   double least() const;
   void find_delta();
   bool beyond_walls(std::size_t quad) const;
+  bool is_failing(std::size_t quad) const;
   std::vector<char> around_below(double eta) const;
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
   void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
@@ -86,6 +88,7 @@ class TrackOptimisation {
   std::vector<Vec> delta_at_;                         ///< where it was found
   std::vector<std::array<double, 4>> least_lengths_;  ///< of each quad's sides
   std::vector<double> kept_;      ///< the least sine that each quad must keep in this pass
+  std::vector<char> failed_;      ///< by quad: is_failing() before this pass
   std::vector<char> inside_;      ///< by vertex: on no curve
   std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to others on curves
   std::vector<char> narrow_;      ///< by vertex: on a curve, in a narrow place
@@ -177,6 +180,19 @@ bool TrackOptimisation<Vec>::beyond_walls(std::size_t quad) const {
   return false;
 }
 
+template <class Vec>
+bool TrackOptimisation<Vec>::is_failing(std::size_t quad) const {
+  const auto& v = quads_[quad];
+  double shortest = std::numeric_limits<double>::max(), longest = 0, least = shortest, most = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int a = v[k], b = v[(k + 1) % 4];
+    const double length = norm(points_[b] - points_[a]), part = 2 * length / (delta_[a] + delta_[b]);
+    least = std::min(least, length), most = std::max(most, length);
+    shortest = std::min(shortest, part), longest = std::max(longest, part);
+  }
+  return is_beyond_asked(shortest, longest, most / std::max(least, kTinyLength), movable_sine(quad));
+}
+
 /// The vertices that can move around quads below this eta, and around those with sides beyond the walls.
 template <class Vec>
 std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
@@ -234,12 +250,14 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
 template <class Vec>
 void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
   const double floor = sine_of_eta(kOptimisedFloorEta), worst = std::min(least(), floor);
+  failed_.resize(quads_.size());
   for (auto* values : {&kept_, &mesh.least_sine, &mesh.weight}) values->resize(quads_.size());
   parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const auto sines = movable_sines(q);
       const double bound = std::min({sines[0], sines[1], sines[2], sines[3], floor});
       kept_[q] = std::max((1 - kRoom) * bound, worst);
+      failed_[q] = is_failing(q);
       mesh.least_sine[q] = kBarrier * bound;
       double shape = 0;
       for (const double sine : sines) shape += 1 / std::max(sine, kHeldSine) - 1;
@@ -351,7 +369,9 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
       check_cancelled();
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
-      if (movable_sine(q) >= kept_[q] && !too_short(q) && crowding(q) <= crowding_[q]) continue;
+      if (movable_sine(q) >= kept_[q] && !too_short(q) && crowding(q) <= crowding_[q] &&
+          (failed_[q] || !is_failing(q)))
+        continue;
       for (const int v : quad) {
         if (moves[v].part == 0) continue;
         moves[v].part = moves[v].part > kLeastPart ? moves[v].part / 2 : 0;

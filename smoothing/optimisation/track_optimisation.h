@@ -49,9 +49,10 @@ class VertexTracks {
 ///
 /// Vertices of flat or inverted quads stay. In each pass vertices move along their tangents and are then put
 /// on their tracks. No quad's least sine falls below both that of eta kOptimisedFloorEta and half a percent
-/// less than it was before the pass, none below both that floor and the least of the whole mesh, and no edge
-/// becomes shorter than a fifth of what it was, or of delta where that is less: where that would be, the
-/// quad's vertices go only part of the way, or stay. The same input gives the same mesh.
+/// less than it was before the pass, none below both that floor and the least of the whole mesh, none is
+/// beyond what engineers ask for, see is_beyond_asked(), that was not before the pass, and no edge becomes
+/// shorter than a fifth of what it was, or of delta where that is less: where that would be, the quad's
+/// vertices go only part of the way, or stay. The same input gives the same mesh.
 template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});

@@ -22,23 +22,24 @@ ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& r
     const int v = mesh.corner(element, k);
     at[k] = mesh.point(v), delta[k] = relocation.delta(v);
   }
-  double deviation = 0, longest = 0, shortest_side = std::numeric_limits<double>::max(), longest_side = 0;
-  bool roomy = true;
+  double deviation = 0, shortest_side = std::numeric_limits<double>::max(), longest_side = 0;
+  double shortest = shortest_side, longest = 0;  // over delta'
   for (int k = 0; k < n; ++k) {
     const int next = k + 1 < n ? k + 1 : 0;
     const Vec2 along = at[next] - at[k];
     const double length = norm(along), l = length / (0.5 * (delta[k] + delta[next]));
     deviation += 1 - std::min(l, 1 / l);
-    longest = std::max(longest, l);
-    roomy = roomy && l >= kKeptSide;
+    shortest = std::min(shortest, l), longest = std::max(longest, l);
     shortest_side = std::min(shortest_side, length), longest_side = std::max(longest_side, length);
     side[k] = (1 / std::max(length, kTinyLength)) * along;
   }
   double least = std::min(1.0, cross(side[n - 1], side[0]));
   for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
-  roomy = roomy && shortest_side >= kKeptSide * longest_side;
+  const bool is_failing =
+      is_beyond_asked(shortest, longest, longest_side / std::max(shortest_side, kTinyLength), least);
+  const bool roomy = shortest >= kKeptSide && shortest_side >= kKeptSide * longest_side;
   const double crowding = roomy ? 0 : relocation.crowding(element);
-  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, longest, crowding};
+  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, crowding};
 }
 
 }  // namespace delquad

@@ -12,12 +12,12 @@ namespace delquad {
 struct ElementQuality {
   double value = 0;       ///< eta - 1.5 * (size deviation), or the sum of it
   double least_sine = 1;  ///< of all corners
-  double longest = 0;     ///< side, over delta'
+  int failing = 0;        ///< 1: is_beyond_asked(); or the sum
   double crowding = 0;    ///< QuadRelocation::crowding(), or the sum of it
   void add(const ElementQuality& other) {
     value += other.value;
     least_sine = std::min(least_sine, other.least_sine);
-    longest = std::max(longest, other.longest);
+    failing += other.failing;
     crowding += other.crowding;
   }
 };

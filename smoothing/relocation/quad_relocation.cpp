@@ -20,6 +20,8 @@ constexpr double kLengthWeight = 0.12;
 constexpr double kSteepSine = 0.05, kSteep = 40;
 /// Square of the misfit (logarithm of length / delta) past which the length term levels off.
 constexpr double kHopeless = 2;
+/// Misfits at the walls.
+const double kShortMisfit = std::log(kShortWall), kLongMisfit = std::log(kLongWall);
 /// How far a step goes, in Newton's steps.
 constexpr double kOverRelaxation = 1.4;
 /// A step is at most this part of the shortest edge.
@@ -93,12 +95,16 @@ struct Sums {
       hyy += second * turn_y * turn_y;
     }
   }
-  void add_edge(Number ux, Number uy, Number inverse, Number misfit) {
+  /// `wall`: its weight.
+  void add_edge(Number ux, Number uy, Number inverse, Number misfit, double wall) {
+    const Number zero{};
+    const Number beyond = smaller(zero, misfit - kShortMisfit) + larger(zero, misfit - kLongMisfit);
     const Number soft = 1 / (1 + misfit * misfit / kHopeless);
-    cost += kLengthWeight * misfit * misfit * soft;
+    cost += kLengthWeight * misfit * misfit * soft + wall * beyond * beyond;
     if constexpr (kDerivatives) {
-      const Number first = -2 * kLengthWeight * misfit * soft * soft * inverse;
-      const Number second = 2 * kLengthWeight * soft * soft * soft * inverse * inverse;
+      const Number first = -2 * (kLengthWeight * misfit * soft * soft + wall * beyond) * inverse;
+      const Number steep = beyond != zero ? zero + wall : zero;
+      const Number second = 2 * (kLengthWeight * soft * soft * soft + steep) * inverse * inverse;
       gx += first * ux;
       gy += first * uy;
       hxx += second * ux * ux;
@@ -253,7 +259,7 @@ QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
     sums.add_corner(px * uy - py * ux, px * ux + py * uy, turn_x - before * py, turn_y + before * px);
     sums.add_corner(ux * ly - uy * lx, -(ux * lx + uy * ly), turn_x, turn_y);
     sums.add_corner(rx * uy - ry * ux, -(rx * ux + ry * uy), -turn_x, -turn_y);
-    sums.add_edge(ux, uy, inverse, load<Number>(&rays_.misfit[i + 1]));
+    sums.add_edge(ux, uy, inverse, load<Number>(&rays_.misfit[i + 1]), wall_weight_);
   }
   if constexpr (kDerivatives)
     *derivatives = {{sum_of(sums.gx), sum_of(sums.gy)}, sum_of(sums.hxx), sum_of(sums.hxy), sum_of(sums.hyy)};

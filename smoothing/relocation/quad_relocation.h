@@ -16,12 +16,13 @@ namespace delquad {
 /// Each vertex lowers
 ///   sum over the corners that its place changes of  c + 40 max(0, c - 0.95)^2,  c = 1 - sin alpha
 /// + 0.12 * sum over its edges of  m^2 / (1 + m^2 / 2),  m = log(l/d),  l the length, d the mean of delta' at
-/// both ends (m by a Pade approximant, within 0.2 % from d/2 to 2 d), by a damped Newton step that goes
-/// 1.4 times as far as Newton's (with fixed neighbours that is too far; as they follow it takes half as many
-/// sweeps), at most a part of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that
-/// reflex and inverted corners are pulled straight. An edge's term is bounded, so that lengths which cannot
-/// be had (the boundary's edges are given) do not outweigh shapes. Only vertices near which something still
-/// moves are visited.
+/// both ends (m by a Pade approximant, within 0.2 % from d/2 to 2 d), + 5 n^2 where lengths are held, n by
+/// how much m is beyond log kShortWall or log kLongWall, by a damped Newton step that goes 1.4 times as far
+/// as Newton's (with fixed neighbours that is too far; as they follow it takes half as many sweeps), at most
+/// a part of its shortest edge. c grows with |alpha - 90 degrees| up to 180 degrees, so that reflex and
+/// inverted corners are pulled straight. An edge's term is bounded, so that lengths which cannot be had (the
+/// boundary's edges are given) do not outweigh shapes. Only vertices near which something still moves are
+/// visited.
 class QuadRelocation {
  public:
   /// Both arguments outlive this object. delta' is evaluated once a vertex, and anew after a move of a part
@@ -35,6 +36,8 @@ class QuadRelocation {
   /// From now on no step may leave more corners around a vertex flat or reflex than there were. A convex star
   /// stays convex in any case; a raw mesh settles better where a tangle may wander.
   void keep_convex_corners() { keep_convex_corners_ = true; }
+  /// From now on lengths are held within walls, which are not bounded.
+  void hold_lengths() { wall_weight_ = kWallWeight; }
   /// From now on no step takes the least sine of the corners around a vertex below both this and what it was.
   void keep_sines_above(double sine) { kept_sine_ = sine; }
 
@@ -129,6 +132,8 @@ class QuadRelocation {
   long long looks_ = 0;
   bool keep_convex_corners_ = false;
   double kept_sine_ = -1;
+  static constexpr double kWallWeight = 5;
+  double wall_weight_ = 0;
 };
 
 }  // namespace delquad

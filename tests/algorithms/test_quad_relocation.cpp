@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,25 @@ TEST(QuadRelocation, JitteredGridBecomesRegular) {
   relocation.relax(1e-4, 500);
   // Steps below 1e-4 of an edge are not taken; slow modes of the sweeps leave some tens of that.
   for (int v = 0; v < mesh.vertex_slots(); ++v) EXPECT_LT(norm(mesh.point(v) - grid.points[v]), 0.01);
+}
+
+TEST(QuadRelocation, HoldsLengthsWhereItIsAsked) {
+  QuadPatch strip = grid_patch(3, 2);
+  for (Vec2& p : strip.points)
+    if (p.y > 0) p.y = p.y == 1 ? 0.1 : 1;
+  const FunctionSize size(1);
+  const auto shortest = [&](bool hold) {
+    QuadTopology mesh(strip);
+    QuadRelocation relocation(mesh, size);
+    if (hold) relocation.hold_lengths();
+    relocation.activate_all();
+    relocation.relax(1e-4, 100);
+    double least = 1;
+    for (int v = strip.n_boundary; v < mesh.vertex_slots(); ++v) least = std::min(least, mesh.point(v).y);
+    return least;
+  };
+  EXPECT_LT(shortest(false), kAskedShort);
+  EXPECT_GT(shortest(true), kAskedShort);
 }
 
 TEST(QuadRelocation, StepsNeverRaiseTheCost) {

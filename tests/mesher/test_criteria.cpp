@@ -64,6 +64,30 @@ TEST(Criteria, RefuseWhatContradictsItself) {
                {"f.toml:7", "'min_length' is 3", "'max_length' 2", "no element is within both"});
 }
 
+/// Of plates with two holes, between which and the sides there is room for one or two quads.
+long long failing_beside_holes(const char* word) {
+  long long failing = 0;
+  for (const double radius : {0.41, 0.42, 0.43, 0.44}) {
+    MeshProblem problem = judged_problem({box({0, 0}, {2, 1})}, 0.07, preset("batch"));
+    auto& model = std::get<PlanarModel>(problem.model);
+    for (const double x : {0.5, 1.5}) {
+      model.loops.push_back({.curves = {static_cast<int>(model.curves.size())},
+                             .region = "",
+                             .where = "hole",
+                             .is_hole = true});
+      model.curves.push_back({make_circle({x, 0.5}, radius), "", ""});
+    }
+    failing += mesh(problem, word).criteria->failing;
+  }
+  return failing;
+}
+
+TEST(Criteria, MoreIsBeyondThemWithFewerStages) {
+  const long long best = failing_beside_holes("DBCQO");
+  EXPECT_LE(best, failing_beside_holes("DBCO"));
+  EXPECT_LT(10 * best, failing_beside_holes("DB"));
+}
+
 TEST(Criteria, RefuseTimesWithoutAMaterial) {
   Criteria c;
   c.set("min_time_step", "1e-7", "", "f.toml:4");

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/surface/triangulated_model.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
@@ -8,15 +10,15 @@
 namespace delquad {
 namespace {
 
-MeshResult lens(const Options& options) {
+PreparedProblem prepared_lens(const Options& options) {
   MeshProblem problem;
   problem.name = problem.where = "lens";
   problem.options = options;
-  const PreparedProblem prepared =
-      prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                      make_constant_size(0.3), [](double) {});
-  return run_word(prepared, parse_word("DBC"));
+  return prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
+                         make_constant_size(0.3), [](double) {});
 }
+
+MeshResult lens(const Options& options) { return run_word(prepared_lens(options), parse_word("DBC")); }
 
 TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
   const MeshResult all = lens({});
@@ -31,6 +33,25 @@ TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
           << step.name << " " << other.name;
   }
   EXPECT_GE(n_ran, 2);
+}
+
+TEST(BetterMesh, FailingQuadsCountBeforeRegularityAndShapes) {
+  const PreparedProblem prepared = prepared_lens({});
+  const MeshResult before = run_word(prepared, parse_word("DBC"));
+  MeshResult after = before;
+  after.metrics.values.at("n_irregular") -= 2;
+  after.metrics.values.at("eta_mean") += 0.01;
+  EXPECT_TRUE(is_more_regular(prepared, after, before));
+  EXPECT_TRUE(is_better(prepared, after, before));
+  // The last point, which is inside of a face, comes near to another.
+  const auto at = std::ranges::find_if(after.mesh.quads, [&](const auto& quad) {
+    return quad[0] + 1 == static_cast<int>(after.mesh.points.size());
+  });
+  ASSERT_NE(at, after.mesh.quads.end());
+  Vec3& x = after.mesh.points.back();
+  x = x + 0.8 * (after.mesh.points[(*at)[1]] - x);
+  EXPECT_FALSE(is_more_regular(prepared, after, before));
+  EXPECT_FALSE(is_better(prepared, after, before));
 }
 
 }  // namespace
