@@ -111,7 +111,8 @@ constexpr double kWidestGap = 0.25;
 constexpr double kIrregularPerRow = 0.5, kMoreInNarrow = 0.9, kIrregularPerFarRow = 0.3,
                  kIrregularPerFreeEdge = 0.6, kRowsThatFollow = 2;
 
-/// Integral of dA/delta^2 over a patch.
+}  // namespace
+
 double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size) {
   constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   double sum = 0;
@@ -125,8 +126,6 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
   }
   return sum;
 }
-
-}  // namespace
 
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
                      const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,

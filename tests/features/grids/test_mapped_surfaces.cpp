@@ -88,6 +88,18 @@ TEST(MappedSurfaces, APieceOfACylinderIsRegular) {
   }
 }
 
+/// Its long sides, which agree, are two rows apart.
+TEST(MappedSurfaces, NarrowFacesAreGrids) {
+  for (const char* word : {"DB", "DBCO", "FB"})
+    for (const double height : {0.6, 0.9, 1.4, 1.6, 2.0, 2.4}) {
+      SCOPED_TRACE(testing::Message() << word << ' ' << height);
+      const MeshResult r = mesh(grids_on(cylinder_piece(60, 2.2, 0.13 * height), 0.13, {}), word);
+      EXPECT_EQ(r.mesh.quads.size(), 17u * std::lround(height));
+      EXPECT_EQ(valences(r.mesh).size(), height > 1.5 ? 3u : 2u);
+      EXPECT_EQ(valences(r.mesh)[3], 0);
+    }
+}
+
 TEST(MappedSurfaces, WhatCannotBeIsRefused) {
   const auto refused = [](Mesh surface, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
