@@ -24,7 +24,7 @@ constexpr double kCornerReach = 1e-3;
 /// Curves of what is found of itself get numbers of edges within this ratio of what they want, or one more or
 /// less.
 constexpr double kMostChange = 1.45;
-/// Faces are narrow up to this mean width, in sizes, where they are longer: two rows of quads.
+/// Faces are narrow up to this width, in sizes, where they are longer: two rows of quads.
 constexpr double kNarrow = 2.5;
 /// As many curves are named where numbers of edges do not agree.
 constexpr std::size_t kMostCurvesNamed = 4;
@@ -71,10 +71,10 @@ bool sides_match(double a, double b) {
   return std::abs(a - b) <= 1 || std::max(a, b) <= kMostSideRatio * std::min(a, b);
 }
 
-bool is_narrow(double length, double quads) { return length > kNarrow && quads <= kNarrow * length; }
+bool is_narrow(double width, double length) { return width <= kNarrow && length > kNarrow; }
 
-/// Whether a grid pays there; `just_narrow`: as a face of so many quads that is narrow.
-bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners, bool just_narrow, double quads) {
+/// Whether a grid pays there; `just_narrow`: as a strip.
+bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners, bool just_narrow) {
   if (corners.size() != 4) return false;
   std::array<double, 4> want{};
   std::size_t side = 3;
@@ -85,8 +85,8 @@ bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners, boo
     if (turn_from(loop[i], is_corner ? 90 : 180) > (is_corner ? kCornerSlack : kStraightSlack)) return false;
     want[side] += loop[i].want;
   }
-  const double length = std::max(want[0] + want[2], want[1] + want[3]) / 2;
-  if (just_narrow && !is_narrow(length, quads)) return false;
+  const auto [width, length] = std::minmax({(want[0] + want[2]) / 2, (want[1] + want[3]) / 2});
+  if (just_narrow && !is_narrow(width, length)) return false;
   return sides_match(want[0], want[2]) && sides_match(want[1], want[3]);
 }
 
@@ -189,7 +189,8 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
   if (outline.size() == 2 && turns_nowhere(outline[0]) && turns_nowhere(outline[1])) {
     const double outer = wanted(outline[0]), inner = wanted(outline[1]);
     if (!asked && !sides_match(outer, inner)) return std::nullopt;
-    if (just_narrow && !is_narrow((outer + inner) / 2, quads)) return std::nullopt;
+    const double length = (outer + inner) / 2;
+    if (just_narrow && !is_narrow(quads / length, length)) return std::nullopt;
     MappedFace ring{face, asked, {{}, {}}, {}};
     for (const int k : {0, 1})
       for (const OutlinePart& part : outline[k]) ring.sides[k].push_back(part.curve);
@@ -201,7 +202,7 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
                                  why_no_grid(outline)));
   }
   const std::vector<std::size_t> corners = corners_by_angle(outline[0]);
-  if (!asked && !looks_mapped(outline[0], corners, just_narrow, quads)) return std::nullopt;
+  if (!asked && !looks_mapped(outline[0], corners, just_narrow)) return std::nullopt;
   MappedFace mapped = cut_at(face, outline[0], corners);
   mapped.is_asked = asked;
   return mapped;
