@@ -105,13 +105,25 @@ constexpr double kDeviation = 1.5 / 2;
 /// Sides that differ more, as a part of them, do not get equal: where their lengths do, rows end all the
 /// same.
 constexpr double kWidestGap = 0.25;
+/// Of rings up to this width (in sizes) those do that differ by no more, one with twice the edges of the
+/// other, but all of them at once or not at all: fewer rows that end are no better, and sizes beside worse.
+constexpr double kNarrowRing = 2.5, kWidestGapOfRing = 0.7;
 /// Irregular vertices, measured on CAD models: those for each edge by which sides differ, more where they are
 /// less than two quads apart; the same where they stay different; and where an edge too much on a curve makes
 /// rows end in a patch without sums, in which so many rows follow it.
 constexpr double kIrregularPerRow = 0.5, kMoreInNarrow = 0.9, kIrregularPerFarRow = 0.3,
                  kIrregularPerFreeEdge = 0.6, kRowsThatFollow = 2;
 
-/// Integral of dA/delta^2 over a patch.
+/// Whether a sum is of all curves around a patch between two loops.
+bool is_of_ring(const SurfaceCurves& curves, const ClosureSum& sum) {
+  std::size_t pieces = 0;
+  for (const auto& loop : curves.outlines[sum.patch])
+    for (const CurveSide& side : loop) pieces += side.begins(curves.chains[side.chain]);
+  return curves.outlines[sum.patch].size() == 2 && sum.terms.size() == pieces;
+}
+
+}  // namespace
+
 double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size) {
   constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   double sum = 0;
@@ -125,8 +137,6 @@ double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize&
   }
   return sum;
 }
-
-}  // namespace
 
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
                      const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
@@ -152,6 +162,9 @@ void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveD
     sum.price_of_pair = may_close ? price : 0;
     sum.price = price * (may_close ? kIrregularPerRow + kMoreInNarrow * std::min(1.0, 2 / depth)
                                    : kIrregularPerFarRow);
+    if (!may_close && depth <= kNarrowRing && std::abs(gap) <= kWidestGapOfRing * length &&
+        is_of_ring(curves, sum))
+      sum.price_of_pair = price * std::abs(gap) * kMoreInNarrow;
     closes[sum.patch] = 1;
     for (auto& [chain, times] : sum.terms) {
       chain = leader[chain];

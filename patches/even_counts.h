@@ -34,6 +34,9 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
 /// places so that rows need not end.
 std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
 
+/// Integral of dA/delta^2 over a patch.
+double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size);
+
 /// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
 /// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
 void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,

@@ -33,6 +33,7 @@ class CurveMesher {
               const Symmetry* symmetry = nullptr)
       : model_(model),
         mapped_spec_(options.mapped),
+        narrow_grids_(options.narrow_grids),
         grid_size_(options.grid_size),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
@@ -261,10 +262,10 @@ class CurveMesher {
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    if (mapped_spec_.asks()) {
+    if (mapped_spec_.asks() || narrow_grids_)
       mapped_ = find_mapped_faces(model_, mapped_spec_, lines, arrangement, regions, chain_, pieces_);
-      return balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
-    }
+    if (!mapped_.empty()) balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
+    if (!mapped_.empty()) return;
     const bool are_apart =
         std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
     make_counts_even(model_, arrangement, regions, are_apart, pieces_);
@@ -272,6 +273,7 @@ class CurveMesher {
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
+  const bool narrow_grids_;
   const PointSize grid_size_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;

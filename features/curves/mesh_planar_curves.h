@@ -12,6 +12,7 @@ struct CurveMeshOptions {
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
+  bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
   SymmetrySpec symmetry = {};
   /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
   /// grids must not make more of these.

@@ -105,9 +105,9 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
                                  std::vector<MappedFace>& mapped, std::optional<ChainCounts>& even) {
   const std::vector<FlatPatch>& maps = curves.maps;
   PatchBoundaries placed;
-  if (!mapped.empty()) {
+  if (!mapped.empty())
     placed.counts = grid_counts(spec, model.fine, curves, wanted, mapped, placed.odd_patches);
-  } else {
+  if (mapped.empty()) {
     if (!even) {
       even.emplace();
       even->counts = even_counts(joined_demands(wanted.demands, curves.images), static_cast<int>(maps.size()),
@@ -319,12 +319,17 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
-  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted, size);
   Budget steps(most_steps);
   PatchBoundaries placed =
       place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, steps, grids);
   domain.steps = most_steps - steps.left();
   if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
+  if (agreement > 0)
+    for (MappedFace& face : find_surface_grids({}, fine, curves, wanted, size))
+      if (is_balanced(face, placed.counts) &&
+          std::ranges::find(grids, face.face, &MappedFace::face) == grids.end())
+        grids.push_back(std::move(face));
   domain.mapped = grid_patches(grids, curves, placed.counts);
   check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
   for (const int p : placed.odd_patches)

@@ -7,6 +7,7 @@
 #include "features/curves/mesh_planar_curves.h"
 #include "features/divisions/divisions.h"
 #include "features/seed/perturb.h"
+#include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
@@ -103,6 +104,7 @@ class SizedModel {
     options.divisions = problem_.divisions;
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
+    options.narrow_grids = curve_options(problem_.options).agreement > 0;
     options.symmetry = problem_.symmetry;
     const auto& field = p_.size.field;
     domain = make_domain(

@@ -18,14 +18,20 @@
 namespace delquad {
 namespace {
 
-/// What is found of itself is a grid where eta is at least so much in the mean, and at worst, and the lengths
-/// of edges fit the size so well in the mean: about what a free mesh has.
+/// What is found of itself is a grid where eta is at least so much at worst and, with more than two rows, in
+/// the mean, and the lengths of edges fit the size so well in the mean: about what a free mesh has.
 constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
+/// Of narrow ones angles may be so bad (40 degrees), as rows that end make them, and edges so long, in sizes.
+constexpr double kLeastNarrowEta = 4.0 / 9, kLongestNarrow = 2;
 
 struct GridQuality {
   double mean = 0, worst = 1;
-  double fit = 0;  ///< of the sides: length / delta, or its inverse where that is less
-  bool pays() const { return mean >= kLeastMeanEta && worst >= kLeastEta && fit >= kLeastFit; }
+  double fit = 0;      ///< of the sides: length / delta, or its inverse where that is less
+  double longest = 0;  ///< of the sides, in sizes
+  bool pays(bool is_narrow) const {
+    return is_narrow ? worst >= kLeastNarrowEta && longest <= kLongestNarrow
+                     : worst >= kLeastEta && mean >= kLeastMeanEta && fit >= kLeastFit;
+  }
 };
 
 class GridOfPatch {
@@ -48,7 +54,7 @@ class GridOfPatch {
     if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
       smooth_grid(grid, *patch_.cross, *patch_.size);
     if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
-    if (!mapped_.is_asked && !quality_of(grid).pays()) return std::nullopt;
+    if (!mapped_.is_asked && !quality_of(grid).pays(is_narrow(layers))) return std::nullopt;
     return grid;
   }
 
@@ -83,6 +89,14 @@ class GridOfPatch {
     return moved;
   }
 
+  /// Two rows at most; of a ring three, where its width changes much.
+  bool is_narrow(const std::vector<double>& layers) const {
+    const auto& c = mapped_.corners;
+    if (c.size() != 4) return c.empty() && layers.size() <= 2;
+    const int n = static_cast<int>(patch_.boundary.points.size());
+    return (c[1] - c[0] + n) % n <= 2 || (c[2] - c[1] + n) % n <= 2;
+  }
+
   GridQuality quality_of(const QuadPatch& grid) const {
     PatchMesh mesh = grid_as(PatchForm::kQuads, grid);
     std::vector<Vec3> places;
@@ -98,6 +112,7 @@ class GridOfPatch {
       quality.worst = std::min(quality.worst, eta);
       for (const int k : {0, 1, 2, 3}) {
         const double length = adimensional_length(corners[k], corners[(k + 1) % 4], *problem_.size.field);
+        quality.longest = std::max(quality.longest, length);
         quality.fit += std::min(length, 1 / length) / static_cast<double>(4 * grid.quads.size());
       }
     }

@@ -24,6 +24,8 @@ constexpr double kCornerReach = 1e-3;
 /// Curves of what is found of itself get numbers of edges within this ratio of what they want, or one more or
 /// less.
 constexpr double kMostChange = 1.45;
+/// Faces are narrow up to this width, in sizes, where they are longer: two rows of quads.
+constexpr double kNarrow = 2.5;
 /// As many curves are named where numbers of edges do not agree.
 constexpr std::size_t kMostCurvesNamed = 4;
 
@@ -65,10 +67,14 @@ MappedFace cut_at(int face, const Loop& loop, const std::vector<std::size_t>& co
   return mapped;
 }
 
-bool sides_match(double a, double b) { return std::max(a, b) <= kMostSideRatio * std::min(a, b); }
+bool sides_match(double a, double b) {
+  return std::abs(a - b) <= 1 || std::max(a, b) <= kMostSideRatio * std::min(a, b);
+}
 
-/// Whether a grid pays there.
-bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners) {
+bool is_narrow(double width, double length) { return width <= kNarrow && length > kNarrow; }
+
+/// Whether a grid pays there; `just_narrow`: as a strip.
+bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners, bool just_narrow) {
   if (corners.size() != 4) return false;
   std::array<double, 4> want{};
   std::size_t side = 3;
@@ -79,6 +85,8 @@ bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners) {
     if (turn_from(loop[i], is_corner ? 90 : 180) > (is_corner ? kCornerSlack : kStraightSlack)) return false;
     want[side] += loop[i].want;
   }
+  const auto [width, length] = std::minmax({(want[0] + want[2]) / 2, (want[1] + want[3]) / 2});
+  if (just_narrow && !is_narrow(width, length)) return false;
   return sides_match(want[0], want[2]) && sides_match(want[1], want[3]);
 }
 
@@ -171,14 +179,18 @@ std::vector<std::size_t> GridFinder::told_corners(const Entity& region, const Fa
   return {};
 }
 
-std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const FaceOutline& outline) {
+std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const FaceOutline& outline,
+                                           double quads) {
   if (const auto corners = told_corners(region, outline); !corners.empty())
     return cut_at(face, outline[0], corners);
   const bool asked =
       std::ranges::any_of(spec_.names, [&](const auto& name) { return has_name(region, name); });
-  if (!asked && !spec_.automatic) return std::nullopt;
+  const bool just_narrow = !asked && !spec_.automatic;
   if (outline.size() == 2 && turns_nowhere(outline[0]) && turns_nowhere(outline[1])) {
-    if (!asked && !sides_match(wanted(outline[0]), wanted(outline[1]))) return std::nullopt;
+    const double outer = wanted(outline[0]), inner = wanted(outline[1]);
+    if (!asked && !sides_match(outer, inner)) return std::nullopt;
+    const double length = (outer + inner) / 2;
+    if (just_narrow && !is_narrow(quads / length, length)) return std::nullopt;
     MappedFace ring{face, asked, {{}, {}}, {}};
     for (const int k : {0, 1})
       for (const OutlinePart& part : outline[k]) ring.sides[k].push_back(part.curve);
@@ -190,7 +202,7 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
                                  why_no_grid(outline)));
   }
   const std::vector<std::size_t> corners = corners_by_angle(outline[0]);
-  if (!asked && !looks_mapped(outline[0], corners)) return std::nullopt;
+  if (!asked && !looks_mapped(outline[0], corners, just_narrow)) return std::nullopt;
   MappedFace mapped = cut_at(face, outline[0], corners);
   mapped.is_asked = asked;
   return mapped;

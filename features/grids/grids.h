@@ -39,15 +39,18 @@ struct MappedFace {
 /// face with just three nodes that turn by more than 30 degrees, or three at all, has these, any other the
 /// four nodes at which it turns most as a rectangle does. Two loops that turn nowhere are a ring. What is
 /// asked for by `automatic` has four corners within 35 degrees of right angles, all else within 30 degrees of
-/// straight, and opposite sides that want numbers of edges within a factor of two.
+/// straight, and opposite sides that want numbers of edges within a factor of two, or of one. So has what is
+/// found of itself, narrow faces: strips, up to two and a half sizes wide and longer than that, and rings of
+/// that width.
 class GridFinder {
  public:
   using NamedPlaces = std::vector<std::pair<std::string, Vec3>>;
   /// Throws InputError for names that no region has. The arguments outlive this object.
   GridFinder(const MappedSpec& spec, const std::vector<Entity>& regions, const NamedPlaces& points);
 
-  /// Nothing where the face stays free. Throws InputError where a named one cannot be a grid.
-  std::optional<MappedFace> find(int face, const Entity& region, const FaceOutline& outline);
+  /// Nothing where the face stays free. `quads`: as many as its area holds. Throws InputError where a named
+  /// one cannot be a grid.
+  std::optional<MappedFace> find(int face, const Entity& region, const FaceOutline& outline, double quads);
   /// Throws InputError for corners that lie on no outline.
   void finish() const;
 
@@ -88,8 +91,8 @@ std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const 
                                                 const std::vector<CurvePiece>& pieces);
 
 /// Numbers of edges so that mapped faces have what they need, and every other region an even one around it.
-/// `grid_size`: see CurveMeshOptions. Faces that are not asked for may drop out. Throws InputError where what
-/// was divided forbids that.
+/// `grid_size`: see CurveMeshOptions. Faces that are not asked for may drop out; where all do, numbers stay.
+/// Throws InputError where what was divided forbids that.
 void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
                     const Arrangement& arrangement, const FaceRegions& regions, const PointSize& grid_size,
                     std::vector<CurvePiece>& pieces);
@@ -105,7 +108,8 @@ std::vector<MappedPatch> mapped_patches(const std::vector<MappedPlanarFace>& map
 /// into one patch may be a tube, with the cut on two opposite sides. Throws InputError as GridFinder does,
 /// and for a named face of several patches.
 std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
-                                           const SurfaceCurves& curves, const CurveDemands& wanted);
+                                           const SurfaceCurves& curves, const CurveDemands& wanted,
+                                           const SurfaceSize& size);
 
 /// Numbers of edges of chains so that mapped patches have what they need, and the others an even number
 /// around; those for which that cannot be are `odd_patches`. Patches that are not asked for may drop out of
@@ -113,6 +117,9 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
 std::vector<int> grid_counts(const MappedSpec& spec, const Mesh& fine, const SurfaceCurves& curves,
                              const CurveDemands& wanted, std::vector<MappedFace>& mapped,
                              std::vector<int>& odd_patches);
+
+/// Whether opposite sides, or the loops of a ring, have as many edges.
+bool is_balanced(const MappedFace& face, const std::vector<int>& counts);
 
 /// The same by the places where sides begin on the patches' boundaries.
 std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,

@@ -17,6 +17,8 @@ namespace {
 /// Stations on each line across a ring at which the size is asked for, and lines at most.
 constexpr int kRingStations = 16;
 constexpr std::size_t kMostRingLines = 64;
+/// A ring gets more rows where edges across were longer than this, in sizes, and do not get shorter.
+constexpr double kLongest = 1.75, kShortest = 0.33;
 /// Passes of the optimisation of a grid, at most, and steps in each: lines that bend where grids meet take
 /// many to become smooth.
 constexpr int kGridPasses = 6, kGridSteps = 200;
@@ -226,16 +228,23 @@ std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricS
   const std::size_t shift = best_shift(boundary.points, loops[0], loops[1]);
   // Edges up to the end of each station.
   std::vector<double> edges(kRingStations + 1, 0);
+  double widest = 0, narrowest = std::numeric_limits<double>::infinity();
   int lines = 0, hint = -1;
   for (std::size_t i = 0; i < n; i += step, ++lines) {
     const Vec2 a = boundary.points[loops[0][i]], b = boundary.points[loops[1][(shift + n - i) % n]];
+    double width = 0;
     for (int k = 0; k < kRingStations; ++k) {
       const double t = (k + 0.5) / kRingStations;
-      edges[k + 1] += norm(b - a) / kRingStations / size.at((1 - t) * a + t * b, hint);
+      const double part = norm(b - a) / kRingStations / size.at((1 - t) * a + t * b, hint);
+      edges[k + 1] += part;
+      width += part;
     }
+    widest = std::max(widest, width);
+    narrowest = std::min(narrowest, width);
   }
   for (int k = 0; k < kRingStations; ++k) edges[k + 1] = edges[k] + edges[k + 1] / lines;
-  const int wanted = std::max(1, static_cast<int>(std::lround(edges.back())));
+  int wanted = std::max(1, static_cast<int>(std::lround(edges.back())));
+  while (widest > kLongest * wanted && narrowest >= kShortest * (wanted + 1)) ++wanted;
   std::vector<double> layers;
   for (int j = 1, k = 0; j < wanted; ++j) {
     const double target = edges.back() * j / wanted;

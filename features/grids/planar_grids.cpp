@@ -47,6 +47,21 @@ class FaceOutlines {
     return outline;
   }
 
+  /// Its area in squares of its edges.
+  double quads_of(int face, const FaceOutline& outline) const {
+    double area = 0, length = 0, want = 0;
+    for (const Arrangement::Cycle& cycle : arrangement_.faces[face].cycles)
+      for (const int side : cycle) {
+        const Vec3 a = lines_.points[start_of(lines_.lines, side)];
+        const Vec3 b = lines_.points[start_of(lines_.lines, side ^ 1)];
+        area += cross(Vec2{a.x, a.y}, Vec2{b.x, b.y}) / 2;
+        length += norm(b - a);
+      }
+    for (const auto& loop : outline)
+      for (const OutlinePart& part : loop) want += part.want;
+    return area * want / length * want / length;
+  }
+
  private:
   /// From an end of a piece a little way along it.
   Vec2 leaving(int piece, bool from_start) const {
@@ -143,7 +158,8 @@ std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const 
   for (std::size_t f = 0; f < regions.region.size(); ++f) {
     if (regions.region[f] < 0) continue;
     const FaceOutline outline = outlines.of(static_cast<int>(f));
-    const auto found = finder.find(static_cast<int>(f), regions.regions[regions.region[f]], outline);
+    const auto found = finder.find(static_cast<int>(f), regions.regions[regions.region[f]], outline,
+                                   outlines.quads_of(static_cast<int>(f), outline));
     if (!found) continue;
     auto& face = mapped.emplace_back(MappedPlanarFace{*found, {}});
     for (const auto& loop : outline)
@@ -199,6 +215,7 @@ void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& map
   std::erase_if(mapped, [&](const MappedFace& m) {
     return std::ranges::find(faces, m.face, &MappedFace::face) == faces.end();
   });
+  if (mapped.empty()) return;
   if (!bad.empty()) {
     const auto face = std::ranges::find(faces, bad[0].face, &MappedFace::face);
     if (face != faces.end() && leaves_something_out(face->face, arrangement, regions, pieces))

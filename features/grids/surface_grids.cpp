@@ -7,6 +7,7 @@
 
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
+#include "patches/even_counts.h"
 
 namespace delquad {
 namespace {
@@ -39,7 +40,8 @@ std::string chain_label(const Mesh& fine, const CurveChain& chain) {
 }  // namespace
 
 std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
-                                           const SurfaceCurves& curves, const CurveDemands& wanted) {
+                                           const SurfaceCurves& curves, const CurveDemands& wanted,
+                                           const SurfaceSize& size) {
   GridFinder::NamedPlaces points;
   for (const NamedPoint& named : fine.named_points)
     for (const std::string& name : named.entity.names) points.emplace_back(name, fine.points[named.point]);
@@ -50,7 +52,8 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
   std::vector<MappedFace> mapped;
   for (std::size_t p = 0; p < outlines.size(); ++p) {
     const Entity& region = fine.regions[curves.maps[p].face];
-    const auto found = finder.find(static_cast<int>(p), region, outlines[p]);
+    const auto found =
+        finder.find(static_cast<int>(p), region, outlines[p], expected_quads(fine, curves.maps[p], size));
     if (!found) continue;
     if (found->is_asked && n_patches[curves.maps[p].face] > 1)
       throw InputError(
@@ -95,6 +98,15 @@ std::vector<int> grid_counts(const MappedSpec& spec, const Mesh& fine, const Sur
   std::vector<int> counts;
   for (std::size_t c = 0; c < counted.size(); ++c) counts.push_back(counted[leader[c]].n);
   return counts;
+}
+
+bool is_balanced(const MappedFace& face, const std::vector<int>& counts) {
+  std::vector<int> n;
+  for (const auto& side : face.sides) {
+    n.push_back(0);
+    for (const int c : side) n.back() += counts[c];
+  }
+  return n.size() == 4 ? n[0] == n[2] && n[1] == n[3] : n.size() == 2 && n[0] == n[1];
 }
 
 std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,

@@ -7,7 +7,7 @@ namespace {
 
 const OptionTable<CurveOptions>& curve_table() {
   static const auto all =
-      OptionTable<CurveOptions>("curves", "of surfaces: edges on curves")
+      OptionTable<CurveOptions>("curves", "edges on curves")
           .add({.name = "agreement",
                 .help = "what an irregular vertex less is worth: quads times eta; 0: by the size alone",
                 .least = 0,

@@ -4,10 +4,10 @@
 
 namespace delquad {
 
-/// How the curves of surfaces get their edges.
+/// How curves get their edges.
 struct CurveOptions {
-  /// What an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the size alone
-  /// counts.
+  /// On surfaces, what an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the
+  /// size alone counts, and narrow faces are no grids, as in the plane.
   double agreement = 3;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "delquad/mesher.h"
 #include "tests/support/expect_input_error.h"
@@ -300,6 +303,92 @@ TEST(MappedFaces, RingsCloseAround) {
     EXPECT_EQ(inner, std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 1));
     EXPECT_EQ(r.mesh.quads.size(), inner * 5u);
   }
+}
+
+/// Of a mesh by a constant size 1.
+struct Rows {
+  std::size_t quads = 0;
+  long outer = 0;                                                          ///< edges of the first curve
+  int irregular = 0;                                                       ///< nodes inside
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;  ///< sides
+};
+
+Rows rows_of(const PlanarModel& model, const std::string& word) {
+  const Mesh mesh = delquad::mesh(mapped_problem(model, 1, {}), word).mesh;
+  Rows rows{mesh.quads.size(), std::ranges::count(mesh.line_curve, 0),
+            irregular_inside(mesh, mesh.regions.at(0).names.at(0))};
+  for (const auto& quad : mesh.quads)
+    for (int k = 0; k < 4; ++k) {
+      const double length = norm(mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]);
+      rows.shortest = std::min(rows.shortest, length);
+      rows.longest = std::max(rows.longest, length);
+    }
+  return rows;
+}
+
+PlanarModel ring(double width, double off) {
+  PlanarModel model;
+  model.curves = {{make_circle({0, 0}, 5), "outer", {}}, {make_circle({off, 0}, 5 - width), "inner", {}}};
+  model.loops = {{{0}, "ring", {}}, {{1}, {}, {}}};
+  return model;
+}
+
+TEST(MappedFaces, NarrowRingsAreRows) {
+  for (const char* word : {"DB", "DBCO"})
+    for (const double width : {0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.4})
+      for (const double off : {0.0, 0.15 * width}) {
+        SCOPED_TRACE(testing::Message() << word << ' ' << width << ' ' << off);
+        const Rows rows = rows_of(ring(width, off), word);
+        // Circles have the mean of what both want, by logarithms.
+        const double around = 2 * kPi * std::sqrt(5 * (5 - width));
+        EXPECT_NEAR(static_cast<double>(rows.outer), around, 1);
+        EXPECT_EQ(rows.quads, rows.outer * std::max(1L, std::lround(width)));
+        EXPECT_EQ(rows.irregular, 0);
+        EXPECT_GE(rows.shortest, 0.33);
+        EXPECT_LE(rows.longest, 1.75);
+      }
+  // Rows of the mean width would be too wide where the ring is widest.
+  const Rows wide = rows_of(ring(2.4, 1.2), "DBCO");
+  EXPECT_EQ(wide.quads % 3, 0u);
+  EXPECT_LE(wide.longest, 1.75);
+}
+
+/// Half a ring of radius 5 outside, so wide at its ends.
+PlanarModel half_ring(double width, double to_width) {
+  const double r = 5 - (width + to_width) / 2, x = (to_width - width) / 2;
+  PlanarModel model;
+  model.curves = {{make_arc({0, 0}, 5, 0, kPi), "outer", {}},
+                  {make_segment({-5, 0}, {x - r, 0}), "end", {}},
+                  {make_arc({x, 0}, r, 0, kPi), "inner", {}},
+                  {make_segment({x + r, 0}, {5, 0}), "begin", {}}};
+  model.loops = {{{0, 1, 2, 3}, "band", {}}};
+  return model;
+}
+
+TEST(MappedFaces, NarrowBandsAreRowsToTheirEnds) {
+  for (const char* word : {"DB", "DBCO"})
+    for (const auto& [width, to_width] :
+         {std::pair(0.8, 0.8), {0.6, 1.0}, {1.3, 0.4}, {1.7, 1.7}, {2.2, 1.6}}) {
+      SCOPED_TRACE(testing::Message() << word << ' ' << width << ' ' << to_width);
+      const Rows rows = rows_of(half_ring(width, to_width), word);
+      const double mean = (width + to_width) / 2;
+      EXPECT_NEAR(static_cast<double>(rows.outer), kPi * std::sqrt(5 * (5 - mean)), 1);
+      EXPECT_EQ(rows.quads, rows.outer * std::lround(mean));
+      EXPECT_EQ(rows.irregular, 0);
+      EXPECT_GE(rows.shortest, 0.33);
+      EXPECT_LE(rows.longest, 1.75);
+    }
+}
+
+/// What cannot be a grid is meshed, and told of, as if it were wide.
+TEST(MappedFaces, NarrowFacesAreNoDemand) {
+  MeshProblem problem = mapped_problem(half_ring(0.8, 0.8), 1, {});
+  problem.divisions = {{"outer", 20, 1, 1, "d 1"}, {"inner", 12, 1, 1, "d 2"}};
+  EXPECT_TRUE(mesh(problem, "DBCO").mesh.triangles.empty());
+  for (const char* name : {"begin", "end"}) problem.divisions.push_back({name, 1, 1, 1, "d 3"});
+  problem.divisions[1].edges = 13;
+  expect_input_error([&] { mesh(problem, "DBCO"); },
+                     {"the numbers of edges that are given leave 'band' with an odd number around it"});
 }
 
 TEST(MappedFaces, WhatWouldFoldIsSmoothed) {

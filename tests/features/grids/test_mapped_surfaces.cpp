@@ -88,6 +88,47 @@ TEST(MappedSurfaces, APieceOfACylinderIsRegular) {
   }
 }
 
+/// Its long sides, which agree, are two rows apart.
+TEST(MappedSurfaces, NarrowFacesAreGrids) {
+  for (const char* word : {"DB", "DBCO", "FB"})
+    for (const double height : {0.6, 0.9, 1.4, 1.6, 2.0, 2.4}) {
+      SCOPED_TRACE(testing::Message() << word << ' ' << height);
+      const MeshResult r = mesh(grids_on(cylinder_piece(60, 2.2, 0.13 * height), 0.13, {}), word);
+      EXPECT_EQ(r.mesh.quads.size(), 17u * std::lround(height));
+      EXPECT_EQ(valences(r.mesh).size(), height > 1.5 ? 3u : 2u);
+      EXPECT_EQ(valences(r.mesh)[3], 0);
+    }
+}
+
+/// Flat, of radius 5 outside, as triangles.
+Mesh flat_ring(double width) {
+  testing_support::TriangulatedShape shape;
+  shape.region();
+  constexpr int kAround = 120;
+  const auto at = [&](int i, double r) {
+    const double t = 2 * std::numbers::pi * (i % kAround) / kAround;
+    return Vec3{r * std::cos(t), r * std::sin(t), 0};
+  };
+  for (int i = 0; i < kAround; ++i) {
+    shape.triangle(at(i, 5 - width), at(i, 5), at(i + 1, 5));
+    shape.triangle(at(i, 5 - width), at(i + 1, 5), at(i + 1, 5 - width));
+  }
+  return shape.mesh;
+}
+
+TEST(MappedSurfaces, NarrowRingsAreRows) {
+  for (const char* word : {"DB", "DBCO"})
+    for (const double width : {0.8, 1.2, 1.6, 2.4}) {
+      SCOPED_TRACE(testing::Message() << word << ' ' << width);
+      const MeshResult r = mesh(grids_on(flat_ring(width), 1, {}), word);
+      const double around = 2 * std::numbers::pi * std::sqrt(5 * (5 - width));
+      const double n = static_cast<double>(r.mesh.quads.size()) / std::lround(width);
+      EXPECT_NEAR(n, around, 2);
+      EXPECT_EQ(n, std::round(n));
+      EXPECT_EQ(valences(r.mesh).size(), width > 1.5 ? 2u : 1u);
+    }
+}
+
 TEST(MappedSurfaces, WhatCannotBeIsRefused) {
   const auto refused = [](Mesh surface, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
