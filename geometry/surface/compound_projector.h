@@ -17,6 +17,10 @@ EntityGroups each_alone(std::size_t n);
 /// to the nearest of the curves. `former`: the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
 
+/// The same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.
+std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
+                                                             int first_curve, std::vector<int> faces);
+
 /// The former numbers of what is left.
 struct TidyGroups {
   EntityGroups faces, curves;

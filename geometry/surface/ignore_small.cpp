@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/sort_unique.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
@@ -34,10 +35,17 @@ std::vector<double> curve_lengths(const Mesh& mesh) {
   return lengths;
 }
 
+Vec3 area_vector(const Mesh& mesh, int t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+}
+
 /// Joins narrow faces with their neighbours, the narrowest first.
 class FaceJoiner {
  public:
-  explicit FaceJoiner(const Mesh& mesh) : mesh_(mesh), sets_(mesh.regions.size()) {
+  /// `origin`: of each face the one that it is a part of, see cut_narrow_parts().
+  FaceJoiner(const Mesh& mesh, const std::vector<int>& origin)
+      : mesh_(mesh), origin_(origin), sets_(mesh.regions.size()) {
     for (std::size_t face = 0; face < sets_.size(); ++face) sets_[face].members = {static_cast<int>(face)};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -55,8 +63,11 @@ class FaceJoiner {
         sets_[f].outline -= 2 * length;  // a seam
         continue;
       }
-      sets_[f].common[g] += length;
-      sets_[g].common[f] += length;
+      const Vec3 m = area_vector(mesh, edge[0].element), n = area_vector(mesh, edge[1].element);
+      const double smooth = dot(m, n) / (norm(m) * norm(n));
+      const double weighed = smooth > 0 ? (0.25 + 0.75*smooth) * length : 0.25 * length;
+      sets_[f].common[g] += weighed;
+      sets_[g].common[f] += weighed;
     }
   }
 
@@ -66,10 +77,15 @@ class FaceJoiner {
       Set& thin = sets_[*narrow];
       const int host =
           std::ranges::max_element(thin.common, {}, [](const auto& c) { return c.second; })->first;
-      const Entity& face = mesh_.regions[thin.members[0]];
-      warnings.push_back({"narrow faces that became part of others", 1 / thin.width(),
-                          fmt::format("{}, {:.3g} wide, became part of {}", title("face", face), thin.width(),
-                                      title("face", mesh_.regions[sets_[host].members[0]]))});
+      const int is = thin.members[0], of = origin_[is];
+      if (of != origin_[sets_[host].members[0]])
+        warnings.push_back(
+            {is == of ? "narrow faces that became part of others"
+                      : "narrow parts of faces that became part of others",
+             1 / thin.width(),
+             fmt::format("{}{}{}, {:.3g} wide, became part of {}", is == of ? "" : "a part of ",
+                         title("face", mesh_.regions[of]), is == of ? "" : " at " + show_point(place_of(is)),
+                         thin.width(), title("face", mesh_.regions[origin_[sets_[host].members[0]]]))});
       unite(*narrow, host);
     }
     EntityGroups groups;
@@ -115,7 +131,15 @@ class FaceJoiner {
     }
   }
 
+  /// A point of the face.
+  Vec3 place_of(int face) const {
+    const auto at = std::ranges::find(mesh_.triangle_region, face) - mesh_.triangle_region.begin();
+    const auto& [a, b, c] = mesh_.triangles[at];
+    return (1.0 / 3) * (mesh_.points[a] + mesh_.points[b] + mesh_.points[c]);
+  }
+
   const Mesh& mesh_;
+  const std::vector<int>& origin_;
   std::vector<Set> sets_;
 };
 
@@ -268,7 +292,8 @@ SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptio
                     "diagonal, {:.3g}",
                     model.source, length, size));
   model = close_small_holes(std::move(model), length);
-  const EntityGroups groups = FaceJoiner(model.fine).join(length, model.warnings);
+  const std::vector<int> origin = cut_narrow_parts(model, length);
+  const EntityGroups groups = FaceJoiner(model.fine, origin).join(length, model.warnings);
   for (const auto& group : groups)
     for (const int face : group) model.fine.regions[face] = model.fine.regions[group[0]];
   model = make_compound(std::move(model), groups, options);

@@ -23,4 +23,8 @@ SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptio
 /// each hole.
 SurfaceModel close_small_holes(SurfaceModel model, double length);
 
+/// Cuts faces where they become narrower than `length` for a while. What is so narrow becomes faces of their
+/// own, behind the others. Returns for each face the one that it was a part of.
+std::vector<int> cut_narrow_parts(SurfaceModel& model, double length);
+
 }  // namespace delquad
