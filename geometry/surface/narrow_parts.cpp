@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/disjoint_sets.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/chart.h"
@@ -27,6 +29,9 @@ constexpr int kMissing = 2;
 /// Sine of the angle up to which two sides face each other.
 constexpr double kFacingSine = 0.5;
 constexpr int kBisections = 20;
+/// Places from which one looks, in all, and triangles on a way across: a few seconds.
+constexpr double kMostPlaces = 1e6;
+constexpr int kMostTriangles = 1000;
 
 /// A place on a side of a loop of a chart: the side from its vertex number `side`, and how far along.
 struct LoopPlace {
@@ -88,7 +93,7 @@ class ChartView {
     double left = reach_;
     // Direction: so much along the side, ahead, and so much across it.
     double along = 0, across = 1;
-    for (;;) {
+    for (int step = 0; step < kMostTriangles; ++step) {
       const auto& v = chart_.triangles[t];
       const Vec3 &a = point(v[(k + 1) % 3]), &b = point(v[(k + 2) % 3]), &c = point(v[k]);
       const Vec3 side = b - a, normal = cross(side, c - a);
@@ -121,6 +126,7 @@ class ChartView {
       t = beyond;
       k = static_cast<int>(std::ranges::find(back, from_triangle) - back.begin());
     }
+    return std::nullopt;
   }
 
  private:
@@ -137,8 +143,9 @@ using LoopCut = std::array<LoopPlace, 2>;
 /// Where a chart is to be cut.
 class ChartCuts {
  public:
-  ChartCuts(const Chart& chart, const std::vector<char>& is_corner, double length)
-      : view_(chart, kNarrow * length), length_(length), corners_(chart.loops.size()) {
+  /// `apart`: how far the places are, from which one looks.
+  ChartCuts(const Chart& chart, const std::vector<char>& is_corner, double length, double apart)
+      : view_(chart, kNarrow * length), length_(length), apart_(apart), corners_(chart.loops.size()) {
     for (int l = 0; l < view_.n_loops(); ++l) {
       const auto& loop = chart.loops[l];
       for (std::size_t i = 0; i < loop.size(); ++i)
@@ -148,7 +155,7 @@ class ChartCuts {
 
   std::vector<LoopCut> find() {
     for (int l = 0; l < view_.n_loops(); ++l) {
-      const double n = std::ceil(view_.length(l) / (kApartOnLoop * length_));
+      const double n = std::ceil(view_.length(l) / apart_);
       n_.push_back(std::max(3, static_cast<int>(n)));
       auto& seen = seen_.emplace_back();
       for (int i = 0; i < n_[l]; ++i) seen.push_back(view_.look(view_.place(l, arc(l, i))));
@@ -232,7 +239,7 @@ class ChartCuts {
   }
 
   ChartView view_;
-  double length_;
+  double length_, apart_;
   std::vector<std::vector<LoopPlace>> corners_;
   std::vector<int> n_;                                       ///< places, by loop
   std::vector<std::vector<std::optional<LoopPlace>>> seen_;  ///< from each
@@ -279,10 +286,13 @@ class FaceCutter {
     std::vector<char> is_corner(mesh_.points.size(), 0), has_embedded(mesh_.regions.size(), 0);
     for (const int p : model_.corners) is_corner[p] = 1;
     for (const EmbeddedCurve& e : model_.embedded) has_embedded[e.face] = 1;
+    double outline = 0;
+    for (const auto& [a, b] : mesh_.lines) outline += 2 * norm(mesh_.points[b] - mesh_.points[a]);
+    const double apart = std::max(kApartOnLoop * length_, outline / kMostPlaces);
     for (const Chart& chart : extract_charts(mesh_, std::vector<char>(mesh_.triangles.size(), 1))) {
       check_cancelled();
       if (has_embedded[chart.face]) continue;
-      for (const LoopCut& cut : ChartCuts(chart, is_corner, length_).find()) {
+      for (const LoopCut& cut : ChartCuts(chart, is_corner, length_, apart).find()) {
         Cut found{chart.face, {}};
         for (int i = 0; i < 2; ++i) found.ends[i] = line_place(chart, cut[i]);
         cuts_.push_back(found);
@@ -387,40 +397,94 @@ class FaceCutter {
   std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> splits_;  ///< how far, and the node
 };
 
-/// Twice the area by the length of the outline.
-double width_of(const Chart& chart) {
-  double area = 0, outline = 0;
-  for (const double a : triangle_areas(chart)) area += a;
-  for (const auto& loop : chart.loops)
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      outline += norm(chart.points[loop[(i + 1) % loop.size()]] - chart.points[loop[i]]);
-  return 2 * area / outline;
-}
+/// What cuts divide faces into.
+class FaceParts {
+ public:
+  FaceParts(const Mesh& mesh, std::size_t n_curves, const NarrowOptions& options)
+      : charts_(extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1))),
+        parts_(charts_.size()),
+        is_narrow_(charts_.size(), 0) {
+    std::vector<int> chart_of(mesh.triangles.size());
+    std::vector<double> area(charts_.size(), 0), outline(area);
+    for (std::size_t c = 0; c < charts_.size(); ++c) {
+      for (const int t : charts_[c].fine_triangle) chart_of[t] = static_cast<int>(c);
+      for (const double a : triangle_areas(charts_[c])) area[c] += a;
+    }
+    const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+      const auto [a, b] = mesh.lines[l];
+      const auto edge = sides_of_edge(std::span(sides), a, b);
+      for (const HalfEdge& side : edge)
+        outline[chart_of[side.element]] += norm(mesh.points[b] - mesh.points[a]);
+      for (const HalfEdge& side : edge)
+        if (edge.size() == 2 && may_join(mesh, mesh.line_curve[l], mesh.triangle_region[side.element],
+                                         mesh.triangle_region[edge[&side == &edge[0]].element], options))
+          is_narrow_[chart_of[side.element]] = 1;
+    }
+    for (std::size_t c = 0; c < charts_.size(); ++c)
+      if (!(2 * area[c] < options.length * outline[c])) is_narrow_[c] = 0;
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+      if (mesh.line_curve[l] < static_cast<int>(n_curves)) continue;
+      const auto edge = sides_of_edge(std::span(sides), mesh.lines[l][0], mesh.lines[l][1]);
+      const int c = chart_of[edge[0].element], d = chart_of[edge[1].element];
+      if (!is_narrow_[c] && !is_narrow_[d]) parts_.join(c, d);
+    }
+    std::vector<double> part_area(charts_.size(), 0);
+    std::vector<int> largest(mesh.regions.size(), -1);
+    for (int c = 0; c < n(); ++c) part_area[parts_.root(c)] += area[c];
+    for (int c = 0; c < n(); ++c) {
+      int& most = largest[charts_[c].face];
+      if (parts_.root(c) != c || is_narrow_[c]) continue;
+      if (most < 0 || part_area[c] > part_area[most]) most = c;
+    }
+    for (int c = 0; c < n(); ++c)
+      stays_.push_back(largest[charts_[c].face] < 0 || parts_.root(c) == largest[charts_[c].face]);
+  }
+
+  /// Makes each part a face, but for the largest one that is not narrow: the narrow ones come last. Of faces
+  /// that are narrow everywhere, and where nothing is cut, all stays. `is_cut`: of each face.
+  void number(Mesh& mesh, const std::vector<char>& is_cut, std::vector<int>& origin) {
+    int tag = 0;
+    for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
+    std::vector<int> face_of(charts_.size(), -1);  // by root
+    for (const char narrow : {0, 1})
+      for (int c = 0; c < n(); ++c) {
+        const Chart& chart = charts_[c];
+        if (is_narrow_[c] != narrow || stays_[c] || !is_cut[chart.face]) continue;
+        int& face = face_of[parts_.root(c)];
+        if (face < 0) {
+          face = static_cast<int>(mesh.regions.size());
+          mesh.regions.push_back(mesh.regions[chart.face]);
+          mesh.regions.back().tag = ++tag;
+          origin.push_back(chart.face);
+        }
+        for (const int t : chart.fine_triangle) mesh.triangle_region[t] = face;
+      }
+  }
+
+ private:
+  int n() const { return static_cast<int>(charts_.size()); }
+
+  std::vector<Chart> charts_;
+  DisjointSets parts_;  ///< of charts
+  std::vector<char> is_narrow_, stays_;
+};
 
 }  // namespace
 
-std::vector<int> cut_narrow_parts(SurfaceModel& model, double length) {
+std::vector<int> cut_narrow_parts(SurfaceModel& whole, const NarrowOptions& options) {
+  SurfaceModel model = whole;
   Mesh& mesh = model.fine;
-  std::vector<int> origin(mesh.regions.size());
-  for (std::size_t face = 0; face < origin.size(); ++face) origin[face] = static_cast<int>(face);
-  const std::size_t n_curves = mesh.curves.size();
-  const std::vector<int> faces_of_cuts = FaceCutter(model, length).cut();
-  if (faces_of_cuts.empty()) return origin;
-  std::vector<char> is_cut(origin.size(), 0), has_wide(origin.size(), 0);
+  const std::size_t n_faces = mesh.regions.size(), n_curves = mesh.curves.size();
+  std::vector<int> origin(n_faces);
+  std::iota(origin.begin(), origin.end(), 0);
+  const std::vector<int> faces_of_cuts = FaceCutter(model, options.length).cut();
+  std::vector<char> is_cut(n_faces, 0);
   for (const int face : faces_of_cuts) is_cut[face] = 1;
-  EntityGroups faces = each_alone(origin.size());
-  int tag = 0;
-  for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
-  const std::vector<Chart> charts = extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1));
-  for (const Chart& chart : charts) has_wide[chart.face] |= !(width_of(chart) < length);
-  for (const Chart& chart : charts) {
-    if (!is_cut[chart.face] || !has_wide[chart.face] || !(width_of(chart) < length)) continue;
-    for (const int t : chart.fine_triangle) mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());
-    mesh.regions.push_back(mesh.regions[chart.face]);
-    mesh.regions.back().tag = ++tag;
-    origin.push_back(chart.face);
-    faces.push_back({chart.face});
-  }
+  if (!faces_of_cuts.empty()) FaceParts(mesh, n_curves, options).number(mesh, is_cut, origin);
+  if (origin.size() == n_faces) return origin;
+  EntityGroups faces;
+  for (const int face : origin) faces.push_back({face});
   regroup(model, mesh, faces, each_alone(n_curves));
   if (model.projector)
     model.projector =
@@ -429,12 +493,13 @@ std::vector<int> cut_narrow_parts(SurfaceModel& model, double length) {
   const Mesh former = mesh;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   keep_lines(mesh, [&](std::size_t l) {
-    if (former.line_curve[l] < static_cast<int>(n_curves)) return true;
     const auto edge = sides_of_edge(std::span(sides), former.lines[l][0], former.lines[l][1]);
-    return edge.size() != 2 || mesh.triangle_region[edge[0].element] != mesh.triangle_region[edge[1].element];
+    return former.line_curve[l] < static_cast<int>(n_curves) ||
+           mesh.triangle_region[edge[0].element] != mesh.triangle_region[edge[1].element];
   });
   TidyGroups kept = tidy_model(model);
   regroup(model, former, kept.faces, std::move(kept.curves));
+  whole = std::move(model);
   return origin;
 }
 
