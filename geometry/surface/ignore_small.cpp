@@ -8,11 +8,13 @@
 #include <optional>
 #include <set>
 
+#include "base/segment.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -57,8 +59,11 @@ class FaceJoiner {
   FaceJoiner(const Mesh& mesh, const std::vector<int>& origin, const NarrowOptions& narrow)
       : mesh_(mesh), origin_(origin), narrow_(narrow), sets_(mesh.regions.size()) {
     for (std::size_t face = 0; face < sets_.size(); ++face) sets_[face].members = {static_cast<int>(face)};
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      sets_[mesh.triangle_region[t]].area += norm(area_vector(mesh, static_cast<int>(t))) / 2;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      Set& set = sets_[mesh.triangle_region[t]];
+      set.area += norm(area_vector(mesh, t)) / 2;
+      set.is_kept |= is_kept(mesh, t, narrow);
+    }
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
     for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
       const double length = length_of(mesh, mesh.lines[l]);
@@ -109,6 +114,7 @@ class FaceJoiner {
   struct Set {
     std::vector<int> members;  ///< faces; none: has become part of another set
     double area = 0, outline = 0;
+    bool is_kept = false;
     std::map<int, Common> common;  ///< with other sets
     double width() const {
       return outline > 0 ? 2 * area / outline : std::numeric_limits<double>::infinity();
@@ -132,7 +138,7 @@ class FaceJoiner {
     std::optional<int> best;
     for (std::size_t i = 0; i < sets_.size(); ++i) {
       const Set& set = sets_[i];
-      if (set.members.empty() || set.area == 0 || !(set.width() < narrow_.length)) continue;
+      if (set.members.empty() || set.area == 0 || set.is_kept || !(set.width() < narrow_.length)) continue;
       if ((!best || set.width() < sets_[*best].width()) && host_of(set) >= 0) best = static_cast<int>(i);
     }
     return best;
@@ -296,11 +302,19 @@ bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
 
 /// Contracts curves shorter than that, the shortest first.
 SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narrow) {
-  const std::vector<double> lengths = curve_lengths(model.fine);
+  const Mesh& mesh = model.fine;
+  const std::vector<double> lengths = curve_lengths(mesh);
+  std::vector<char> stays(lengths.size(), 0);
+  for (std::size_t c = 0; c < lengths.size(); ++c)
+    stays[c] = narrow.keep_named && !mesh.curves[c].names.empty();
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    stays[mesh.line_curve[l]] |= std::ranges::any_of(narrow.kept, [&](const FeatureBall& ball) {
+      const auto& [a, b] = mesh.lines[l];
+      return distance_to_segment(ball.at, mesh.points[a], mesh.points[b]) < ball.reach;
+    });
   std::vector<int> order;
   for (std::size_t c = 0; c < lengths.size(); ++c)
-    if (lengths[c] < narrow.length && !(narrow.keep_named && !model.fine.curves[c].names.empty()))
-      order.push_back(static_cast<int>(c));
+    if (lengths[c] < narrow.length && !stays[c]) order.push_back(static_cast<int>(c));
   if (order.empty()) return model;
   std::ranges::stable_sort(order, {}, [&](int c) { return lengths[c]; });
   const Mesh former = model.fine;
@@ -340,6 +354,15 @@ void report_lost_names(const char* kind, const std::vector<Entity>& before, cons
 }
 
 }  // namespace
+
+bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const std::vector<Vec3>& p = mesh.points;
+  return std::ranges::any_of(narrow.kept, [&](const FeatureBall& ball) {
+    const auto w = nearest_weights(p[a], p[b], p[c], ball.at);
+    return norm(w[0] * p[a] + w[1] * p[b] + w[2] * p[c] - ball.at) < ball.reach;
+  });
+}
 
 bool has_names_of(const Entity& host, const Entity& other) {
   return std::ranges::all_of(other.names, [&](const std::string& name) {

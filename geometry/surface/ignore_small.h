@@ -2,6 +2,7 @@
 
 #include "geometry/surface/compound.h"
 #include "geometry/surface/surface_model.h"
+#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 
@@ -9,6 +10,8 @@ struct NarrowOptions {
   double length = 0;  ///< what is narrower goes
   /// What has a name stays: a face becomes only part of one with all its names, and curves with names stay.
   bool keep_named = false;
+  /// Faces and parts of faces that reach into these stay.
+  std::vector<FeatureBall> kept = {};
 };
 
 /// The model without what is smaller than `length`:
@@ -39,6 +42,8 @@ SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow);
 /// others. Returns for each face the one that it was a part of.
 std::vector<int> cut_narrow_parts(SurfaceModel& model, const NarrowOptions& narrow);
 
+/// Whether a triangle reaches into what is kept.
+bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow);
 /// Whether it has all names of the other.
 bool has_names_of(const Entity& host, const Entity& other);
 /// Whether a face may become part of another one across this curve.

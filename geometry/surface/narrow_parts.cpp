@@ -422,7 +422,9 @@ class FaceParts {
           is_narrow_[chart_of[side.element]] = 1;
     }
     for (std::size_t c = 0; c < charts_.size(); ++c)
-      if (!(2 * area[c] < options.length * outline[c])) is_narrow_[c] = 0;
+      if (!(2 * area[c] < options.length * outline[c]) ||
+          std::ranges::any_of(charts_[c].fine_triangle, [&](int t) { return is_kept(mesh, t, options); }))
+        is_narrow_[c] = 0;
     for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
       if (mesh.line_curve[l] < static_cast<int>(n_curves)) continue;
       const auto edge = sides_of_edge(std::span(sides), mesh.lines[l][0], mesh.lines[l][1]);
