@@ -15,7 +15,9 @@ namespace delquad {
 /// What a problem gets beside what it asks for, because its mesh would not be sound without.
 struct Refinement {
   std::vector<SizeSpot> spots = {};
-  bool keep_features = false;  ///< of triangulations, in the spots: see TriangulatedOptions::kept_features
+  /// In the spots: of triangulations, see TriangulatedOptions::kept_features, and what is small, see
+  /// NarrowOptions::kept.
+  bool keep_features = false;
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 

@@ -165,6 +165,7 @@ class SurfaceSteps final : public ModelSteps {
                        refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
+    surface_->ignores_small = problem_.surface.ignore_below > 0;
     p.failures = failures_.take();
     p.surface = surface_;
     append(p.warnings, surface_->model.warnings);
@@ -192,12 +193,11 @@ class SurfaceSteps final : public ModelSteps {
   const CutSurface* part() const { return cut_ ? &*cut_ : nullptr; }
 
   void read_model(std::vector<Warning>& warnings) {
-    std::vector<FeatureBall> kept_features;
+    std::vector<FeatureBall> kept;
     if (refinement_.keep_features)
-      for (const SizeSpot& spot : refinement_.spots) kept_features.push_back({spot.at, spot.reach});
+      for (const SizeSpot& spot : refinement_.spots) kept.push_back({spot.at, spot.reach});
     cad_ = refinement_.cad;
-    model_ = cad_ ? *cad_ : make_surface(problem_, kept_features);
-    if (!cad_ && model_.projector) cad_ = std::make_shared<SurfaceModel>(model_);
+    model_ = make_surface(problem_, kept, cad_);
     const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
     asked_ = base_size(problem_.size, domain, warnings, [&] {
       return largest_size(problem_.size, problem_.size.from_boundary
@@ -227,7 +227,7 @@ class SurfaceSteps final : public ModelSteps {
   std::function<void(double quads)> check_;
   Failures failures_{problem_};
   SurfaceModel model_;
-  std::shared_ptr<const SurfaceModel> cad_;  ///< as it was read
+  std::shared_ptr<const SurfaceModel> cad_;  ///< PreparedSurface::cad
   std::shared_ptr<const SizeField> asked_;   ///< null: the model is yet to be read
   std::optional<CutSurface> cut_;            ///< of a symmetric one, whose part is `model_`
   std::vector<CurveDivision> divisions_;     ///< of the part

@@ -33,7 +33,8 @@ namespace {
 
 /// How often a problem is meshed anew; in a row without fewer places that are not sound.
 constexpr int kMostRounds = 8, kMostIdle = 2;
-/// From this round on sharp edges in the spots become features.
+/// From this round on sharp edges in the spots become features; from the first on where what is small was
+/// ignored, and no longer is there.
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
@@ -118,6 +119,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
     return;
+  const bool ignores_small = prepared.surface && prepared.surface->ignores_small;
   Refinement refinement = as_read(prepared);
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
@@ -135,9 +137,9 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
         why = "more would take too long";
         break;
       }
-      if (idle == kMostIdle && (refinement.keep_features || refinement.cad)) break;
+      if (idle == kMostIdle && (refinement.keep_features || (refinement.cad && !ignores_small))) break;
       if (idle == kMostIdle) idle = 0, refinement.keep_features = true;
-      if (++rounds >= kFirstWithFeatures) refinement.keep_features = true;
+      if (++rounds >= kFirstWithFeatures || ignores_small) refinement.keep_features = true;
       const std::vector<SizeSpot> spots = refinement.spots;
       PreparedProblem finer = prepare_anew(refinement);
       MeshResult run = run_word(finer, word);

@@ -9,6 +9,7 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/sizes/curve_options.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
@@ -53,7 +54,9 @@ std::vector<std::vector<int>> faces_of_tags(const SurfaceSpec& spec, const Mesh&
   return groups;
 }
 
-SurfaceModel make_compounds(const SurfaceSpec& spec, SurfaceModel model) {
+SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
+                            SurfaceModel model) {
+  const SurfaceSpec& spec = problem.surface;
   const CompoundOptions options = compound_options(spec);
   if (spec.compounds == Compounds::kAll) {
     const auto groups = tangent_groups(model, kEveryAngle);
@@ -65,7 +68,9 @@ SurfaceModel make_compounds(const SurfaceSpec& spec, SurfaceModel model) {
     const auto groups = faces_of_tags(spec, model.fine);
     model = make_compound(std::move(model), groups, options);
   }
-  if (spec.ignore_below > 0) model = ignore_small(std::move(model), spec.ignore_below, options);
+  if (spec.ignore_below > 0)
+    model = ignore_small(std::move(model),
+                         {spec.ignore_below, curve_options(problem.options).keep_named, kept}, options);
   if (spec.merge_curves > 0) model = merge_short_curves(std::move(model), spec.merge_curves, options);
   return model;
 }
@@ -111,13 +116,14 @@ std::string leave_out_strays(Mesh& mesh) {
                      gone == 1 ? "is" : "are", why);
 }
 
-SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model, bool keep_going,
-                          const std::vector<FeatureBall>& kept_features) {
+SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model,
+                          const std::vector<FeatureBall>& kept) {
+  const SurfaceSpec& spec = problem.surface;
   if (spec.glue)
     throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
-  const std::string missing = keep_going ? leave_out_strays(triangles) : "";
+  const std::string missing = problem.keep_going ? leave_out_strays(triangles) : "";
   convert(model.source, spec, triangles);
   std::vector<LooseLine> points;
   for (const NamedPoint& named : triangles.named_points)
@@ -130,12 +136,12 @@ SurfaceModel make_surface(const SurfaceSpec& spec, const TriangleModel& model, b
   split_quads(triangles, notes);
   TriangulatedOptions options;
   options.source = source;
-  options.kept_features = kept_features;
+  options.kept_features = kept;
   if (spec.feature_angle) options.feature_angle = *spec.feature_angle;
   if (spec.weld_tolerance) options.weld_tolerance = *spec.weld_tolerance;
   const std::string unit = triangles.unit;
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
-  SurfaceModel surface = make_compounds(spec, make_surface_model(std::move(triangles), options));
+  SurfaceModel surface = make_compounds(problem, kept, make_surface_model(std::move(triangles), options));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
   if (!missing.empty()) {
     auto& faces = surface.fine.regions;
@@ -183,21 +189,27 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
       std::ranges::find_if(model.left_out, [](const LeftOutFace& f) { return f.face >= 0; });
   if (unusable != model.left_out.end() && changes_faces)
     throw InputError(unusable->reason + "; faces cannot be joined before all can be used");
-  return make_compounds(problem.surface, std::move(model));
+  return model;
 }
 
 }  // namespace
 
-SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features) {
+SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
+                          std::shared_ptr<const SurfaceModel>& cad) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);
-    SurfaceModel model = triangles != nullptr
-                             ? make_surface(problem.surface, *triangles, problem.keep_going, kept_features)
-                             : make_from_cad(problem);
+    if (triangles == nullptr && !cad) cad = std::make_shared<SurfaceModel>(make_from_cad(problem));
+    SurfaceModel model =
+        triangles != nullptr ? make_surface(problem, *triangles, kept) : make_compounds(problem, kept, *cad);
     for (const EmbeddedLine& line : problem.surface.embed)
       model.loose.push_back(loose_line(line, problem.surface.where));
     return model;
   });
+}
+
+SurfaceModel make_surface(const MeshProblem& problem) {
+  std::shared_ptr<const SurfaceModel> cad;
+  return make_surface(problem, {}, cad);
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,11 @@ void check_surface(const SurfaceSpec& surface, const std::string& where);
 
 /// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
 /// InputError for models that cannot be read, for options that have no effect on them, and for compounds of
-/// faces that do not exist or do not hang together. `kept_features`: of triangles.
-SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept_features = {});
+/// faces that do not exist or do not hang together. `kept`: where features of triangles stay, and what is
+/// small of any model. `cad`: what is read of a file of CAD, without compounds, is left there, and is not
+/// read again.
+SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
+                          std::shared_ptr<const SurfaceModel>& cad);
+SurfaceModel make_surface(const MeshProblem& problem);
 
 }  // namespace delquad

@@ -17,6 +17,7 @@
 #include "features/embedded/point_whiskers.h"
 #include "features/embedded/section_path.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 
 namespace delquad {
@@ -110,27 +111,6 @@ class SmoothNormals {
   std::unordered_map<long long, Vec3> at_point_;  // only looked up, never iterated
 };
 
-/// Embedded curves lie anywhere in their faces.
-class ImprintProjector final : public SurfaceProjector {
- public:
-  ImprintProjector(std::shared_ptr<const SurfaceProjector> base, int first_curve,
-                   const std::vector<EmbeddedCurve>& embedded)
-      : base_(std::move(base)), first_curve_(first_curve) {
-    for (const EmbeddedCurve& c : embedded)
-      if (c.curve >= first_curve) face_of_.push_back(c.face);
-  }
-  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(face, x); }
-  Vec3 to_curve(int curve, const Vec3& x) const override {
-    return curve < first_curve_ ? base_->to_curve(curve, x) : to_face(face_of_[curve - first_curve_], x);
-  }
-  double face_curvature(int face, const Vec3& x) const override { return base_->face_curvature(face, x); }
-
- private:
-  std::shared_ptr<const SurfaceProjector> base_;
-  int first_curve_;
-  std::vector<int> face_of_;
-};
-
 class Imprinter {
  public:
   Imprinter(SurfaceModel& model, const PointSize& size)
@@ -164,8 +144,11 @@ class Imprinter {
     join_pieces();
     mark_corners(placed);
     model_.loose.clear();
-    if (model_.projector)
-      model_.projector = std::make_shared<ImprintProjector>(model_.projector, first_curve_, model_.embedded);
+    if (!model_.projector) return;
+    std::vector<int> faces;
+    for (const EmbeddedCurve& c : model_.embedded)
+      if (c.curve >= first_curve_) faces.push_back(c.face);
+    model_.projector = with_curves_on_faces(model_.projector, first_curve_, std::move(faces));
   }
 
  private:

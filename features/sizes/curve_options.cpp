@@ -17,7 +17,10 @@ const OptionTable<CurveOptions>& curve_table() {
                 .help = "in sizes: shorter curves become one with those that they continue; 0: none",
                 .least = 0,
                 .most = 100},
-               &CurveOptions::join_below);
+               &CurveOptions::join_below)
+          .add({.name = "keep_named",
+                .help = "faces and curves with names stay where --ignore-below would take them out"},
+               &CurveOptions::keep_named);
   return all;
 }
 

@@ -11,6 +11,8 @@ struct CurveOptions {
   double agreement = 3;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;
+  /// What has a name stays, however small, see ignore_small().
+  bool keep_named = false;
 };
 
 OptionGroup curve_group();

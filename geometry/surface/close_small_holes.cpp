@@ -28,6 +28,7 @@ struct Loop {
   double length = 0;
   std::vector<std::array<int, 2>> sides;  ///< as they run around the face
   bool simple = true;                     ///< every point has one side that comes and one that goes
+  bool named = false;                     ///< a curve of it
 };
 
 /// The loops of all faces, by face.
@@ -35,11 +36,14 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
   struct HoleSide {
     std::array<int, 2> ends;
     int other;
+    bool named;
   };
   std::vector<std::vector<HoleSide>> of_face(mesh.regions.size());
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  for (const auto& line : mesh.lines) {
-    const auto edge = sides_of_edge(std::span(sides), line[0], line[1]);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto [a, b] = mesh.lines[l];
+    const bool named = !mesh.curves[mesh.line_curve[l]].names.empty();
+    const auto edge = sides_of_edge(std::span(sides), a, b);
     for (const HalfEdge& side : edge) {
       const int face = mesh.triangle_region[side.element];
       const int other = edge.size() == 1   ? -1
@@ -47,7 +51,7 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
                                            : -2;
       if (other == face) continue;  // a seam
       of_face[face].push_back(
-          {side.forward ? std::array{side.lo, side.hi} : std::array{side.hi, side.lo}, other});
+          {side.forward ? std::array{side.lo, side.hi} : std::array{side.hi, side.lo}, other, named});
     }
   }
   std::vector<std::vector<Loop>> loops(mesh.regions.size());
@@ -65,6 +69,7 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
       loop.face = static_cast<int>(face);
       loop.length += norm(mesh.points[side.ends[1]] - mesh.points[side.ends[0]]);
       loop.sides.push_back(side.ends);
+      loop.named |= side.named;
     }
     for (auto& [set, loop] : by_set) {
       std::map<int, std::array<int, 2>> passes;
@@ -78,10 +83,11 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
 
 class SmallHoles {
  public:
-  SmallHoles(SurfaceModel& model, double length)
+  SmallHoles(SurfaceModel& model, const NarrowOptions& narrow)
       : model_(model),
         mesh_(model.fine),
-        length_(length),
+        length_(narrow.length),
+        keep_named_(narrow.keep_named),
         loops_(find_loops(mesh_)),
         tube_(mesh_.regions.size(), 0) {}
 
@@ -113,7 +119,19 @@ class SmallHoles {
     return tube_[loop.face] > 0 && (loop.other < 0 || tube_[loop.other] != tube_[loop.face]);
   }
   bool closable(const Loop& loop) const {
-    return is_short(loop) && loop.simple && loop.sides.size() > 2 && tube_[loop.face] == 0;
+    return is_short(loop) && loop.simple && loop.sides.size() > 2 && tube_[loop.face] == 0 &&
+           !(keep_named_ && loses_name(loop));
+  }
+  /// Whether no other has the name of a curve of the hole, or of a face that lines it.
+  bool loses_name(const Loop& loop) const {
+    if (loop.named) return true;
+    for (std::size_t face = 0; face < tube_.size() && loop.other >= 0; ++face) {
+      if (tube_[face] == 0 || tube_[face] != tube_[loop.other]) continue;
+      if (!has_names_of(mesh_.regions[loop.face], mesh_.regions[face]) ||
+          std::ranges::any_of(loops_[face], &Loop::named))
+        return true;
+    }
+    return false;
   }
   /// The same loop as the face on the other side has it; a loop that cannot be closed where that has more.
   Loop counterpart(const Loop& loop) const {
@@ -209,15 +227,16 @@ class SmallHoles {
   SurfaceModel& model_;
   Mesh& mesh_;
   double length_;
+  bool keep_named_;
   std::vector<std::vector<Loop>> loops_;
   std::vector<int> tube_;  ///< of each face, from 1; 0: none
 };
 
 }  // namespace
 
-SurfaceModel close_small_holes(SurfaceModel model, double length) {
+SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow) {
   const Mesh former = model.fine;
-  if (!SmallHoles(model, length).close()) return model;
+  if (!SmallHoles(model, narrow).close()) return model;
   TidyGroups kept = tidy_model(model);
   regroup(model, former, kept.faces, std::move(kept.curves));
   return model;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "base/disjoint_sets.h"
 #include "base/sort_unique.h"
@@ -86,6 +87,15 @@ std::vector<Entity> merged(const std::vector<Entity>& entities, const Groups& me
   return all;
 }
 
+/// Of several with one tag, the first keeps it.
+void set_tags_of_pieces(std::vector<Entity>& curves) {
+  int greatest = 0;
+  for (const Entity& curve : curves) greatest = std::max(greatest, curve.tag);
+  std::set<int> taken;
+  for (Entity& curve : curves)
+    if (!taken.insert(curve.tag).second) curve.tag = ++greatest;
+}
+
 /// Lines of curves with the same names, of as many triangles, are of one kind.
 std::vector<int> kinds_of_lines(const Mesh& mesh) {
   std::map<std::pair<std::vector<std::string>, std::size_t>, int> kind_of;
@@ -113,6 +123,7 @@ Groups rechain(SurfaceModel& model, const std::vector<char>& corner) {
     members.push_back(std::move(curves));
   }
   model.fine.curves = merged(model.fine.curves, members);
+  set_tags_of_pieces(model.fine.curves);
   return members;
 }
 

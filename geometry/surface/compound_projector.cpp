@@ -62,12 +62,33 @@ class CompoundProjector final : public SurfaceProjector {
   EntityGroups curves_;           // members of each
 };
 
+class CurvesOnFaces final : public SurfaceProjector {
+ public:
+  CurvesOnFaces(std::shared_ptr<const SurfaceProjector> base, int first_curve, std::vector<int> faces)
+      : base_(std::move(base)), first_curve_(first_curve), faces_(std::move(faces)) {}
+  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(face, x); }
+  Vec3 to_curve(int curve, const Vec3& x) const override {
+    return curve < first_curve_ ? base_->to_curve(curve, x) : to_face(faces_[curve - first_curve_], x);
+  }
+  double face_curvature(int face, const Vec3& x) const override { return base_->face_curvature(face, x); }
+
+ private:
+  std::shared_ptr<const SurfaceProjector> base_;
+  int first_curve_;
+  std::vector<int> faces_;
+};
+
 }  // namespace
 
 EntityGroups each_alone(std::size_t n) {
   EntityGroups groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({static_cast<int>(i)});
   return groups;
+}
+
+std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
+                                                             int first_curve, std::vector<int> faces) {
+  return std::make_shared<CurvesOnFaces>(std::move(base), first_curve, std::move(faces));
 }
 
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves) {

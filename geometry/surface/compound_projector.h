@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "geometry/surface/surface_model.h"
@@ -16,6 +17,10 @@ EntityGroups each_alone(std::size_t n);
 /// projector goes to those of the faces that became one on whose fine triangles the nearest point lies, and
 /// to the nearest of the curves. `former`: the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
+
+/// The same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.
+std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
+                                                             int first_curve, std::vector<int> faces);
 
 /// The former numbers of what is left.
 struct TidyGroups {

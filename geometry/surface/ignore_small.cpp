@@ -6,11 +6,15 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
+#include "base/segment.h"
 #include "base/sort_unique.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -34,42 +38,66 @@ std::vector<double> curve_lengths(const Mesh& mesh) {
   return lengths;
 }
 
+Vec3 area_vector(const Mesh& mesh, int triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+}
+
+/// How much a length of a curve counts where two triangles meet: from a fourth, at 90 degrees and more, to 1.
+double smoothness(const Mesh& mesh, const HalfEdge& one, const HalfEdge& other) {
+  constexpr double kLeast = 0.25;
+  const Vec3 m = area_vector(mesh, one.element), n = area_vector(mesh, other.element);
+  const double both = norm(m) * norm(n);
+  const double cosine = both > 0 ? (one.forward == other.forward ? -1 : 1) * dot(m, n) / both : 0;
+  return kLeast + (1 - kLeast) * std::max(0.0, cosine);
+}
+
 /// Joins narrow faces with their neighbours, the narrowest first.
 class FaceJoiner {
  public:
-  explicit FaceJoiner(const Mesh& mesh) : mesh_(mesh), sets_(mesh.regions.size()) {
+  /// `origin`: of each face the one that it is a part of, see cut_narrow_parts().
+  FaceJoiner(const Mesh& mesh, const std::vector<int>& origin, const NarrowOptions& narrow)
+      : mesh_(mesh), origin_(origin), narrow_(narrow), sets_(mesh.regions.size()) {
     for (std::size_t face = 0; face < sets_.size(); ++face) sets_[face].members = {static_cast<int>(face)};
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      sets_[mesh.triangle_region[t]].area +=
-          norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      Set& set = sets_[mesh.triangle_region[t]];
+      set.area += norm(area_vector(mesh, t)) / 2;
+      set.is_kept |= is_kept(mesh, t, narrow);
     }
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-    for (const auto& line : mesh.lines) {
-      const double length = length_of(mesh, line);
-      const auto edge = sides_of_edge(std::span(sides), line[0], line[1]);
-      for (const HalfEdge& side : edge) set_of(side).outline += length;
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+      const double length = length_of(mesh, mesh.lines[l]);
+      const auto edge = sides_of_edge(std::span(sides), mesh.lines[l][0], mesh.lines[l][1]);
+      for (const HalfEdge& side : edge) sets_[mesh.triangle_region[side.element]].outline += length;
       if (edge.size() != 2) continue;
       const int f = mesh.triangle_region[edge[0].element], g = mesh.triangle_region[edge[1].element];
       if (f == g) {
         sets_[f].outline -= 2 * length;  // a seam
         continue;
       }
-      sets_[f].common[g] += length;
-      sets_[g].common[f] += length;
+      const bool stays = narrow.keep_named && !mesh.curves[mesh.line_curve[l]].names.empty();
+      const double weight = stays ? 0 : smoothness(mesh, edge[0], edge[1]) * length;
+      for (const auto& [one, other] : {std::array{f, g}, {g, f}}) {
+        sets_[one].common[other].length += length;
+        sets_[one].common[other].weight += weight;
+      }
     }
   }
 
   /// Groups of faces, the one that keeps its name first. Says which became part of which.
-  EntityGroups join(double length, std::vector<Warning>& warnings) {
-    while (const std::optional<int> narrow = narrowest(length)) {
-      Set& thin = sets_[*narrow];
-      const int host =
-          std::ranges::max_element(thin.common, {}, [](const auto& c) { return c.second; })->first;
-      const Entity& face = mesh_.regions[thin.members[0]];
-      warnings.push_back({"narrow faces that became part of others", 1 / thin.width(),
-                          fmt::format("{}, {:.3g} wide, became part of {}", title("face", face), thin.width(),
-                                      title("face", mesh_.regions[sets_[host].members[0]]))});
+  EntityGroups join(std::vector<Warning>& warnings) {
+    while (const std::optional<int> narrow = narrowest()) {
+      const Set& thin = sets_[*narrow];
+      const int host = host_of(thin), face = thin.members[0];
+      const bool whole = origin_[face] == face;
+      warnings.push_back(
+          {whole ? "narrow faces that became part of others"
+                 : "narrow parts of faces that became part of others",
+           1 / thin.width(),
+           fmt::format("{}{}, {:.3g} wide, became part of {}, at {}", whole ? "" : "a part of ",
+                       title("face", mesh_.regions[origin_[face]]), thin.width(),
+                       title("face", mesh_.regions[origin_[sets_[host].members[0]]]),
+                       show_point(place_of(face)))});
       unite(*narrow, host);
     }
     EntityGroups groups;
@@ -79,23 +107,39 @@ class FaceJoiner {
   }
 
  private:
+  /// Curves that two sets share.
+  struct Common {
+    double length = 0, weight = 0;
+  };
   struct Set {
     std::vector<int> members;  ///< faces; none: has become part of another set
     double area = 0, outline = 0;
-    std::map<int, double> common;  ///< lengths of curves shared with other sets
+    bool is_kept = false;
+    std::map<int, Common> common;  ///< with other sets
     double width() const {
       return outline > 0 ? 2 * area / outline : std::numeric_limits<double>::infinity();
     }
   };
 
-  Set& set_of(const HalfEdge& side) { return sets_[mesh_.triangle_region[side.element]]; }
+  /// Of which a set may become part; -1: of none.
+  int host_of(const Set& set) const {
+    int best = -1;
+    double most = 0;
+    for (const auto& [other, common] : set.common) {
+      const int face = set.members[0], host = sets_[other].members[0];
+      if (!(common.weight > most) || origin_[face] == origin_[host]) continue;
+      if (narrow_.keep_named && !has_names_of(mesh_.regions[host], mesh_.regions[face])) continue;
+      best = other, most = common.weight;
+    }
+    return best;
+  }
 
-  std::optional<int> narrowest(double length) const {
+  std::optional<int> narrowest() const {
     std::optional<int> best;
     for (std::size_t i = 0; i < sets_.size(); ++i) {
       const Set& set = sets_[i];
-      if (set.members.empty() || set.area == 0 || set.common.empty() || !(set.width() < length)) continue;
-      if (!best || set.width() < sets_[*best].width()) best = static_cast<int>(i);
+      if (set.members.empty() || set.area == 0 || set.is_kept || !(set.width() < narrow_.length)) continue;
+      if ((!best || set.width() < sets_[*best].width()) && host_of(set) >= 0) best = static_cast<int>(i);
     }
     return best;
   }
@@ -106,16 +150,25 @@ class FaceJoiner {
     Set& to = sets_[host];
     to.members.insert(to.members.end(), from.members.begin(), from.members.end());
     to.area += from.area;
-    to.outline += from.outline - 2 * from.common.at(host);
-    for (const auto& [other, length] : from.common) {
+    to.outline += from.outline - 2 * from.common.at(host).length;
+    for (const auto& [other, common] : from.common) {
       sets_[other].common.erase(narrow);
       if (other == host) continue;
-      sets_[other].common[host] += length;
-      to.common[other] += length;
+      for (Common* sum : {&sets_[other].common[host], &to.common[other]})
+        sum->length += common.length, sum->weight += common.weight;
     }
   }
 
+  /// A point of the face.
+  Vec3 place_of(int face) const {
+    const auto at = std::ranges::find(mesh_.triangle_region, face) - mesh_.triangle_region.begin();
+    const auto& [a, b, c] = mesh_.triangles[at];
+    return (1.0 / 3) * (mesh_.points[a] + mesh_.points[b] + mesh_.points[c]);
+  }
+
   const Mesh& mesh_;
+  const std::vector<int>& origin_;
+  const NarrowOptions& narrow_;
   std::vector<Set> sets_;
 };
 
@@ -215,65 +268,132 @@ std::vector<int> nodes_of_curve(const Mesh& mesh, int curve) {
   return nodes;
 }
 
-/// The model with the curve's nodes in the last of `nodes`; nothing where that cannot be.
-std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int>& nodes) {
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
-    if (!contract_line(model, nodes[i], nodes[i + 1])) return std::nullopt;
+/// How far at most the points that are one with a point have come; points behind the last: no way.
+using Moved = std::vector<double>;
+
+/// The model with the curve's nodes in the last of `nodes`; nothing where that cannot be, or takes a point
+/// farther than `most`.
+std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int>& nodes, double most,
+                                       Moved& moved) {
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const int a = nodes[i], b = nodes[i + 1];
+    moved.resize(model.fine.points.size(), 0);
+    moved[b] = std::max(moved[b], moved[a] + length_of(model.fine, {a, b}));
+    if (moved[b] > most || !contract_line(model, a, b)) return std::nullopt;
+  }
   return model;
 }
 
 /// Whether something became of a curve.
-bool contract_curve(SurfaceModel& model, int curve) {
+bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
   std::vector<int> nodes = nodes_of_curve(model.fine, curve);
   if (nodes.front() == nodes.back()) return false;
   for (const bool reversed : {false, true}) {
     if (reversed) std::ranges::reverse(nodes);
-    if (std::optional<SurfaceModel> result = contracted(model, nodes)) {
+    Moved then = moved;
+    if (std::optional<SurfaceModel> result = contracted(model, nodes, most, then)) {
       model = std::move(*result);
+      moved = std::move(then);
       return true;
     }
   }
   return false;
 }
 
-/// Contracts curves shorter than `length`, the shortest first.
-SurfaceModel contract_short_curves(SurfaceModel model, double length) {
-  const std::vector<double> lengths = curve_lengths(model.fine);
+/// Contracts curves shorter than that, the shortest first.
+SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narrow) {
+  const Mesh& mesh = model.fine;
+  const std::vector<double> lengths = curve_lengths(mesh);
+  std::vector<char> stays(lengths.size(), 0);
+  for (std::size_t c = 0; c < lengths.size(); ++c)
+    stays[c] = narrow.keep_named && !mesh.curves[c].names.empty();
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    stays[mesh.line_curve[l]] |= std::ranges::any_of(narrow.kept, [&](const FeatureBall& ball) {
+      const auto& [a, b] = mesh.lines[l];
+      return distance_to_segment(ball.at, mesh.points[a], mesh.points[b]) < ball.reach;
+    });
   std::vector<int> order;
   for (std::size_t c = 0; c < lengths.size(); ++c)
-    if (lengths[c] < length) order.push_back(static_cast<int>(c));
+    if (lengths[c] < narrow.length && !stays[c]) order.push_back(static_cast<int>(c));
   if (order.empty()) return model;
   std::ranges::stable_sort(order, {}, [&](int c) { return lengths[c]; });
   const Mesh former = model.fine;
+  Moved moved;
   for (const int curve : order) {
     const std::string name =
         fmt::format("{}, {:.3g} long,", title("curve", former.curves[curve]), lengths[curve]);
-    const bool gone = contract_curve(model, curve);
+    const std::string place =
+        show_point(former.points[former.lines[std::ranges::find(former.line_curve, curve) -
+                                              former.line_curve.begin()][0]]);
+    const bool gone = contract_curve(model, curve, narrow.length, moved);
     model.warnings.push_back(
         {gone ? "short curves that became points" : "short curves that stay", 1 / lengths[curve],
-         gone ? name + " became a point"
-              : name + " stays: it is closed, or the surface would fold or tear without it"});
+         fmt::format(
+             "{} {} at {}", name,
+             gone ? "became a point"
+                  : "stays: it is closed, or the surface would fold or tear without it, or move too far,",
+             place)});
   }
   TidyGroups kept = tidy_model(model);
   regroup(model, former, kept.faces, std::move(kept.curves));
   return model;
 }
 
+/// Says which names nothing has any more.
+void report_lost_names(const char* kind, const std::vector<Entity>& before, const std::vector<Entity>& after,
+                       std::vector<Warning>& warnings) {
+  std::set<std::string> there;
+  for (const Entity& entity : after) there.insert(entity.names.begin(), entity.names.end());
+  for (const Entity& entity : before)
+    for (const std::string& name : entity.names)
+      if (there.insert(name).second)
+        warnings.push_back({"names that went with what is small", 1,
+                            fmt::format("no {} has the name '{}' any more: {} {} was too small "
+                                        "(curves.keep_named keeps it)",
+                                        kind, name, kind, entity.tag)});
+}
+
 }  // namespace
 
-SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptions& options) {
+bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const std::vector<Vec3>& p = mesh.points;
+  return std::ranges::any_of(narrow.kept, [&](const FeatureBall& ball) {
+    const auto w = nearest_weights(p[a], p[b], p[c], ball.at);
+    return norm(w[0] * p[a] + w[1] * p[b] + w[2] * p[c] - ball.at) < ball.reach;
+  });
+}
+
+bool has_names_of(const Entity& host, const Entity& other) {
+  return std::ranges::all_of(other.names, [&](const std::string& name) {
+    return std::ranges::find(host.names, name) != host.names.end();
+  });
+}
+
+bool may_join(const Mesh& mesh, int curve, int face, int host, const NarrowOptions& narrow) {
+  return face != host && (!narrow.keep_named || (mesh.curves[curve].names.empty() &&
+                                                 has_names_of(mesh.regions[host], mesh.regions[face])));
+}
+
+SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow, const CompoundOptions& options) {
+  const double length = narrow.length;
   if (const double size = diagonal(model.fine); !(length < size))
     throw InputError(
         fmt::format("{}: faces and curves below {:.6g} are to be ignored: expected a length far below the "
                     "diagonal, {:.3g}",
                     model.source, length, size));
-  model = close_small_holes(std::move(model), length);
-  const EntityGroups groups = FaceJoiner(model.fine).join(length, model.warnings);
+  const std::vector<Entity> faces = model.fine.regions, curves = model.fine.curves;
+  model = close_small_holes(std::move(model), narrow);
+  const std::vector<int> origin = cut_narrow_parts(model, narrow);
+  const EntityGroups groups = FaceJoiner(model.fine, origin, narrow).join(model.warnings);
   for (const auto& group : groups)
     for (const int face : group) model.fine.regions[face] = model.fine.regions[group[0]];
   model = make_compound(std::move(model), groups, options);
-  return contract_short_curves(merge_short_curves(std::move(model), length, options, ShortRest::kSilent),
-                               length);
+  model = contract_short_curves(merge_short_curves(std::move(model), length, options, ShortRest::kSilent),
+                                narrow);
+  report_lost_names("face", faces, model.fine.regions, model.warnings);
+  report_lost_names("curve", curves, model.fine.curves, model.warnings);
+  return model;
 }
 
 }  // namespace delquad

@@ -1,26 +1,54 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/surface/compound.h"
 #include "geometry/surface/surface_model.h"
+#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 
+struct NarrowOptions {
+  double length = 0;  ///< what is narrower goes
+  /// What has a name stays: a face becomes only part of one with all its names, and curves with names stay.
+  bool keep_named = false;
+  /// Faces and parts of faces that reach into these stay.
+  std::vector<FeatureBall> kept = {};
+};
+
 /// The model without what is smaller than `length`:
 /// - holes of a shorter outline are closed, see close_small_holes();
-/// - a face narrower than that (twice its area by the length of its outline) becomes part of the neighbour
-/// with
-///   which it shares the longest curves; that one keeps its tag and names;
+/// - parts of faces narrower than that (cusps, necks, steps that run out) are cut off, see
+/// cut_narrow_parts();
+/// - such a part, and a face narrower than that (twice its area by the length of its outline), becomes part
+/// of
+///   the neighbour with which it shares the longest curves, those that join smoothly counting most; that one
+///   keeps its tag and names;
 /// - a shorter curve becomes one with a curve that it continues (merge_short_curves);
-/// - of other shorter curves, both ends become one point, where the surface stays what it is by that.
-/// Warnings name each of these, and the short curves that stay. Throws InputError for a length that is not
-/// below the model's diagonal.
-SurfaceModel ignore_small(SurfaceModel model, double length, const CompoundOptions& options = {});
+/// - of other shorter curves, both ends become one point, where the surface stays what it is by that, and no
+///   point moves farther than `length`.
+/// Warnings name each of these with its place, the short curves that stay, and names that no face and no
+/// curve has any more. Throws InputError for a length that is not below the model's diagonal.
+SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow,
+                          const CompoundOptions& options = {});
 
 /// The model without holes of which the outline is shorter than `length`: where it bounds nothing else, or
 /// leads into a tube or a pocket. A tube is a group of faces that hang together, all of whose outlines are so
 /// short, and whose area is not much more than that of a tube of such a girth and their extent; it goes. The
 /// hole is closed by triangles of the face around it. What has several faces around it stays. Warnings name
 /// each hole.
-SurfaceModel close_small_holes(SurfaceModel model, double length);
+SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow);
+
+/// Cuts faces where they become narrower than that for a while and have a neighbour that they may become part
+/// of. What is so narrow becomes faces of their own, and so do all that is left but the largest, behind the
+/// others. Returns for each face the one that it was a part of.
+std::vector<int> cut_narrow_parts(SurfaceModel& model, const NarrowOptions& narrow);
+
+/// Whether a triangle reaches into what is kept.
+bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow);
+/// Whether it has all names of the other.
+bool has_names_of(const Entity& host, const Entity& other);
+/// Whether a face may become part of another one across this curve.
+bool may_join(const Mesh& mesh, int curve, int face, int host, const NarrowOptions& narrow);
 
 }  // namespace delquad

@@ -57,7 +57,7 @@ bool has_text(const std::vector<std::string>& all, const std::string& part) {
 
 TEST(IgnoreSmall, LeavesWhatIsLargerAlone) {
   const SurfaceModel model = model_of(box(2));
-  const SurfaceModel same = ignore_small(model, kLength);
+  const SurfaceModel same = ignore_small(model, {kLength});
   EXPECT_EQ(same.fine.points, model.fine.points);
   EXPECT_EQ(same.fine.triangles, model.fine.triangles);
   EXPECT_EQ(same.fine.lines, model.fine.lines);
@@ -67,7 +67,7 @@ TEST(IgnoreSmall, LeavesWhatIsLargerAlone) {
 
 TEST(IgnoreSmall, LengthsBeyondTheModelAreRefused) {
   const SurfaceModel model = make_surface_model(box(1), {.source = "box.stl"});
-  expect_input_error([&] { ignore_small(model, 2); }, {"box.stl", "2", "1.73"});
+  expect_input_error([&] { ignore_small(model, {2}); }, {"box.stl", "2", "1.73"});
 }
 
 TEST(IgnoreSmall, TheRimOfAPlateBecomesPartOfIt) {
@@ -76,7 +76,7 @@ TEST(IgnoreSmall, TheRimOfAPlateBecomesPartOfIt) {
   mesh.regions[5].names = {"upper"};
   mesh.regions[0].names = {"rim"};
   const SurfaceModel model = model_of(mesh);
-  const SurfaceModel plate = ignore_small(model, kLength);
+  const SurfaceModel plate = ignore_small(model, {kLength});
   expect_counts(plate, 2, 4, 4);
   for (const Entity& face : plate.fine.regions) EXPECT_EQ(face.names.size(), 1u) << "the rim's name went on";
   const auto said = new_texts(model, plate);
@@ -87,7 +87,7 @@ TEST(IgnoreSmall, TheRimOfAPlateBecomesPartOfIt) {
 TEST(IgnoreSmall, AChamferGoesWithItsShortCurves) {
   const SurfaceModel model = model_of(prism({{0, 0}, {1, 0}, {1, 0.99}, {0.99, 1}, {0, 1}}, 1));
   expect_counts(model, 7, 15, 10);
-  const SurfaceModel brick = ignore_small(model, kLength);
+  const SurfaceModel brick = ignore_small(model, {kLength});
   expect_counts(brick, 6, 12, 8);
   EXPECT_NEAR(volume(brick.fine), 1, 0.02);
   const auto said = new_texts(model, brick);
@@ -97,7 +97,7 @@ TEST(IgnoreSmall, AChamferGoesWithItsShortCurves) {
 TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
   // A wedge whose edge is cut off: a face .01 wide and 1 high, between two long ones.
   const SurfaceModel model = model_of(prism({{0, 0}, {1, -0.005}, {1, 0.005}}, 1));
-  const SurfaceModel wedge = ignore_small(model, 0.012);
+  const SurfaceModel wedge = ignore_small(model, {0.012});
   EXPECT_EQ(testing_support::violations(wedge), std::vector<std::string>{});
   EXPECT_LT(wedge.fine.regions.size(), model.fine.regions.size());
 }
@@ -144,7 +144,7 @@ Mesh cube_with_hole(double radius, double depth) {
 void expect_hole_closes(const Mesh& mesh, std::size_t faces) {
   const SurfaceModel model = make_surface_model(mesh, {.feature_angle = 60});
   EXPECT_EQ(model.fine.regions.size(), faces);
-  const SurfaceModel cube = ignore_small(model, kLength);
+  const SurfaceModel cube = ignore_small(model, {kLength});
   expect_counts(cube, 6, 12, 8);
   EXPECT_NEAR(volume(cube.fine), 1, 1e-12);
   EXPECT_TRUE(has_text(new_texts(model, cube), "face 2: closed a hole of 0.0306 around"));
@@ -188,15 +188,15 @@ TEST(TidyModel, BodiesThatTouchWhereNoCurveIsArePartedThere) {
 
 TEST(IgnoreSmall, LargerHolesStay) {
   const SurfaceModel model = make_surface_model(cube_with_hole(0.01, 1), {.feature_angle = 60});
-  const SurfaceModel same = ignore_small(model, kLength);
+  const SurfaceModel same = ignore_small(model, {kLength});
   EXPECT_EQ(same.fine.triangles, model.fine.triangles);
 }
 
 TEST(IgnoreSmall, WhatIsSmallAltogetherIsNoHole) {
   const SurfaceModel cube = model_of(box(1));
-  EXPECT_EQ(close_small_holes(cube, 100).fine.triangles, cube.fine.triangles);
+  EXPECT_EQ(close_small_holes(cube, {100}).fine.triangles, cube.fine.triangles);
   const SurfaceModel square = make_surface_model(testing_support::triangle_grid(2, 2));
-  EXPECT_EQ(close_small_holes(square, 100).fine.triangles, square.fine.triangles);
+  EXPECT_EQ(close_small_holes(square, {100}).fine.triangles, square.fine.triangles);
 }
 
 /// Two squares joined by a neck .01 wide, each a face.
@@ -214,7 +214,7 @@ Mesh neck() {
 
 TEST(IgnoreSmall, ANeckIsNotTorn) {
   const SurfaceModel model = model_of(neck());
-  const SurfaceModel same = ignore_small(model, kLength);
+  const SurfaceModel same = ignore_small(model, {kLength});
   EXPECT_EQ(same.fine.triangles, model.fine.triangles);
   EXPECT_TRUE(has_text(new_texts(model, same), "0.01 long, stays"));
 }
