@@ -117,8 +117,8 @@ UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
 }
 
 /// Of each region, whether its mesh can be made anew across its cuts. Not those of symmetric and periodic
-/// surfaces, whose sides must stay images of each other, not those with grids, and none where elements will
-/// be curved.
+/// surfaces, whose sides must stay images of each other, not those with grids that were asked for, and none
+/// where elements will be curved.
 std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
   std::vector<char> regions(prepared.boundary.regions.size(), 0);
   if (prepared.surface->mirrored || prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
@@ -126,7 +126,7 @@ std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
     return regions;
   for (const SurfaceCut& cut : prepared.surface->cuts) regions[cut.face] = 1;
   for (const PreparedPatch& patch : prepared.patches)
-    if (patch.grid) regions[patch.region] = 0;
+    if (patch.grid && patch.grid_stays) regions[patch.region] = 0;
   return regions;
 }
 

@@ -61,7 +61,8 @@ bool keep_better(Finishing& on) {
   MeshResult given;
   given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
   measure(on.prepared, on.left_out, given);
-  const MeshResult before = as_it_was(given, *on.prepared.given_worst);
+  const std::optional<GivenWorst>& worst = on.prepared.given_worst;  // none of triangles
+  const MeshResult before = worst ? as_it_was(given, *worst) : given;
   if (!is_worse(result, before)) return false;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {

@@ -235,7 +235,7 @@ void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
 template <class Vec>
 OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
                              const std::vector<std::array<int, 4>>& quads, VertexTracks<Vec>& tracks) {
-  const bool keep = in.began_from_given && repair_options(in.options).keep_given;
+  const bool keep = in.began_from_given && in.prepared.given_worst && repair_options(in.options).keep_given;
   const std::vector<Vec> before = points;
   std::vector<Vec2> positions;
   for (std::size_t v = 0; keep && v < points.size(); ++v)

@@ -139,8 +139,8 @@ void print_after(const std::string& file, const MeshResult& result, double secon
                log.number("grids", "asked"), log.number("grids", "quads"));
   if (const auto quads = result.prepared.problem().quads) {
     const auto [least, most] = size_on(result.mesh, *prepared.size.field);
-    fmt::print("  size: {:.6g}{} for {} quads\n", least,
-               most > least ? fmt::format(" to {:.6g}", most) : "", *quads);
+    fmt::print("  size: {:.6g}{} for {} quads\n", least, most > least ? fmt::format(" to {:.6g}", most) : "",
+               *quads);
   }
   if (!prepared.size.adapted_to.empty())
     fmt::print("  size: made smaller for {}: tau and edges are measured against that, tau given is not\n",
