@@ -210,7 +210,9 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
           if (patches[i].form != stage.to) patches[i] = given_to(stage, prepared, prepared.patches[i]);
           return;
         }
-        if (const auto& grid = prepared.patches[i].grid) {
+        // Those that were found are quads like others once they are there.
+        if (const auto& grid = prepared.patches[i].grid;
+            grid && (prepared.patches[i].grid_stays || stage.from != PatchForm::kQuads)) {
           if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
           return;
         }

@@ -29,8 +29,8 @@ struct PreparedPatch {
   std::function<Vec3(Vec2, int& hint)> lift;
   /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
   std::optional<PatchImage> image = {};
-  std::optional<QuadPatch> grid = {};  ///< of a mapped face: its mesh, whose quads no stage changes
-  bool grid_stays = false;             ///< nor its points: it was asked for
+  std::optional<QuadPatch> grid = {};  ///< of a mapped face: the quads that it begins with
+  bool grid_stays = false;             ///< which no stage changes: it was asked for
   QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
   std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
   bool given_stays = false;             ///< no stage changes them
