@@ -22,7 +22,7 @@ namespace {
 /// the mean, and the lengths of edges fit the size so well in the mean: about what a free mesh has.
 constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
 /// Of narrow ones angles may be so bad (40 degrees), as rows that end make them, and edges so long, in sizes.
-constexpr double kLeastNarrowEta = 4.0 / 9, kLongestNarrow = 2;
+constexpr double kLeastNarrowEta = 4.0 / 9, kLongestNarrow = 1.75;
 
 struct GridQuality {
   double mean = 0, worst = 1;
