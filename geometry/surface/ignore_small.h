@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/surface/compound.h"
 #include "geometry/surface/surface_model.h"
 #include "geometry/surface/triangulated_model.h"
