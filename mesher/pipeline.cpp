@@ -7,9 +7,13 @@
 #include <variant>
 
 #include "base/activity.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirrored_surface.h"
+#include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -126,6 +130,29 @@ Mesh put_together(Finishing& on) {
   return assemble(on.prepared, on.state.nodes.points, on.state.patches, on.left_out, &on.result.log);
 }
 
+namespace {
+
+/// Tells how far nodes lie from a CAD model as it was read, where what is small in it went.
+void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
+  if (!prepared.surface || !prepared.surface->ignores_small || !prepared.surface->cad ||
+      !has_finite_points(result.mesh))
+    return;
+  const Mesh& fine = prepared.surface->cad->fine;
+  const NearestTriangle nearest(fine.points, fine.triangles);
+  const std::vector<Vec3>& nodes = result.mesh.points;
+  std::vector<double> distances(nodes.size());
+  parallel_ranges(nodes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) distances[i] = nearest.find(nodes[i]).distance;
+  });
+  const auto most = std::ranges::max_element(distances);
+  result.warnings.push_back(
+      {"farthest nodes", *most,
+       fmt::format("{}: nodes lie up to {:.3g} from the model's triangulation as it was read, at {}",
+                   prepared.settings.name, *most, show_point(nodes[most - distances.begin()]))});
+}
+
+}  // namespace
+
 MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
   Finishing on{prepared, state, {}, {}, label};
   MeshResult& result = on.result;
@@ -139,6 +166,7 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, on.left_out, result);
   run_finish_steps(FinishAt::kMeasured, on);
+  tell_farthest_node(prepared, result);
   result.peak_memory = peak_memory();
   const BadQuads bad =
       judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);

@@ -106,8 +106,7 @@ class ChartView {
       const double over = dot(cross(d, out), normal);
       if (over == 0) return std::nullopt;
       const double way = dot(cross(from_end - x, out), normal) / over;
-      const double part = dot(cross(from_end - x, d), normal) / over;
-      const double u = std::clamp(part, 0.0, 1.0);
+      const double part = dot(cross(from_end - x, d), normal) / over, u = std::clamp(part, 0.0, 1.0);
       left -= way;
       if (!(way >= 0) || left < 0) return std::nullopt;
       const int j = to_left ? (k + 2) % 3 : (k + 1) % 3;  // the corner opposite to that side
