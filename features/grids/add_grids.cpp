@@ -11,6 +11,7 @@
 #include "features/grids/mapped_grid.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/quad_corners.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
 #include "patches/places_inside.h"
@@ -21,15 +22,13 @@ namespace {
 /// What is found of itself is a grid where eta is at least so much at worst and, with more than two rows, in
 /// the mean, and the lengths of edges fit the size so well in the mean: about what a free mesh has.
 constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
-/// Of narrow ones angles may be so bad (40 degrees), as rows that end make them, and edges so long, in sizes.
-constexpr double kLeastNarrowEta = 4.0 / 9, kLongestNarrow = 1.75;
 
 struct GridQuality {
   double mean = 0, worst = 1;
   double fit = 0;      ///< of the sides: length / delta, or its inverse where that is less
   double longest = 0;  ///< of the sides, in sizes
   bool pays(bool is_narrow) const {
-    return is_narrow ? worst >= kLeastNarrowEta && longest <= kLongestNarrow
+    return is_narrow ? worst >= kAskedEta && longest <= kAskedLong
                      : worst >= kLeastEta && mean >= kLeastMeanEta && fit >= kLeastFit;
   }
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/predicates.h"
+#include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/relocation/untangling.h"
@@ -17,8 +18,6 @@ namespace {
 /// Stations on each line across a ring at which the size is asked for, and lines at most.
 constexpr int kRingStations = 16;
 constexpr std::size_t kMostRingLines = 64;
-/// A ring gets more rows where edges across were longer than this, in sizes, and do not get shorter.
-constexpr double kLongest = 1.75, kShortest = 0.33;
 /// Passes of the optimisation of a grid, at most, and steps in each: lines that bend where grids meet take
 /// many to become smooth.
 constexpr int kGridPasses = 6, kGridSteps = 200;
@@ -244,7 +243,8 @@ std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricS
   }
   for (int k = 0; k < kRingStations; ++k) edges[k + 1] = edges[k] + edges[k + 1] / lines;
   int wanted = std::max(1, static_cast<int>(std::lround(edges.back())));
-  while (widest > kLongest * wanted && narrowest >= kShortest * (wanted + 1)) ++wanted;
+  // More rows where edges across were longer than is asked for, and do not get shorter than that.
+  while (widest > kAskedLong * wanted && narrowest >= kAskedShort * (wanted + 1)) ++wanted;
   std::vector<double> layers;
   for (int j = 1, k = 0; j < wanted; ++j) {
     const double target = edges.back() * j / wanted;

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <set>
 
+#include "base/segment.h"
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 namespace {
@@ -60,6 +63,27 @@ class FaceOutlines {
     for (const auto& loop : outline)
       for (const OutlinePart& part : loop) want += part.want;
     return area * want / length * want / length;
+  }
+
+  /// Of a ring: whether with some number of rows its edges across are neither too short nor too long.
+  bool has_rows(int face, const FaceOutline& outline) const {
+    const std::vector<Arrangement::Cycle>& cycles = arrangement_.faces[face].cycles;
+    const auto end = [&](int side) {
+      const Vec3& x = lines_.points[start_of(lines_.lines, side)];
+      return Vec2{x.x, x.y};
+    };
+    double length = 0, want = 0, narrowest = std::numeric_limits<double>::infinity(), widest = 0;
+    for (const OutlinePart& part : outline[0]) want += part.want;
+    for (const int side : cycles[0]) {
+      length += norm(end(side ^ 1) - end(side));
+      double width = std::numeric_limits<double>::infinity();
+      for (const int other : cycles[1])
+        width = std::min(width, distance_to_segment(end(side), end(other), end(other ^ 1)));
+      narrowest = std::min(narrowest, width);
+      widest = std::max(widest, width);
+    }
+    const double edge = length / want;
+    return widest <= kAskedLong * edge * std::max(1.0, std::floor(narrowest / (kAskedShort * edge)));
   }
 
  private:
@@ -161,6 +185,8 @@ std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const 
     const auto found = finder.find(static_cast<int>(f), regions.regions[regions.region[f]], outline,
                                    outlines.quads_of(static_cast<int>(f), outline));
     if (!found) continue;
+    const bool is_just_narrow = !found->is_asked && !spec.automatic, is_ring = found->begins.empty();
+    if (is_just_narrow && is_ring && !outlines.has_rows(static_cast<int>(f), outline)) continue;
     auto& face = mapped.emplace_back(MappedPlanarFace{*found, {}});
     for (const auto& loop : outline)
       for (const OutlinePart& part : loop) face.nodes.push_back({part.at.x, part.at.y});
