@@ -53,7 +53,7 @@ TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
   EXPECT_EQ(quads({"--refine", "3"}, model), 900u);
   const auto counted = write_text(folder / "counted.toml", kSquare + "quads = 1600\n");
   EXPECT_EQ(quads({}, counted), 1600u);
-  EXPECT_TRUE(contains(printed, "size: 0.05 for 1600 quads")) << printed;
+  EXPECT_TRUE(contains(printed, "size: 0.025 for 1600 quads")) << printed;
   EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"asked\": 1600"));
   EXPECT_NEAR(double(quads({"--quads", "900", "--size", "0.1 + 0.3*x"}, counted)), 900, 27);
   for (const auto& [given, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
