@@ -66,7 +66,7 @@ CadShape make_sheet() {
   // Two holes that leave a web of .2 between them, a step of .3 in the outline, and a pinhole.
   for (const double x : {60.0, 70.2}) cut(cylinder({x, 30, -1}, {0, 0, 1}, 5, 2));
   cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, kWidth - 0.3, -1), 46, 1, 2));
-  cut(cylinder({85, 12, -1}, {0, 0, 1}, 0.3, 2));
+  cut(cylinder({85, 12, -1}, {0, 0, 1}, 0.2, 2));
   CadShape cad;
   cad.shape = sheet;
   return cad;

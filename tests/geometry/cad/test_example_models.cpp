@@ -122,7 +122,8 @@ const std::vector<Topology> kTopologies = {
     {"free_form", 1, 11, 11, -2, 11},
     // Four sides and two ends.
     {"loft", 6, 12, 8, 2, 0},
-    {"sheet", 3, 20, 18, -5, 18},
+    // Two bends, and of the outline two sides of each face, a step and two ends; six holes.
+    {"sheet", 3, 18, 10, -5, 16},
     // Five sides outside and the rim, five of each room, six holes in walls.
     {"thin_box", 6 + 4 * 5 + 6, 72, 40, 2 - 2 * 6, 0},
     // A block's six sides, four fillets, a hole.
