@@ -177,13 +177,17 @@ std::string experiment_of(const BatchArguments& arguments, const std::map<std::s
   return text;
 }
 
-/// Those of the parts that are done; the folder has no others afterwards.
+/// Of the parts that are done; what an earlier run wrote of others goes.
 void write_parts(const BatchArguments& arguments, const std::vector<CellRecord>& records) {
   const fs::path meshes = arguments.run.folder / "meshes";
   prepare_folder(meshes);
-  for (const CellRecord& record : records)
+  for (const CellRecord& record : records) {
+    const fs::path file = meshes / (record.group + arguments.format);
     if (record.reason.empty())
-      write_mesh(meshes / (record.group + arguments.format), read_mesh(record.folder / "mesh.msh"));
+      write_mesh(file, read_mesh(record.folder / "mesh.msh"));
+    else
+      fs::remove(file);
+  }
 }
 
 int batch_command(BatchArguments arguments) {
@@ -208,7 +212,9 @@ int batch_command(BatchArguments arguments) {
     return at != record.values.end() && at->second > 0;
   };
   const auto failing = std::ranges::count_if(records, fails);
-  fmt::print("{} of {} parts have elements that fail\n", failing, records.size());
+  const auto meshed =
+      std::ranges::count_if(records, [](const CellRecord& record) { return record.reason.empty(); });
+  fmt::print("{} of {} parts were meshed, {} have elements that fail\n", meshed, records.size(), failing);
   const int code = exit_code(outcome, false);
   return code == kDone && arguments.strict && failing > 0 ? kUnsound : code;
 }

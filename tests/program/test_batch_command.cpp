@@ -29,8 +29,8 @@ TEST_F(Batch, MakesATableAPageAndMeshes) {
   write_text(parts_ / "notes.txt", "no model");
   const ProgramResult done = run({"--format", "inp"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  for (const char* part :
-       {"| my_plate ", "| my_plate_2 ", "failing", "time step", "deviation", "0 of 2 parts"})
+  for (const char* part : {"| my_plate ", "| my_plate_2 ", "failing", "time step", "deviation",
+                           "2 of 2 parts were meshed, 0 have"})
     EXPECT_TRUE(contains(done.out, part)) << part << " in " << done.out;
   EXPECT_TRUE(std::filesystem::exists(results_ / "index.html"));
   EXPECT_EQ(read_mesh(results_ / "meshes/my_plate.inp").quads.size(),
@@ -48,13 +48,21 @@ TEST_F(Batch, TellsWhatFailed) {
   EXPECT_EQ(run().exit_code, 0);
   const ProgramResult strict = run({"--strict"});
   EXPECT_EQ(strict.exit_code, 5);
-  EXPECT_TRUE(contains(strict.out, "1 of 1 parts")) << strict.out;
+  EXPECT_TRUE(contains(strict.out, "1 of 1 parts were meshed, 1 have")) << strict.out;
   EXPECT_TRUE(std::filesystem::exists(results_ / "wedge/DBCQO/mesh.msh"));
   write_text(parts_ / "broken.obj", "v 0 0\nf 1 2 3\n");
   const ProgramResult broken = run();
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_TRUE(contains(broken.out, "| wedge ")) << broken.out;
   EXPECT_TRUE(contains(broken.out, "broken DBCQO failed: ")) << broken.out;
+  EXPECT_TRUE(contains(broken.out, "1 of 2 parts were meshed, 1 have")) << broken.out;
+
+  // A mesh of what a part was before does not stay.
+  EXPECT_EQ(run({"--format", "inp"}).exit_code, 2);
+  EXPECT_TRUE(std::filesystem::exists(results_ / "meshes/wedge.inp"));
+  write_text(parts_ / "wedge.obj", "v 0 0\nf 1 2 3\n");
+  EXPECT_EQ(run({"--format", "inp"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(results_ / "meshes/wedge.inp"));
 }
 
 TEST_F(Batch, TakesFurtherSettings) {
