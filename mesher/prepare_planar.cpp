@@ -21,6 +21,7 @@
 #include "fields/sampled_fields.h"
 #include "geometry/planar/check_lines.h"
 #include "mesher/prepare.h"
+#include "mesher/runner.h"
 
 namespace delquad {
 namespace {
