@@ -106,8 +106,12 @@ bool keep_better(Finishing& on) {
     return true;
   }
   if (best) take_mesh(std::move(*best), result);
-  if (result.soundness.sound())
-    result.warnings.push_back(fmt::format("{}: {}", on.label, text_of_price(on.prepared, result, before)));
+  if (!result.soundness.sound()) return best.has_value();
+  std::string price = text_of_price(on.prepared, result, before);
+  if (makes_poor_quads(result, before) && !repair_options(on.prepared.settings.options).at_any_price)
+    result.soundness.beyond.push_back(price + "; --set repair.at_any_price=true takes it");
+  else
+    result.warnings.push_back(fmt::format("{}: {}", on.label, price));
   return best.has_value();
 }
 
@@ -312,7 +316,10 @@ const OptionTable<RepairOptions>& repair_table() {
                 .help = "whether sizes are made smaller where the mesh would not be sound"},
                &RepairOptions::refine_unsound)
           .add({.name = "keep_given", .help = "whether given quads stay where they would become worse"},
-               &RepairOptions::keep_given);
+               &RepairOptions::keep_given)
+          .add({.name = "at_any_price",
+                .help = "whether given quads become sound where others become poor by it"},
+               &RepairOptions::at_any_price);
   return all;
 }
 

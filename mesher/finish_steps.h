@@ -18,6 +18,7 @@ struct RepairOptions {
   bool across_cuts = true;
   bool refine_unsound = true;
   bool keep_given = true;  ///< see hold_worst() in stages.cpp, too
+  bool at_any_price = false;
 };
 
 OptionGroup repair_group();

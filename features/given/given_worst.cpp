@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/mesh/half_edges.h"
+#include "metrics/judgement/poor_quads.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
@@ -68,6 +69,14 @@ Harm harm_of(const MeshResult& after, const MeshResult& before) {
           times_worse(before.metrics.values.at("edge_min"), after.metrics.values.at("edge_min")),
           times_worse(after.metrics.values.at("aspect_max"), before.metrics.values.at("aspect_max")),
           times_worse(number, 1 + kOtherNumber) + times_worse(1 - kOtherNumber, number)};
+}
+
+bool makes_poor_quads(const MeshResult& after, const MeshResult& before) {
+  const Harm harm = harm_of(after, before);
+  const auto& values = after.metrics.values;
+  return (harm.eta > 0 && values.at("eta_worst") < kBadEta) ||
+         (harm.side > 0 && values.at("edge_min") < kPoorEdge) ||
+         (harm.aspect > 0 && values.at("aspect_max") > kPoorAspect);
 }
 
 MeshResult as_it_was(MeshResult given, const GivenWorst& worst) {

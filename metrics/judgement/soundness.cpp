@@ -196,7 +196,7 @@ std::string Soundness::text() const { return fmt::format("{}", fmt::join(reasons
 std::string Soundness::complaint() const {
   std::string text = sound() ? "" : "the mesh is not sound: " + this->text();
   if (!beyond.empty())
-    text += fmt::format("{}it is beyond the limits that were asked for: {}", text.empty() ? "" : "; ",
+    text += fmt::format("{}it is beyond its limits: {}", text.empty() ? "" : "; ",
                         fmt::join(beyond, "; "));
   return text;
 }

@@ -237,6 +237,25 @@ TEST(GivenSurfaces, ThePriceOfACureIsToldWithItsPlace) {
   EXPECT_NE(told->text.find(" at ("), std::string::npos) << told->text;
 }
 
+/// A node of one rim nearly meets the other rim: what lies between them is poor where it is sound.
+TEST(GivenSurfaces, ACureThatMakesQuadsPoorIsAskedFor) {
+  MeshProblem problem;
+  problem.model = GivenMesh{woven(8, 3, false, false, [](int i, int j) {
+    const double u = i / 8.0, v = i == 4 && j == 0 ? 0.99 : j / 3.0;
+    return Vec3{std::sin(u), 0.4 * v, std::cos(u)};
+  })};
+  try {
+    mesh(problem, "CO");
+    ADD_FAILURE() << "poor quads are taken";
+  } catch (const UnsoundError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("sound now, at a price: "), std::string::npos) << text;
+    EXPECT_NE(text.find("--set repair.at_any_price=true takes it"), std::string::npos) << text;
+  }
+  problem.options.set("repair.at_any_price", true);
+  EXPECT_GT(mesh(problem, "CO").metrics.values.at("aspect_max"), 20);
+}
+
 TEST(GivenSurfaces, TrianglesOfATorusAreMerged) {
   const Mesh given = halved_in_space(torus_of_quads(36, 12));
   const MeshResult result = improve_in_space(given, "BCO");
