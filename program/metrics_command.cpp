@@ -87,7 +87,7 @@ int metrics_command(const MetricsArguments& arguments) {
     metrics.values.merge(values_of(*report));
   }
   if (!arguments.json.empty())
-    write_text_file(arguments.json, metrics_record(arguments.mesh.string(), arguments.size.value_or(""),
+    write_text_file(arguments.json, metrics_record(arguments.mesh.string(), mesh, arguments.size.value_or(""),
                                                    metrics, report ? &*report : nullptr));
   fmt::print("{}\n", arguments.mesh.string());
   print_metrics(metrics);

@@ -136,7 +136,7 @@ void put_places(const Mesh& mesh, const std::vector<int>& order, PackedMesh& pac
 
 }  // namespace
 
-PackedMesh pack_mesh(const Mesh& mesh) {
+PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing) {
   PackedMesh packed;
   packed.triangles = mesh.triangles.size();
   packed.quads = mesh.quads.size();
@@ -151,9 +151,11 @@ PackedMesh pack_mesh(const Mesh& mesh) {
   const std::vector<std::size_t> quads = spatial_order(mesh, mesh.quads);
   for (const std::size_t q : quads)
     for (const int v : nodes_around(mesh, q)) numbering.put(v, out);
-  const std::vector<double> eta = quad_etas(mesh);
-  for (const std::size_t q : quads)
-    out.put(static_cast<std::uint64_t>(std::min(eta[q] * kEtaClasses, kEtaClasses - 1)));
+  std::vector<std::uint64_t> classes;
+  for (const double eta : quad_etas(mesh))
+    classes.push_back(static_cast<std::uint64_t>(std::min(eta * kEtaClasses, kEtaClasses - 1)));
+  for (const std::size_t q : failing) classes[q] = static_cast<std::uint64_t>(kEtaClasses);
+  for (const std::size_t q : quads) out.put(classes[q]);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const std::vector<int> nodes = nodes_of_line(mesh, l);
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k)

@@ -14,7 +14,7 @@ namespace delquad {
 ///
 /// The text is that of packed_text(), of numbers of 7 bits a byte, lowest first, in this order: vertices of
 /// triangles, of quads (each as its distance below the next new one; 0: that one, which is then used up), eta
-/// of quads in 128ths, ends of lines (the same way), irregular vertices (number and valence), pairs of them
+/// of quads in 128ths (128: it fails), ends of lines (the same way), irregular vertices (number and valence), pairs of them
 /// (two numbers each), steps from vertex to vertex in each direction, in units of `unit`, signs in the lowest
 /// bit. A curved quad is the polygon of the nodes on its sides, `order` for each side, and a curved line as
 /// many pieces.
@@ -26,8 +26,8 @@ struct PackedMesh {
   std::string text;
 };
 
-/// Elements and vertices change their order.
-PackedMesh pack_mesh(const Mesh& mesh);
+/// Elements and vertices change their order. `failing`: quads that get a colour of their own.
+PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing = {});
 
 /// Every `step`-th element along a curve that fills the space, blown up so that together they cover about as
 /// much, each with vertices of its own; and the lines.

@@ -263,7 +263,7 @@ class Page {
           problems_.push_back(reason = error.what());
         }
       Json json = cell_json(record, mesh);
-      if (mesh) add_picture(*mesh, json);
+      if (mesh) add_picture(*mesh, failing_quads(record, *mesh), json);
       if (json.contains("closeups")) written_ += static_cast<double>(json["closeups"].dump().size());
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
@@ -274,19 +274,29 @@ class Page {
     }
   }
 
-  void add_picture(const Mesh& mesh, Json& json) {
+  /// Those beyond the criteria of the case, where it has some.
+  static std::vector<std::size_t> failing_quads(const Json& record, const Mesh& mesh) {
+    std::vector<std::size_t> failing;
+    for (const Json& quad : record.value("/criteria/failing_quads"_json_pointer, Json::array()))
+      failing.push_back(quad.get<std::size_t>());
+    std::erase_if(failing, [&](std::size_t q) { return q >= mesh.quads.size(); });
+    return failing;
+  }
+
+  void add_picture(const Mesh& mesh, const std::vector<std::size_t>& failing, Json& json) {
     constexpr double kOwnVertices =
         2;  // bytes of an element with vertices of its own, to one that shares them
     const double bytes =
         packed_bytes(static_cast<double>(mesh.triangles.size()), static_cast<double>(mesh.quads.size()));
     const int step = bytes <= share_ ? 1 : static_cast<int>(std::ceil(kOwnVertices * bytes / share_));
-    const PackedMesh packed = pack_mesh(step > 1 ? thinned(mesh, step) : mesh);
+    const PackedMesh packed = step > 1 ? pack_mesh(thinned(mesh, step)) : pack_mesh(mesh, failing);
     const std::string id = fmt::format("mesh-{}", pictures_++);
     written_ += static_cast<double>(packed.text.size());
     in_space_ |= packed.dimension == 3;
     out_ << "<script type=\"text/plain\" id=\"" << id << "\">" << packed.text << "</script>\n";
     json["mesh"] = {{"id", id},
                     {"step", step},
+                    {"failing", step > 1 ? 0 : failing.size()},
                     {"dimension", packed.dimension},
                     {"order", packed.order},
                     {"points", packed.points},

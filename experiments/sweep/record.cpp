@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/warning.h"
@@ -294,7 +295,23 @@ Json bad_quads_json(const MeshResult& result) {
           {"sharp_corners", corners}};
 }
 
-Json report_json(const CriteriaReport& report) {
+/// Quads that are beyond any limit, by their places in a file that has them by regions (MSH), from 0.
+Json failing_quads(const CriteriaReport& report, const Mesh& mesh) {
+  std::vector<int> order(mesh.quads.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int q) { return mesh.quad_region[q]; });
+  std::vector<char> fails(mesh.quads.size(), 0);
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  for (const CriterionResult& result : report.results)
+    for (const int e : result.failing)
+      if (e >= n_triangles) fails[e - n_triangles] = 1;
+  Json failing = Json::array();
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (fails[order[i]]) failing.push_back(i);
+  return failing;
+}
+
+Json report_json(const CriteriaReport& report, const Mesh& mesh) {
   Json limits = Json::array();
   for (const CriterionResult& r : report.results) {
     Json json = limit_json(r.limit);
@@ -307,6 +324,7 @@ Json report_json(const CriteriaReport& report) {
   return {{"name", report.name},
           {"elements", report.elements},
           {"failing", report.failing},
+          {"failing_quads", failing_quads(report, mesh)},
           {"limits", limits},
           {"causes", report.causes},
           {"why", report.why},
@@ -488,7 +506,7 @@ std::string run_record(const Case& c, const Word& word, const MeshResult& result
   json["warnings"] = texts(result.warnings);
   if (result.surface) json["surface"] = surface_json(result.prepared, *result.surface);
   if (!result.failures.empty()) json["left_out"] = failures_json(result);
-  if (result.criteria) json["criteria"] = report_json(*result.criteria);
+  if (result.criteria) json["criteria"] = report_json(*result.criteria, result.mesh);
   const StageLog& log = result.log;
   json["bad_quads"] = bad_quads_json(result);
   const bool is_peer = cell != nullptr && cell->peer != nullptr;
@@ -524,10 +542,10 @@ std::string metrics_by_command_record(const CellIdentity& cell) {
 std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
 std::string versions_record() { return versions_json().dump(); }
 
-std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics,
-                           const CriteriaReport* criteria) {
+std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,
+                           const MeshMetrics& metrics, const CriteriaReport* criteria) {
   Json json = {{"mesh", mesh_file}, {"size", size.empty() ? Json() : Json(size)}};
-  if (criteria != nullptr) json["criteria"] = report_json(*criteria);
+  if (criteria != nullptr) json["criteria"] = report_json(*criteria, mesh);
   add_metrics(json, metrics);
   add_origin(json);
   return print(json);

@@ -42,8 +42,8 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
                            const std::string& kind, const std::string& reason,
                            const CellIdentity* cell = nullptr);
 /// The metrics of a mesh from a file; `criteria`: null where it was not judged.
-std::string metrics_record(const std::string& mesh_file, const std::string& size, const MeshMetrics& metrics,
-                           const CriteriaReport* criteria = nullptr);
+std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,
+                           const MeshMetrics& metrics, const CriteriaReport* criteria = nullptr);
 /// What determines the mesh of a peer's cell besides the case, in one line of JSON.
 std::string peer_record(const CellIdentity& cell);
 /// What determines the values of a cell's measures by command and by solvers, in one line of JSON.

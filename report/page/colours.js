@@ -37,9 +37,9 @@ class Palette {
     const [a, b] = [channels(stops[i]), channels(stops[i + 1])];
     return `#${a.map((v, k) => Math.round(v + (b[k] - v) * (place - i)).toString(16).padStart(2, "0")).join("")}`;
   }
-  /// Of every class of eta in a mesh.
+  /// Of every class of eta in a mesh, and of quads that fail.
   classes() {
-    return Array.from({ length: kEtaClasses }, (_, i) => this.colour((i + 0.5) / kEtaClasses));
+    return [...Array.from({ length: kEtaClasses }, (_, i) => this.colour((i + 0.5) / kEtaClasses)), "#e4003a"];
   }
   choose(map, low, high) {
     Object.assign(this, { map, low, high });

@@ -151,7 +151,8 @@ class Sheet {
     this.pictures.push({ canvas, cell, buttons });
     const thin = cell.mesh.step > 1 ? el("p", { class: "hint" },
       `Too large to be shown whole here: one element of ${cell.mesh.step} is drawn, larger than it is.`) : null;
-    return el("figure", {}, canvas, buttons, thin);
+    const failing = cell.mesh.failing > 0 ? el("p", { class: "hint" }, `${cell.mesh.failing} quads beyond the criteria are red.`) : null;
+    return el("figure", {}, canvas, buttons, thin, failing);
   }
   /// Once for each seed.
   draw() {

@@ -133,6 +133,10 @@ TEST(PackedMesh, ReadsBackPlanarQuads) {
   expect_same(unpacker.run(), mesh, 0.5);
   EXPECT_EQ(unpacker.eta, std::vector<int>(35, 127));
   EXPECT_TRUE(unpacker.irregular.empty());
+  const PackedMesh with_failing = pack_mesh(mesh, {3, 20});
+  Unpacker other(with_failing);
+  other.run();
+  EXPECT_EQ(std::ranges::count(other.eta, 128), 2);
 }
 
 TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {

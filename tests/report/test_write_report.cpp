@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "delquad/mesh.h"
 #include "tests/report/report_results.h"
 
 namespace delquad::testing_support {
@@ -52,6 +54,37 @@ TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
   EXPECT_EQ(failed["status"], "failed");
   EXPECT_FALSE(failed["reason"].get<std::string>().empty());
   EXPECT_EQ(study["tables"][0]["rows"].size(), 6u);
+}
+
+/// Faces that join smoothly are one patch: its quads lie in the file by faces, and not in the mesh.
+TEST(Report, QuadsThatFailHaveAColour) {
+  constexpr double kLeast = 3;
+  const TemporaryFolder folder;
+  const ProgramResult made = run_into(folder, "lengths", R"(
+pipelines = ["DBC"]
+[[case]]
+name = "part"
+example = "bracket"
+size = 4
+surface = { compound = "tangent" }
+criteria = { min_length = 3 }
+)");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const fs::path cell = folder / "results/lengths/part/DBC";
+  const Json criteria = Json::parse(read_text(cell / "record.json")).at("criteria");
+  const Mesh mesh = read_mesh(cell / "mesh.msh");
+  std::vector<std::size_t> shorter;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const auto side = [&](int k) {
+      return norm(mesh.points[mesh.quads[q][(k + 1) % 4]] - mesh.points[mesh.quads[q][k]]);
+    };
+    if (std::min({side(0), side(1), side(2), side(3)}) < kLeast) shorter.push_back(q);
+  }
+  EXPECT_GT(shorter.size(), 0u);
+  EXPECT_EQ(criteria.at("failing_quads").get<std::vector<std::size_t>>(), shorter);
+  ASSERT_EQ(delquad({"report", folder / "results/lengths", "-o", folder / "r.html"}).exit_code, 0);
+  const Json shown = data_of(folder / "r.html")["studies"][0]["sheets"][0]["seeds"][0]["cells"][0];
+  EXPECT_EQ(shown["mesh"]["failing"], shorter.size());
 }
 
 /// Shares of vertices by the quads around them are counted as d4 is: a vertex with triangles is not regular.
