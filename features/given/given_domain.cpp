@@ -12,6 +12,7 @@
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/tri_topology.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
 #include "patches/patch_outline.h"
@@ -505,20 +506,6 @@ std::array<std::array<int, 3>, 2> halves(const std::vector<Vec2>& points, const 
   };
   const std::array<std::array<int, 3>, 2> one{{{a, b, c}, {a, c, d}}}, other{{{a, b, d}, {b, c, d}}};
   return worst(one) >= worst(other) ? one : other;
-}
-
-void link_neighbours(TriPatch& tri) {
-  std::map<std::pair<int, int>, int> triangle_at;
-  for (std::size_t t = 0; t < tri.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      triangle_at[{tri.triangles[t][k], tri.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
-  for (const auto& v : tri.triangles) {
-    auto& across = tri.neighbours.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      const auto found = triangle_at.find({v[(k + 2) % 3], v[(k + 1) % 3]});
-      across[k] = found == triangle_at.end() ? -1 : found->second;
-    }
-  }
 }
 
 TriPatch as_triangles(const QuadPatch& elements) {
