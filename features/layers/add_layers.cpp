@@ -13,24 +13,12 @@
 #include "base/box.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "delquad/model.h"
-#include "features/layers/curve_layers.h"
 #include "features/layers/layer_builder.h"
-#include "features/layers/layer_columns.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/planar/domain_builder.h"
-#include "geometry/planar/planar_model.h"
 
 namespace delquad {
 namespace {
-
-/// A patch with its layers.
-struct LayeredPatch {
-  PatchBoundary outline, rest;
-  /// Nodes in the place of each wall; both by all of its nodes, in the order of the patch.
-  std::vector<std::pair<std::vector<int>, std::vector<int>>> walls;
-  std::pair<std::size_t, std::size_t> quads;  ///< in the domain
-};
 
 /// The curve of the edge from each node to the next.
 std::map<std::pair<int, int>, int> curves_of_edges(const PatchBoundary& patch) {
@@ -68,7 +56,7 @@ class LayerMirror {
       for (const int v : from) to.push_back(image_of_.at(v));
       const auto known = walls_.find({to[0], to[1]});
       for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
-        image_of_[nodes[i]] = known == walls_.end() ? add_node(nodes[i], image) : known->second[i];
+        image_of_[nodes[i]] = known == walls_.end() ? add_image(nodes[i], image) : known->second[i];
       std::vector<int> images;
       for (const int v : nodes) images.push_back(image_of_.at(v));
       if (known == walls_.end()) add_wall(to, images);
@@ -94,19 +82,15 @@ class LayerMirror {
     walls_[{old[n - 1], old[n - 2]}] = {nodes.rbegin(), nodes.rend()};
   }
 
-  int add_node(int node, const PatchImage& image) {
-    std::vector<Vec3>& points = domain_.boundary.points;
-    const Vec2 x = image.motion({points[node].x, points[node].y});
-    const double z = points[0].z;
-    points.push_back({x.x, x.y, z});
-    if (!domain_.places.empty()) domain_.places.emplace_back();
-    return static_cast<int>(points.size()) - 1;
+  int add_image(int node, const PatchImage& image) {
+    const Vec3& x = domain_.boundary.points[node];
+    return add_node(domain_, image.motion({x.x, x.y}));
   }
 
   int image_node(int node, const PatchImage& image) {
     const auto known = image_of_.find(node);
     if (known != image_of_.end()) return known->second;
-    return image_of_[node] = add_node(node, image);
+    return image_of_[node] = add_image(node, image);
   }
 
   void add_quads(const LayeredPatch& master, const PatchImage& image, LayeredPatch& result) {
@@ -318,8 +302,7 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   std::vector<LayeredPatch> layered(domain.patches.size());
   for (const PatchLayers& patch : patches) {
     count(domain, patch, images[patch.patch], result);
-    const LayerBuilder builder(domain, patch, walls);
-    layered[patch.patch] = {builder.outline(), builder.rest(), builder.replaced_walls(), builder.quads()};
+    layered[patch.patch] = build_layers(domain, patch, walls);
   }
   walls.pair_nodes();
   mirror_layers(domain, layered);
