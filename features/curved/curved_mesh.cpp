@@ -14,7 +14,6 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/mesh.h"
-#include "features/curved/curve_corners.h"
 #include "features/curved/curved_geometry.h"
 #include "features/curved/jacobian_bounds.h"
 #include "features/curved/raise_order.h"

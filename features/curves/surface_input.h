@@ -9,9 +9,6 @@
 
 namespace delquad {
 
-/// Refuses numbers out of range; `where` begins the message.
-void check_surface(const SurfaceSpec& surface, const std::string& where);
-
 /// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
 /// InputError for models that cannot be read, for options that have no effect on them, and for compounds of
 /// faces that do not exist or do not hang together. `kept`: where features of triangles stay, and what is
