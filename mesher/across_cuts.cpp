@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -10,9 +11,11 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "base/sort_unique.h"
 #include "delquad/error.h"
+#include "features/given/given_worst.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "mesher/prepare.h"
+#include "metrics/judgement/poor_quads.h"
 
 namespace delquad {
 namespace {
@@ -29,13 +32,6 @@ constexpr double kGoodEta = 0.6;
 
 using NodePlaces = std::set<std::array<double, 3>>;
 using Stages = std::vector<const Stage*>;
-
-/// What became of the stages that ran once more, with other cuts.
-struct AcrossCutsSummary {
-  int faces = 0;  ///< with cuts, on which they ran
-  int taken = 0;  ///< 1: the mesh is what they made
-  int irregular_before = 0, irregular_after = 0;
-};
 
 /// The facets that were given, face by face.
 class FacetProjector final : public SurfaceProjector {
@@ -219,15 +215,6 @@ bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& opti
 
 }  // namespace
 
-template <>
-struct Counters<AcrossCutsSummary> {
-  using S = AcrossCutsSummary;
-  static constexpr const char* step = "across_cuts";
-  static constexpr auto all = std::tuple{counter("faces", &S::faces), counter("taken", &S::taken),
-                                         counter("irregular_before", &S::irregular_before),
-                                         counter("irregular_after", &S::irregular_after)};
-};
-
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
   if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
   return prepared.surface->given ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
@@ -236,24 +223,82 @@ bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads
 bool run_across_cuts(Finishing& on) {
   const PreparedProblem& prepared = on.prepared;
   const std::vector<char> regions = regions_across_cuts(prepared);
-  const auto irregular = [&] { return static_cast<int>(on.result.metrics.values.at("n_irregular")); };
-  AcrossCutsSummary summary{.irregular_before = irregular()};
-  if (on.result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
-  if (summary.faces > 0) try {
+  const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
+  const long long before = irregular();
+  long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // on which stages ran
+  bool is_taken = false;
+  if (faces > 0) try {
       PreparedProblem again =
           with_other_cuts(prepared, regions, without_cuts(*prepared.surface, on.result.mesh));
-      if (prepared.surface->given)
-        summary.taken = take_across_cuts(on, again, prepared.settings.options, regions);
+      if (prepared.surface->given) is_taken = take_across_cuts(on, again, prepared.settings.options, regions);
       for (const double dearer : kDearer)
-        if (!prepared.surface->given && summary.taken == 0)
-          summary.taken =
-              take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
+        if (!prepared.surface->given && !is_taken)
+          is_taken = take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
     } catch (const InputError&) {
-      summary.faces = 0;  // what there was stays
+      faces = 0;  // what there was stays
     }
-  summary.irregular_after = irregular();
-  add_summary(on.result.log, summary);
-  return summary.taken != 0;
+  on.result.log.summaries.add("across_cuts", {{"faces", faces},
+                                              {"taken", static_cast<long long>(is_taken)},
+                                              {"irregular_before", before},
+                                              {"irregular_after", irregular()}});
+  return is_taken;
+}
+
+namespace {
+
+/// Differences that count, as a part of the value.
+constexpr double kChange = 1e-9;
+/// Edges are near enough to their size with this tau, in percent.
+constexpr double kGoodTau = 91;
+
+double value(const MeshResult& run, const char* key) { return run.metrics.values.at(key); }
+
+/// Not below both what is good and what there was.
+bool is_kept(const char* key, double good, const MeshResult& after, const MeshResult& before) {
+  constexpr double kRounding = 1e-9;
+  return value(after, key) > std::min(good, value(before, key)) - kRounding;
+}
+
+double score(const MeshResult& run) {
+  return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
+}
+
+}  // namespace
+
+bool is_worse(const MeshResult& after, const MeshResult& before) {
+  if (before.soundness.sound() && !after.soundness.sound()) return true;
+  if (harm_of(after, before).sum() > 0) return true;
+  if (after.soundness.sound() && !before.soundness.sound()) return false;
+  bool worse = false;
+  for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
+    const double was = value(before, key), is = value(after, key);
+    if (std::abs(is - was) <= kChange * std::abs(was)) continue;
+    if (is > was) return false;
+    worse = true;
+  }
+  return worse;
+}
+
+bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  const double is = failing_part(prepared, after.mesh), was = failing_part(prepared, before.mesh);
+  return (is == was ? score(after) > score(before) : is < was) && !is_worse(after, before);
+}
+
+bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  return failing_part(prepared, after.mesh) <= failing_part(prepared, before.mesh) &&
+         value(after, "n_irregular") < value(before, "n_irregular") &&
+         is_kept("tau", kGoodTau, after, before);
+}
+
+bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before) {
+  return is_kept("eta_worst", eta, after, before);
+}
+
+void take_mesh(MeshResult&& from, MeshResult& result) {
+  result.mesh = std::move(from.mesh);
+  result.metrics = std::move(from.metrics);
+  result.soundness = std::move(from.soundness);
+  result.surface = std::move(from.surface);
 }
 
 }  // namespace delquad

@@ -35,7 +35,7 @@ struct Types {};
 /// The summaries of all steps.
 using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
                            TreatmentSummary, CleanupSummary, RegularitySummary, OptimisationSummary,
-                           DiscardSummary, PartingSummary, LiftingSummary>;
+                           PartingSummary, LiftingSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
