@@ -14,6 +14,7 @@
 #include "base/hilbert_place.h"
 #include "base/parallel.h"
 #include "base/parallel_collect.h"
+#include "base/parallel_each.h"
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/tri_topology.h"
 
@@ -60,19 +61,14 @@ std::vector<int> hilbert_order(std::span<const Vec2> points) {
   const double scale = extent > 0 ? ((1 << kBits) - 1) / extent : 0;
   // Position in the upper half and index in the lower.
   std::vector<std::uint64_t> keys(points.size());
-  parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 p = scale * (points[i] - low);
-      const std::uint32_t at =
-          hilbert_place(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
-      keys[i] = std::uint64_t{at} << 32 | i;
-    }
+  parallel_each(points.size(), [&](std::size_t i) {
+    const Vec2 p = scale * (points[i] - low);
+    const std::uint32_t at = hilbert_place(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
+    keys[i] = std::uint64_t{at} << 32 | i;
   });
   sort_by_upper_half(keys);
   std::vector<int> order(points.size());
-  parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) order[i] = static_cast<int>(keys[i] & 0xffffffffu);
-  });
+  parallel_each(points.size(), [&](std::size_t i) { order[i] = static_cast<int>(keys[i] & 0xffffffffu); });
   return order;
 }
 
@@ -80,11 +76,9 @@ namespace {
 
 std::vector<int> triangles_along_curve(const TriPatch& tri) {
   std::vector<Vec2> centroids(tri.triangles.size());
-  parallel_ranges(centroids.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& v = tri.triangles[t];
-      centroids[t] = (1.0 / 3) * (tri.points[v[0]] + tri.points[v[1]] + tri.points[v[2]]);
-    }
+  parallel_each(centroids.size(), [&](std::size_t t) {
+    const auto& v = tri.triangles[t];
+    centroids[t] = (1.0 / 3) * (tri.points[v[0]] + tri.points[v[1]] + tri.points[v[2]]);
   });
   return hilbert_order(centroids);
 }
@@ -102,12 +96,10 @@ constexpr std::size_t kPerBlock = 256, kPerRange = 32 * kPerBlock;
 std::vector<std::size_t> first_edges(const TriPatch& tri, const std::vector<int>& node) {
   const std::size_t n = node.size();
   std::vector<std::atomic<std::size_t>> counts(n / kPerRange + 1);
-  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      std::size_t higher = 0;
-      for (const int u : tri.neighbours[t]) higher += u >= 0 && node[u] > node[t];
-      counts[node[t] / kPerRange].fetch_add(higher, std::memory_order_relaxed);
-    }
+  parallel_each(n, [&](std::size_t t) {
+    std::size_t higher = 0;
+    for (const int u : tri.neighbours[t]) higher += u >= 0 && node[u] > node[t];
+    counts[node[t] / kPerRange].fetch_add(higher, std::memory_order_relaxed);
   });
   std::vector<std::size_t> first = {0};
   for (const auto& count : counts) first.push_back(first.back() + count);
@@ -258,9 +250,7 @@ DualGraph build_dual_graph(const TriPatch& tri) {
   dual.triangle = triangles_along_curve(tri);
   dual.graph.n_nodes = static_cast<int>(tri.triangles.size());
   std::vector<int> node(tri.triangles.size());
-  parallel_ranges(node.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) node[dual.triangle[i]] = static_cast<int>(i);
-  });
+  parallel_each(node.size(), [&](std::size_t i) { node[dual.triangle[i]] = static_cast<int>(i); });
   const std::vector<std::size_t> first_edge = first_edges(tri, node);
   dual.graph.edges = interior_sides(tri, dual.triangle, node, first_edge);
   dual.first_extra = static_cast<int>(dual.graph.edges.size());

@@ -18,7 +18,7 @@
 #include "base/segment.h"
 #include "base/sort_unique.h"
 #include "delquad/model.h"
-#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_on_regions.h"
 
 namespace delquad {
 namespace {
@@ -239,14 +239,7 @@ class SurfaceGeometry final : public ModelGeometry {
                        Span{static_cast<int>(c), b.s, a.s});
       }
     }
-    if (surface.model.projector) return;
-    const Mesh& fine = surface.model.fine;
-    std::vector<std::vector<std::array<int, 3>>> of_face(fine.regions.size());
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      of_face[fine.triangle_region[t]].push_back(fine.triangles[t]);
-    for (auto& triangles : of_face)
-      faces_.push_back(
-          triangles.empty() ? nullptr : std::make_unique<NearestTriangle>(fine.points, std::move(triangles)));
+    if (!surface.model.projector) facets_.emplace(surface.model.fine);
   }
 
   std::vector<Vec3> on_line(int line, std::span<const double> parts) const override {
@@ -278,12 +271,7 @@ class SurfaceGeometry final : public ModelGeometry {
   }
   bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
   Vec3 on_face(int region, const Vec3& x) const override {
-    if (surface_.model.projector) return surface_.model.projector->to_face(region, x);
-    if (!faces_[region]) return x;
-    const NearestTriangle::Found found = faces_[region]->find(x);
-    const auto& v = faces_[region]->triangle(found.triangle);
-    const std::vector<Vec3>& p = surface_.model.fine.points;
-    return found.weights[0] * p[v[0]] + found.weights[1] * p[v[1]] + found.weights[2] * p[v[2]];
+    return facets_ ? facets_->place(region, x) : surface_.model.projector->to_face(region, x);
   }
 
  private:
@@ -321,7 +309,7 @@ class SurfaceGeometry final : public ModelGeometry {
   std::map<Key, Span> spans_;
   std::map<int, std::vector<int>> chains_of_;  ///< of each curve
   PlaceSet sliding_;
-  std::vector<std::unique_ptr<NearestTriangle>> faces_;  ///< of a triangulation, by face
+  std::optional<NearestOnRegions> facets_;  ///< of a triangulation
 };
 
 }  // namespace

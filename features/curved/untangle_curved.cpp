@@ -15,6 +15,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "delquad/mesh.h"
 #include "geometry/mesh/element_nodes.h"
 
@@ -281,9 +282,8 @@ class CurvedUntangler {
           summary.moved_vertices || (trial.moves_vertices && std::ranges::count(moved, 1) > 0);
     }
     // What is better than poor was not looked at closely.
-    parallel_ranges(bounds_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q)
-        if (is_rough_[q]) bounds_[q] = bounds_of_quad(static_cast<int>(q), 1);
+    parallel_each(bounds_.size(), [&](std::size_t q) {
+      if (is_rough_[q]) bounds_[q] = bounds_of_quad(static_cast<int>(q), 1);
     });
     for (std::size_t q = 0; q < worked_on.size(); ++q) {
       summary.poor += worked_on[q];
@@ -340,9 +340,7 @@ class CurvedUntangler {
 
   std::vector<char> find_poor(const Trial& trial) const {
     std::vector<char> poor(mesh_.quads.size(), 0);
-    parallel_ranges(poor.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) poor[q] = is_poor(q, trial);
-    });
+    parallel_each(poor.size(), [&](std::size_t q) { poor[q] = is_poor(q, trial); });
     return poor;
   }
   bool is_poor(std::size_t q, const Trial& trial) const {
