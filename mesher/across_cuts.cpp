@@ -5,15 +5,15 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "features/given/given_worst.h"
 #include "geometry/mesh/keep_elements.h"
-#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_on_regions.h"
 #include "mesher/prepare.h"
 #include "metrics/judgement/poor_quads.h"
 
@@ -33,61 +33,25 @@ constexpr double kGoodEta = 0.6;
 using NodePlaces = std::set<std::array<double, 3>>;
 using Stages = std::vector<const Stage*>;
 
-/// The facets that were given, face by face.
-class FacetProjector final : public SurfaceProjector {
+/// The faces of a model: the true ones, or the facets that were given.
+class FacesOfModel final : public SurfaceProjector {
  public:
-  /// `face_of`: of each face of the model that is projected, the one of `fine`.
-  FacetProjector(const Mesh& fine, std::vector<int> face_of) : face_of_(std::move(face_of)) {
-    std::vector<std::vector<std::array<int, 3>>> triangles(fine.regions.size());
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      triangles[fine.triangle_region[t]].push_back(fine.triangles[t]);
-    for (auto& of_face : triangles) {
-      // With the face's points only.
-      std::vector<int> used;
-      for (const auto& v : of_face) used.insert(used.end(), v.begin(), v.end());
-      sort_unique(used);
-      auto& points = points_.emplace_back();
-      for (const int v : used) points.push_back(fine.points[v]);
-      for (auto& triangle : of_face)
-        for (int& v : triangle) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
-      facets_.push_back(of_face.empty() ? nullptr
-                                        : std::make_unique<NearestTriangle>(points, std::move(of_face)));
-    }
+  /// `face_of`: of each face that is projected onto, the one of the model.
+  FacesOfModel(const SurfaceModel& model, std::vector<int> face_of)
+      : true_faces_(model.projector), face_of_(std::move(face_of)) {
+    if (!true_faces_) facets_.emplace(model.fine);
   }
   Vec3 to_face(int face, const Vec3& x) const override {
-    const int own = face_of_[face];
-    const NearestTriangle::Found found = facets_[own]->find(x);
-    const auto& v = facets_[own]->triangle(found.triangle);
-    Vec3 sum;
-    for (int k = 0; k < 3; ++k) sum = sum + found.weights[k] * points_[own][v[k]];
-    return sum;
+    return true_faces_ ? true_faces_->to_face(face_of_[face], x) : facets_->place(face_of_[face], x);
   }
   /// Nodes there stay.
   Vec3 to_curve(int, const Vec3& x) const override { return x; }
 
  private:
-  std::vector<int> face_of_;
-  std::vector<std::vector<Vec3>> points_;  ///< of each face
-  std::vector<std::unique_ptr<NearestTriangle>> facets_;
-};
-
-/// The true faces of a model.
-class TrueFaces final : public SurfaceProjector {
- public:
-  TrueFaces(std::shared_ptr<const SurfaceProjector> model, std::vector<int> face_of)
-      : model_(std::move(model)), face_of_(std::move(face_of)) {}
-  Vec3 to_face(int face, const Vec3& x) const override { return model_->to_face(face_of_[face], x); }
-  Vec3 to_curve(int, const Vec3& x) const override { return x; }
-
- private:
-  std::shared_ptr<const SurfaceProjector> model_;
+  std::shared_ptr<const SurfaceProjector> true_faces_;
+  std::optional<NearestOnRegions> facets_;
   std::vector<int> face_of_;
 };
-
-std::shared_ptr<const SurfaceProjector> projector_onto(const SurfaceModel& model, std::vector<int> face_of) {
-  if (model.projector) return std::make_shared<TrueFaces>(model.projector, std::move(face_of));
-  return std::make_shared<FacetProjector>(model.fine, std::move(face_of));
-}
 
 /// A mesh that has no lines on cuts, and where nodes could move along cuts only.
 struct UncutMesh {
@@ -133,13 +97,12 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   GivenSurface given = make_given_surface({start.mesh, prepared.settings.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
     given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
-  given.model.projector = projector_onto(prepared.surface->model, given.given_region);
+  given.model.projector = std::make_shared<FacesOfModel>(prepared.surface->model, given.given_region);
   MeshProblem problem;
   problem.name = prepared.settings.name;
   problem.where = prepared.settings.where;
   problem.max_elements = prepared.settings.max_elements;
-  PreparedProblem again =
-      prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field, [](double) {});
+  PreparedProblem again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
   for (PreparedPatch& patch : again.patches)
     patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;

@@ -1,5 +1,3 @@
-#include "mesher/number_of_quads.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
