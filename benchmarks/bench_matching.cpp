@@ -10,7 +10,6 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
-#include "algorithms/recombination/hilbert.h"
 #include "base/context.h"
 #include "base/matching/matching.h"
 #include "benchmarks/square_case.h"

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
-#include "base/sort_unique.h"
 #include "delquad/error.h"
+#include "features/given/given_worst.h"
 #include "geometry/mesh/keep_elements.h"
-#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_on_regions.h"
 #include "mesher/prepare.h"
+#include "metrics/judgement/poor_quads.h"
 
 namespace delquad {
 namespace {
@@ -30,68 +33,25 @@ constexpr double kGoodEta = 0.6;
 using NodePlaces = std::set<std::array<double, 3>>;
 using Stages = std::vector<const Stage*>;
 
-/// What became of the stages that ran once more, with other cuts.
-struct AcrossCutsSummary {
-  int faces = 0;  ///< with cuts, on which they ran
-  int taken = 0;  ///< 1: the mesh is what they made
-  int irregular_before = 0, irregular_after = 0;
-};
-
-/// The facets that were given, face by face.
-class FacetProjector final : public SurfaceProjector {
+/// The faces of a model: the true ones, or the facets that were given.
+class FacesOfModel final : public SurfaceProjector {
  public:
-  /// `face_of`: of each face of the model that is projected, the one of `fine`.
-  FacetProjector(const Mesh& fine, std::vector<int> face_of) : face_of_(std::move(face_of)) {
-    std::vector<std::vector<std::array<int, 3>>> triangles(fine.regions.size());
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      triangles[fine.triangle_region[t]].push_back(fine.triangles[t]);
-    for (auto& of_face : triangles) {
-      // With the face's points only.
-      std::vector<int> used;
-      for (const auto& v : of_face) used.insert(used.end(), v.begin(), v.end());
-      sort_unique(used);
-      auto& points = points_.emplace_back();
-      for (const int v : used) points.push_back(fine.points[v]);
-      for (auto& triangle : of_face)
-        for (int& v : triangle) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
-      facets_.push_back(of_face.empty() ? nullptr
-                                        : std::make_unique<NearestTriangle>(points, std::move(of_face)));
-    }
+  /// `face_of`: of each face that is projected onto, the one of the model.
+  FacesOfModel(const SurfaceModel& model, std::vector<int> face_of)
+      : true_faces_(model.projector), face_of_(std::move(face_of)) {
+    if (!true_faces_) facets_.emplace(model.fine);
   }
   Vec3 to_face(int face, const Vec3& x) const override {
-    const int own = face_of_[face];
-    const NearestTriangle::Found found = facets_[own]->find(x);
-    const auto& v = facets_[own]->triangle(found.triangle);
-    Vec3 sum;
-    for (int k = 0; k < 3; ++k) sum = sum + found.weights[k] * points_[own][v[k]];
-    return sum;
+    return true_faces_ ? true_faces_->to_face(face_of_[face], x) : facets_->place(face_of_[face], x);
   }
   /// Nodes there stay.
   Vec3 to_curve(int, const Vec3& x) const override { return x; }
 
  private:
-  std::vector<int> face_of_;
-  std::vector<std::vector<Vec3>> points_;  ///< of each face
-  std::vector<std::unique_ptr<NearestTriangle>> facets_;
-};
-
-/// The true faces of a model.
-class TrueFaces final : public SurfaceProjector {
- public:
-  TrueFaces(std::shared_ptr<const SurfaceProjector> model, std::vector<int> face_of)
-      : model_(std::move(model)), face_of_(std::move(face_of)) {}
-  Vec3 to_face(int face, const Vec3& x) const override { return model_->to_face(face_of_[face], x); }
-  Vec3 to_curve(int, const Vec3& x) const override { return x; }
-
- private:
-  std::shared_ptr<const SurfaceProjector> model_;
+  std::shared_ptr<const SurfaceProjector> true_faces_;
+  std::optional<NearestOnRegions> facets_;
   std::vector<int> face_of_;
 };
-
-std::shared_ptr<const SurfaceProjector> projector_onto(const SurfaceModel& model, std::vector<int> face_of) {
-  if (model.projector) return std::make_shared<TrueFaces>(model.projector, std::move(face_of));
-  return std::make_shared<FacetProjector>(model.fine, std::move(face_of));
-}
 
 /// A mesh that has no lines on cuts, and where nodes could move along cuts only.
 struct UncutMesh {
@@ -137,13 +97,12 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   GivenSurface given = make_given_surface({start.mesh, prepared.settings.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
     given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
-  given.model.projector = projector_onto(prepared.surface->model, given.given_region);
+  given.model.projector = std::make_shared<FacesOfModel>(prepared.surface->model, given.given_region);
   MeshProblem problem;
   problem.name = prepared.settings.name;
   problem.where = prepared.settings.where;
   problem.max_elements = prepared.settings.max_elements;
-  PreparedProblem again =
-      prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field, [](double) {});
+  PreparedProblem again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
   for (PreparedPatch& patch : again.patches)
     patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;
@@ -219,15 +178,6 @@ bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& opti
 
 }  // namespace
 
-template <>
-struct Counters<AcrossCutsSummary> {
-  using S = AcrossCutsSummary;
-  static constexpr const char* step = "across_cuts";
-  static constexpr auto all = std::tuple{counter("faces", &S::faces), counter("taken", &S::taken),
-                                         counter("irregular_before", &S::irregular_before),
-                                         counter("irregular_after", &S::irregular_after)};
-};
-
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
   if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
   return prepared.surface->given ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
@@ -236,24 +186,82 @@ bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads
 bool run_across_cuts(Finishing& on) {
   const PreparedProblem& prepared = on.prepared;
   const std::vector<char> regions = regions_across_cuts(prepared);
-  const auto irregular = [&] { return static_cast<int>(on.result.metrics.values.at("n_irregular")); };
-  AcrossCutsSummary summary{.irregular_before = irregular()};
-  if (on.result.failures.empty()) summary.faces = static_cast<int>(std::ranges::count(regions, 1));
-  if (summary.faces > 0) try {
+  const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
+  const long long before = irregular();
+  long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // on which stages ran
+  bool is_taken = false;
+  if (faces > 0) try {
       PreparedProblem again =
           with_other_cuts(prepared, regions, without_cuts(*prepared.surface, on.result.mesh));
-      if (prepared.surface->given)
-        summary.taken = take_across_cuts(on, again, prepared.settings.options, regions);
+      if (prepared.surface->given) is_taken = take_across_cuts(on, again, prepared.settings.options, regions);
       for (const double dearer : kDearer)
-        if (!prepared.surface->given && summary.taken == 0)
-          summary.taken =
-              take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
+        if (!prepared.surface->given && !is_taken)
+          is_taken = take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
     } catch (const InputError&) {
-      summary.faces = 0;  // what there was stays
+      faces = 0;  // what there was stays
     }
-  summary.irregular_after = irregular();
-  add_summary(on.result.log, summary);
-  return summary.taken != 0;
+  on.result.log.summaries.add("across_cuts", {{"faces", faces},
+                                              {"taken", static_cast<long long>(is_taken)},
+                                              {"irregular_before", before},
+                                              {"irregular_after", irregular()}});
+  return is_taken;
+}
+
+namespace {
+
+/// Differences that count, as a part of the value.
+constexpr double kChange = 1e-9;
+/// Edges are near enough to their size with this tau, in percent.
+constexpr double kGoodTau = 91;
+
+double value(const MeshResult& run, const char* key) { return run.metrics.values.at(key); }
+
+/// Not below both what is good and what there was.
+bool is_kept(const char* key, double good, const MeshResult& after, const MeshResult& before) {
+  constexpr double kRounding = 1e-9;
+  return value(after, key) > std::min(good, value(before, key)) - kRounding;
+}
+
+double score(const MeshResult& run) {
+  return value(run, "eta_mean") + value(run, "eta_worst") + value(run, "d4") / 100;
+}
+
+}  // namespace
+
+bool is_worse(const MeshResult& after, const MeshResult& before) {
+  if (before.soundness.sound() && !after.soundness.sound()) return true;
+  if (harm_of(after, before).sum() > 0) return true;
+  if (after.soundness.sound() && !before.soundness.sound()) return false;
+  bool worse = false;
+  for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
+    const double was = value(before, key), is = value(after, key);
+    if (std::abs(is - was) <= kChange * std::abs(was)) continue;
+    if (is > was) return false;
+    worse = true;
+  }
+  return worse;
+}
+
+bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  const double is = failing_part(prepared, after.mesh), was = failing_part(prepared, before.mesh);
+  return (is == was ? score(after) > score(before) : is < was) && !is_worse(after, before);
+}
+
+bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+  return failing_part(prepared, after.mesh) <= failing_part(prepared, before.mesh) &&
+         value(after, "n_irregular") < value(before, "n_irregular") &&
+         is_kept("tau", kGoodTau, after, before);
+}
+
+bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before) {
+  return is_kept("eta_worst", eta, after, before);
+}
+
+void take_mesh(MeshResult&& from, MeshResult& result) {
+  result.mesh = std::move(from.mesh);
+  result.metrics = std::move(from.metrics);
+  result.soundness = std::move(from.soundness);
+  result.surface = std::move(from.surface);
 }
 
 }  // namespace delquad

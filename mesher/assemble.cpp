@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
-#include "features/layers/planar_layers.h"
+#include "features/layers/add_layers.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/check_invariants.h"

@@ -8,14 +8,73 @@
 #include <variant>
 #include <vector>
 
+#include "base/length_unit.h"
+#include "base/located.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/surface_input.h"
 #include "features/divisions/divisions.h"
 #include "features/given/given_surface.h"
+#include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 namespace {
+
+/// Refuses a number that is neither 0, for "none", nor finite and positive.
+void check_length(double value, const std::string& what, const std::string& where) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(fmt::format("{}: {} {}: expected a finite number above 0, or 0 for none", where, what,
+                                 std::isnan(value) ? "NaN" : fmt::format("{}", value)));
+}
+
+void check(const NamedSize& n) {
+  check_length(n.size, "the size of '" + n.name + "'", n.where);
+  check_length(n.reach, "the reach of '" + n.name + "'", n.where);
+  if (!(n.growth > 0) || !std::isfinite(n.growth))
+    throw InputError(fmt::format("{}: sizes grow away from '{}' by {}: expected a finite number above 0",
+                                 n.where, n.name, n.growth));
+  check_length(n.curvature, "the curvature of '" + n.name + "'", n.where);
+  if (n.curvature > 0 && n.curvature < kLeastPerTurn)
+    throw InputError(
+        fmt::format("{}: the curvature of '{}' is {}: expected at least {} elements per full turn", n.where,
+                    n.name, n.curvature, kLeastPerTurn));
+  if (!(n.size > 0) && !(n.curvature > 0))
+    throw InputError(fmt::format("{}: '{}' has neither a size nor a curvature", n.where, n.name));
+}
+
+void check_size(const SizeSpec& size) {
+  if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
+    throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
+  for (const NamedSize& named : size.named) check(named);
+  check_length(size.gradation, "gradation", size.where);
+  check_length(size.curvature, "curvature", size.where);
+  if (size.curvature > 0 && size.curvature < kLeastPerTurn)
+    throw InputError(fmt::format("{}: curvature {}: expected at least {} elements per full turn", size.where,
+                                 size.curvature, kLeastPerTurn));
+  check_length(size.min, "the least size", size.where);
+  check_length(size.max, "the largest size", size.where);
+  check_size_limits(size.curvature, size.min, size.max, size.where);
+}
+
+void check_surface(const SurfaceSpec& surface, const std::string& where) {
+  check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
+  check_length(surface.merge_curves, "the length of curves that are merged", where);
+  if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
+  if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
+  if (!surface.unit.empty()) located(where, [&] { length_unit(surface.unit); });
+  if (surface.compounds == Compounds::kGroups) {
+    if (surface.groups.empty()) throw InputError(where + ": compounds by groups need a group of faces");
+    for (const auto& group : surface.groups)
+      if (group.size() < 2) throw InputError(where + ": a compound has two faces or more");
+  }
+  if (!surface.mirror) return;
+  const MirrorPlane& mirror = *surface.mirror;
+  if (!std::isfinite(norm(mirror.point))) throw InputError(where + ": the mirror's point is not finite");
+  if (!(norm(mirror.normal) > 0) || !std::isfinite(norm(mirror.normal)))
+    throw InputError(where + ": the normal of the mirror's plane has no finite length");
+  checked_weld_tolerance(mirror.tolerance, where, "the mirror's tolerance");
+}
 
 void check(const PlanarModel& model, const std::string& where) {
   if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
@@ -36,13 +95,8 @@ void check_given(const Mesh& mesh, const std::string& source) {
 
 void check(const LineModel& model, const std::string&) { check_given(model.mesh, model.source); }
 
-void check(const TriangleModel& model, const std::string&) {
-  check_given(model.mesh, model.source);
-  if (model.mesh.triangles.empty() && model.mesh.quads.empty())
-    throw InputError(model.source + ": holds neither triangles nor quads");
-}
-
-void check(const GivenMesh& model, const std::string&) {
+/// A TriangleModel or a GivenMesh.
+void check(const auto& model, const std::string&) {
   check_given(model.mesh, model.source);
   if (model.mesh.triangles.empty() && model.mesh.quads.empty())
     throw InputError(model.source + ": holds neither triangles nor quads");
@@ -117,21 +171,17 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
                                  fmt::join(given, ", "), given.size() == 1 ? "is" : "are", wanted));
 }
 
-/// Refuses what would change a mesh in space before words begin.
-void check_given_in_space(const MeshProblem& problem) {
-  refuse_surface_options(problem, true, "a mesh that is given keeps its faces, lines and unit", "models");
-  if (problem.size.curvature > 0 ||
-      std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
-    throw InputError(problem.size.where + ": sizes by curvature are for models of surfaces");
-}
-
-/// Refuses what is for surfaces.
-void check_planar(const MeshProblem& problem) {
-  refuse_surface_options(problem, false, "the model is planar", "surfaces");
+/// Refuses what would change a mesh in space before words begin, and what is for surfaces in the plane.
+void check_no_surface(const MeshProblem& problem, bool in_space) {
+  refuse_surface_options(
+      problem, in_space,
+      in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
+      in_space ? "models" : "surfaces");
   if (problem.size.curvature > 0 ||
       std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; }))
     throw InputError(problem.size.where +
-                     ": sizes by curvature are for surfaces, and this is a planar domain");
+                     (in_space ? ": sizes by curvature are for models of surfaces"
+                               : ": sizes by curvature are for surfaces, and this is a planar domain"));
 }
 
 /// Mirror images have the nodes of the other side, and not those of periodic curves.
@@ -148,7 +198,7 @@ void check_kind(const MeshProblem& problem) {
   const bool in_space = given != nullptr && is_in_space(given->mesh);
   if (!in_space &&
       (given != nullptr || lines != nullptr || std::holds_alternative<PlanarModel>(problem.model))) {
-    check_planar(problem);
+    check_no_surface(problem, false);
     check_symmetry_alone(problem);
   }
   if (given == nullptr && lines == nullptr) return;
@@ -156,7 +206,7 @@ void check_kind(const MeshProblem& problem) {
   check_curves_are_meshed(problem);
   if (given != nullptr && !problem.layers.empty())
     throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
-  if (in_space) check_given_in_space(problem);
+  if (in_space) check_no_surface(problem, true);
 }
 
 }  // namespace

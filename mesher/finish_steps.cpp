@@ -243,20 +243,14 @@ void run(const FinishStep& step, Finishing& on) {
 const std::vector<FinishStep>& finish_steps() {
   using R = RepairOptions;
   static const std::vector<FinishStep> all = {
-      {"part_twins", "parting", &R::part_twins, "edges and quads that two faces have in common",
-       FinishAt::kEveryStage, is_surface, part},
-      {"lift_bad_quads", "lifting", &R::lift_bad_quads, "quads that are bad in space", FinishAt::kPatches,
-       is_treated, lift},
-      {"flat_corners", "flat corners", &R::flat_corners, "quads with flat corners, where elements get curved",
-       FinishAt::kMesh, is_curved, part_corners},
-      {"across_cuts", "other cuts", &R::across_cuts, "irregular vertices that cuts of faces left",
-       FinishAt::kMeasured, is_worth_other_cuts, run_across_cuts},
-      {"keep_given", "keeping", &R::keep_given, "given quads that became worse", FinishAt::kMeasured,
-       was_given, keep_better},
-      {"curving", "curving", nullptr, "all elements, which get nodes on the model", FinishAt::kMeasured,
-       is_to_be_curved, curve},
-      {"refine_unsound", "refining", &R::refine_unsound, "sizes around places where the mesh is not sound",
-       FinishAt::kProblem, nullptr, nullptr},
+      {"part_twins", "parting", &R::part_twins, FinishAt::kEveryStage, is_surface, part},
+      {"lift_bad_quads", "lifting", &R::lift_bad_quads, FinishAt::kPatches, is_treated, lift},
+      {"flat_corners", "flat corners", &R::flat_corners, FinishAt::kMesh, is_curved, part_corners},
+      {"across_cuts", "other cuts", &R::across_cuts, FinishAt::kMeasured, is_worth_other_cuts,
+       run_across_cuts},
+      {"keep_given", "keeping", &R::keep_given, FinishAt::kMeasured, was_given, keep_better},
+      {"curving", "curving", nullptr, FinishAt::kMeasured, is_to_be_curved, curve},
+      {"refine_unsound", "refining", &R::refine_unsound, FinishAt::kProblem, nullptr, nullptr},
   };
   return all;
 }

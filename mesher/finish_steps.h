@@ -47,7 +47,6 @@ struct FinishStep {
   const char* name;             ///< in records
   const char* time;             ///< in records of times
   bool RepairOptions::*option;  ///< false switches it off, and it alone; null: elements of order 1 do
-  const char* touches;
   FinishAt at;
   bool (*applies)(const Finishing& to);
   bool (*run)(Finishing& on);  ///< returns whether anything changed; null: see FinishAt::kProblem

@@ -12,6 +12,7 @@
 #include "features/given/named_domain.h"
 #include "features/sizes/size_warnings.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/planar/model_chain.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/model_report.h"
 #include "io/cases/read_problem.h"
@@ -19,21 +20,11 @@
 namespace delquad {
 namespace {
 
-/// Edges of planar curves, in diagonals of the model.
+/// Edges of planar curves, in diagonals of the model, which is seen by so many chords a curve.
 constexpr double kPlanarEdge = 1.0 / 2000;
+constexpr int kChordsOfCurve = 200;
 /// Where a planar curve turns by more, its point counts as a corner.
 constexpr double kTurn = 30 * std::numbers::pi / 180;
-
-double length_of_diagonal(const PlanarModel& model) {
-  constexpr int kPoints = 200;  // a curve
-  Box<Vec2> box = Box<Vec2>::around({model.curves.at(0).shape->point(0)});
-  for (const ModelCurve& curve : model.curves)
-    for (int k = 0; k <= kPoints; ++k) {
-      const Vec2 p = curve.shape->point(double(k) / kPoints);
-      box.add(p);
-    }
-  return norm(box.size());
-}
 
 /// The regions of a domain, triangulated between the points of their boundary.
 SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
@@ -64,7 +55,7 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 SurfaceModel load(const MeshProblem& problem) {
   const DoingStage stage("reading");
   if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
-    const double edge = kPlanarEdge * length_of_diagonal(*model);
+    const double edge = kPlanarEdge * norm(box_of(*model, kChordsOfCurve).size());
     return as_model(make_domain(*model, [edge](const Vec3&) { return edge; }), model->source);
   }
   if (const auto* lines = std::get_if<LineModel>(&problem.model))

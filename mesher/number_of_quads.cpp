@@ -1,12 +1,9 @@
-#include "mesher/number_of_quads.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <tuple>
 
 #include "base/calibration.h"
-#include "base/counters.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/scaling/scale_sizes.h"
@@ -15,19 +12,6 @@
 #include "patches/prepared.h"
 
 namespace delquad {
-/// What meet_quads() did.
-struct NumberSummary {
-  int asked = 0;
-  int meshes = 0;  ///< that were made, the first and the last included
-};
-
-template <>
-struct Counters<NumberSummary> {
-  using S = NumberSummary;
-  static constexpr const char* step = "number_of_quads";
-  static constexpr auto all = std::tuple{counter("asked", &S::asked), counter("meshes", &S::meshes)};
-};
-
 namespace {
 
 /// How near the number of quads is to come, as a part of it, by how many meshes.
@@ -78,7 +62,8 @@ PreparedProblem prepare_for_quads(MeshProblem& problem) {
 
 void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& result) {
   const MeshProblem first = prepared.problem();
-  const auto wanted = static_cast<double>(*first.quads);
+  const long long asked = *first.quads;
+  const auto wanted = static_cast<double>(asked);
   const auto worth = [&](const MeshResult& r) {
     return std::pair(!r.soundness.accepted(), std::abs(std::log(count_of_quads(r.mesh) / wanted)));
   };
@@ -98,16 +83,16 @@ void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& resul
       return std::nullopt;  // no mesh can have that size
     }
   };
-  const int meshes = calibrate_scale(wanted, kLimits, quads_at).runs;
+  const long long meshes = calibrate_scale(wanted, kLimits, quads_at).runs;
   add_times(lost.times, result.log);
   result.seconds = seconds;
-  add_summary(result.log, NumberSummary{static_cast<int>(wanted), meshes});
+  result.log.summaries.add("number_of_quads", {{"asked", asked}, {"meshes", meshes}});
   const double got = count_of_quads(result.mesh);
   if (std::abs(got / wanted - 1) > kLimits.tolerance)
     result.warnings.push_back(
         fmt::format("{}: {} quads were asked for, and of {} meshes the nearest has {}: curves, layers, grids "
                     "and places that would not be sound need theirs, and numbers of edges change by leaps",
-                    first.name, *first.quads, meshes, got));
+                    first.name, asked, meshes, got));
 }
 
 }  // namespace delquad

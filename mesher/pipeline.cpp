@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "base/activity.h"
-#include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "delquad/error.h"
@@ -141,9 +141,7 @@ void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
   const NearestTriangle nearest(fine.points, fine.triangles);
   const std::vector<Vec3>& nodes = result.mesh.points;
   std::vector<double> distances(nodes.size());
-  parallel_ranges(nodes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) distances[i] = nearest.find(nodes[i]).distance;
-  });
+  parallel_each(nodes.size(), [&](std::size_t i) { distances[i] = nearest.find(nodes[i]).distance; });
   const auto most = std::ranges::max_element(distances);
   result.warnings.push_back(
       {"farthest nodes", *most,

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "delquad/mesher.h"
@@ -56,19 +57,20 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model);
 /// out of range, and things that contradict each other.
 void check_problem(const MeshProblem& problem);
 
-/// Of a model whose loose lines are imprinted: faces flattened, curves meshed once each, all patches even;
-/// cross field and size on each patch. Refuses sizes that would need more than problem.max_elements through
-/// `check_count`. Throws InputError naming faces that cannot be meshed, unless problem.keep_going leaves them
-/// out and others remain.
-PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
-                                std::shared_ptr<const SizeField> size,
-                                const std::function<void(double quads)>& check_count,
-                                const Refinement& refinement = {});
-
-/// The same of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along
-/// sides of elements, and the elements within. `given`: its curves and regions.
+/// Of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along sides of
+/// elements, and the elements within. `given`: its curves and regions. Whatever the number of elements.
 PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
-                                      std::shared_ptr<const SizeField> size,
-                                      const std::function<void(double quads)>& check_count);
+                                      std::shared_ptr<const SizeField> size);
+
+/// The problem, whose files are read, by sizes at which as many quads are expected; these are its own then.
+/// Where it has none, the size is the same everywhere. Throws InputError for numbers that cannot be.
+PreparedProblem prepare_for_quads(MeshProblem& problem);
+
+/// Meshes a problem, whose files are read.
+using MeshAnew = std::function<std::pair<Prepared, MeshResult>(MeshProblem problem)>;
+/// Meshes anew by other sizes, twice at most, until there are as many quads as are asked for to 3 %. Both
+/// become those of the nearest mesh, sound ones first, with the time of all; a warning tells where that is
+/// not near enough.
+void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& result);
 
 }  // namespace delquad

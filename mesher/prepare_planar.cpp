@@ -12,7 +12,6 @@
 #include "features/given/named_domain.h"
 #include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
-#include "features/layers/planar_layers.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"

@@ -22,7 +22,6 @@
 #include "features/seed/perturb.h"
 #include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
-#include "features/sizes/join_short_curves.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
@@ -117,22 +116,12 @@ void append(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
 class SurfaceSteps final : public ModelSteps {
  public:
   SurfaceSteps(const MeshProblem& problem, const Refinement& refinement)
-      : problem_(problem),
-        refinement_(refinement),
-        check_([&](double quads) { check_count(quads, problem); }) {}
-  /// Of a model that was read.
-  SurfaceSteps(const MeshProblem& problem, const Refinement& refinement, SurfaceModel model,
-               std::shared_ptr<const SizeField> size, std::function<void(double)> check)
-      : problem_(problem),
-        refinement_(refinement),
-        check_(std::move(check)),
-        model_(std::move(model)),
-        asked_(std::move(size)) {}
+      : problem_(problem), refinement_(refinement) {}
 
   void read(PreparedProblem& p) override {
-    if (!asked_) read_model(p.warnings);
+    read_model(p.warnings);
     check_surface_cross(problem_.cross);
-    check_(expected_quads(model_.fine, SurfaceSize(asked_)));
+    check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
     divisions_ = cut_ ? divisions_of_part(problem_.divisions, *cut_) : problem_.divisions;
     if (cut_) model_ = std::move(cut_->half.model);
@@ -219,18 +208,17 @@ class SurfaceSteps final : public ModelSteps {
     if (!problem_.divisions.empty()) p.size.adapted_to.push_back("given edges");
     if (!p.size.adapted_to.empty()) p.size.asked = asked_;
     p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
-    check_(p.size.expected_quads);
+    check_count(p.size.expected_quads, problem_);
   }
 
   const MeshProblem& problem_;
   const Refinement& refinement_;
-  std::function<void(double quads)> check_;
   Failures failures_{problem_};
   SurfaceModel model_;
   std::shared_ptr<const SurfaceModel> cad_;  ///< PreparedSurface::cad
-  std::shared_ptr<const SizeField> asked_;   ///< null: the model is yet to be read
-  std::optional<CutSurface> cut_;            ///< of a symmetric one, whose part is `model_`
-  std::vector<CurveDivision> divisions_;     ///< of the part
+  std::shared_ptr<const SizeField> asked_;
+  std::optional<CutSurface> cut_;         ///< of a symmetric one, whose part is `model_`
+  std::vector<CurveDivision> divisions_;  ///< of the part
   WantedSize wanted_;
   PeriodicSides periodic_;
   std::vector<Warning> of_periodic_;
@@ -241,14 +229,11 @@ class SurfaceSteps final : public ModelSteps {
 class GivenSurfaceSteps final : public ModelSteps {
  public:
   GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
-      : problem_(problem),
-        mesh_(given.mesh),
-        source_(&given),
-        check_([&](double quads) { check_count(quads, problem); }) {}
+      : problem_(problem), mesh_(given.mesh), source_(&given) {}
   /// Of a mesh that was read.
   GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
-                    std::shared_ptr<const SizeField> size, std::function<void(double)> check)
-      : problem_(problem), mesh_(mesh), check_(std::move(check)), given_(std::move(given)) {
+                    std::shared_ptr<const SizeField> size)
+      : problem_(problem), mesh_(mesh), given_(std::move(given)) {
     wanted_.base = std::move(size);
   }
 
@@ -276,7 +261,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     surface_->size = std::make_shared<SurfaceSize>(model, wanted_);
     p.size.field = surface_->size;
     p.size.expected_quads = expected_quads(model.fine, *surface_->size);
-    check_(p.size.expected_quads);
+    if (source_ != nullptr) check_count(p.size.expected_quads, problem_);
     if (!mesh_.quads.empty()) p.given_worst = worst_of_given(mesh_, false, *surface_->size);
     surface_->domain = make_kept_domain(model, std::move(flattening_), *surface_->size);
     given_.given_curve.resize(model.fine.curves.size(), -1);
@@ -325,7 +310,6 @@ class GivenSurfaceSteps final : public ModelSteps {
   const MeshProblem& problem_;
   const Mesh& mesh_;                   ///< as it was given
   const GivenMesh* source_ = nullptr;  ///< null: it was read
-  std::function<void(double quads)> check_;
   Failures failures_{problem_};
   GivenSurface given_;
   WantedSize wanted_;
@@ -346,17 +330,8 @@ std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, cons
 }
 
 PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
-                                      std::shared_ptr<const SizeField> size,
-                                      const std::function<void(double quads)>& check_count) {
-  GivenSurfaceSteps steps(problem, std::move(given), mesh, std::move(size), check_count);
-  return prepare_by(problem, steps);
-}
-
-PreparedProblem prepare_surface(const MeshProblem& problem, SurfaceModel model,
-                                std::shared_ptr<const SizeField> size,
-                                const std::function<void(double quads)>& check_count,
-                                const Refinement& refinement) {
-  SurfaceSteps steps(problem, refinement, std::move(model), std::move(size), check_count);
+                                      std::shared_ptr<const SizeField> size) {
+  GivenSurfaceSteps steps(problem, std::move(given), mesh, std::move(size));
   return prepare_by(problem, steps);
 }
 

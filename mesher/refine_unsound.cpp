@@ -8,7 +8,6 @@
 
 #include "base/box.h"
 #include "base/budget.h"
-#include "base/counters.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/mirrored_surface.h"
@@ -16,21 +15,9 @@
 #include "metrics/judgement/soundness.h"
 
 namespace delquad {
-/// What refine_unsound() did.
-struct RefinementSummary {
-  int rounds = 0;  ///< how often the problem was meshed anew
-  int spots = 0;   ///< places around which the size is smaller
-};
-
-template <>
-struct Counters<RefinementSummary> {
-  using S = RefinementSummary;
-  static constexpr const char* step = "refine_unsound";
-  static constexpr auto all = std::tuple{counter("rounds", &S::rounds), counter("spots", &S::spots)};
-};
-
 namespace {
 
+constexpr const char* kRefining = "refine_unsound";  // in records
 /// How often a problem is meshed anew; in a row without fewer places that are not sound.
 constexpr int kMostRounds = 8, kMostIdle = 2;
 /// From this round on sharp edges in the spots become features; from the first on where what is small was
@@ -104,7 +91,7 @@ long long quads_of(const PreparedProblem& prepared, const MeshResult& result) {
 /// Where it is not sound, the first hundred for each reason.
 std::size_t unsound_places(const MeshResult& result) { return result.soundness.places.size(); }
 
-Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, int rounds,
+Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, long long rounds,
                        const char* why) {
   return fmt::format(
       "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
@@ -129,7 +116,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
   bool is_other = false;
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
-  int rounds = 0, idle = 0;  // in all, and since the best
+  long long rounds = 0, idle = 0;  // in all, and since the best
   const char* why = "that no longer helped";
   try {
     while (!result.soundness.sound()) {
@@ -151,7 +138,8 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
       idle = is_better ? 0 : idle + 1;
       if (is_better) {
         is_other = true;
-        add_summary(run.log, RefinementSummary{rounds, static_cast<int>(spots.size())});
+        run.log.summaries.add(kRefining,
+                              {{"rounds", rounds}, {"spots", static_cast<long long>(spots.size())}});
         run.warnings.push_back(warning_of(finer, spots));
         std::swap(prepared, finer);
         std::swap(result, run);
@@ -167,8 +155,8 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
   add_times(lost.times, result.log);
   double lost_seconds = 0;
   for (const auto& [step, time] : lost.times) lost_seconds += time.work;
-  note_seconds(Counters<RefinementSummary>::step, lost_seconds, result.log.summaries);
-  if (is_other) note_worth(Counters<RefinementSummary>::step, before, worth_of(result), result.log.summaries);
+  note_seconds(kRefining, lost_seconds, result.log.summaries);
+  if (is_other) note_worth(kRefining, before, worth_of(result), result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 

@@ -75,6 +75,13 @@ bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_nod
   return std::ranges::adjacent_find(quads) != quads.end();
 }
 
+/// Edits of whole patches that were taken back, because they left two quads around a tube: treatments, of
+/// which relocation is left, and clean-ups.
+void note_discarded(bool treatment, bool cleanup, StageLog& log) {
+  log.summaries.add("discarded", {{"treatments", static_cast<long long>(treatment)},
+                                  {"cleanups", static_cast<long long>(cleanup)}});
+}
+
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch recombination;
   const DoingStage matching("matching");
@@ -100,7 +107,7 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
     treated.seconds += in_vain;
   }
   patch.quads = std::move(result);
-  add_summary(log, DiscardSummary{.treatments = discarded});
+  note_discarded(discarded, false, log);
   add_summary(log, treated);
   log.add_time("treatment", treatment.time());
 }
@@ -157,7 +164,7 @@ void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&,
     patch.quads = std::move(result);
   }
   add_summary(log, summary);
-  add_summary(log, DiscardSummary{.cleanups = discarded});
+  note_discarded(false, discarded, log);
   log.add_time(step, watch.time());
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "geometry/mesh/tri_topology.h"
 #include "patches/prepared.h"
 #include "smoothing/relocation/quad_relocation.h"
 
@@ -97,36 +98,11 @@ std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in)
 }
 
 void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
-  const auto corner_after = [&](int t, int v) {
-    return static_cast<int>(std::ranges::find(mesh.triangles[t], v) - mesh.triangles[t].begin() + 1) % 3;
-  };
-  const auto has_side = [&](const std::array<int, 3>& t) {
-    for (int k = 0; k < 3; ++k)
-      if (t[k] == ends[0] && t[(k + 1) % 3] == ends[1]) return true;
-    return false;
-  };
   const auto [a, b] = ends;
-  const int left = static_cast<int>(std::ranges::find_if(mesh.triangles, has_side) - mesh.triangles.begin());
-  const int k = (corner_after(left, b)) % 3, right = mesh.neighbours[left][k];
-  const int c = mesh.triangles[left][k], l = corner_after(right, a), d = mesh.triangles[right][l];
-  const int m = static_cast<int>(mesh.points.size()), n = static_cast<int>(mesh.triangles.size());
-  const auto across = [&](int t, int v) {
-    return mesh.neighbours[t][std::ranges::find(mesh.triangles[t], v) - mesh.triangles[t].begin()];
-  };
-  const int bc = across(left, a), ca = across(left, b), ad = across(right, b), db = across(right, a);
-  mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
-  // Around m: (m, c, a), (m, a, d), (m, d, b), (m, b, c).
-  const std::array<int, 4> fan{left, right, n, n + 1}, rim{c, a, d, b}, outside{ca, ad, db, bc};
-  const std::array<int, 4> before{left, right, right, left};
-  mesh.triangles.resize(n + 2);
-  mesh.neighbours.resize(n + 2);
-  for (int i = 0; i < 4; ++i) {
-    const int next = (i + 1) % 4, last = (i + 3) % 4;
-    mesh.triangles[fan[i]] = {m, rim[i], rim[next]};
-    mesh.neighbours[fan[i]] = {outside[i], fan[next], fan[last]};
-    if (outside[i] >= 0 && before[i] != fan[i])
-      std::ranges::replace(mesh.neighbours[outside[i]], before[i], fan[i]);
-  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.triangles[t][(k + 1) % 3] == a && mesh.triangles[t][(k + 2) % 3] == b)
+        return split_side(mesh, static_cast<int>(t), k, 0.5 * (mesh.points[a] + mesh.points[b]));
 }
 
 /// A corner is not opened where that leaves a quad below this eta, or this part of the sine that it had.

@@ -4,13 +4,17 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
-#include "algorithms/recombination/hilbert.h"
+#include "base/box.h"
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
+#include "base/hilbert_place.h"
 #include "base/parallel.h"
 #include "base/parallel_collect.h"
+#include "base/parallel_each.h"
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/tri_topology.h"
 
@@ -18,13 +22,63 @@ namespace delquad {
 
 namespace {
 
+constexpr int kBits = 16;  // of each coordinate
+
+/// Sorts by the upper 32 bits; numbers that agree in them stay in their order. Parts of a fixed length are
+/// counted and moved at once.
+void sort_by_upper_half(std::vector<std::uint64_t>& keys) {
+  constexpr int kDigit = 11;
+  constexpr std::size_t kPart = std::size_t{1} << 17;
+  using Counts = std::array<std::size_t, 1u << kDigit>;
+  std::vector<std::uint64_t> sorted(keys.size());
+  std::vector<Counts> parts((keys.size() + kPart - 1) / kPart);
+  for (int shift = 32; shift < 64; shift += kDigit) {
+    const auto digit = [&](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };
+    const auto part_of = [&](std::size_t part) {
+      return std::span(keys).subspan(part * kPart, std::min(kPart, keys.size() - part * kPart));
+    };
+    parallel_for(parts.size(), [&](std::size_t part) {
+      parts[part].fill(0);
+      for (const std::uint64_t key : part_of(part)) ++parts[part][digit(key)];
+    });
+    std::size_t place = 0;
+    for (std::size_t d = 0; d < parts[0].size(); ++d) {
+      for (Counts& counts : parts) place += std::exchange(counts[d], place);
+    }
+    parallel_for(parts.size(), [&](std::size_t part) {
+      for (const std::uint64_t key : part_of(part)) sorted[parts[part][digit(key)]++] = key;
+    });
+    keys.swap(sorted);
+  }
+}
+
+}  // namespace
+
+std::vector<int> hilbert_order(std::span<const Vec2> points) {
+  if (points.empty()) return {};
+  const auto [low, high] = Box<Vec2>::around(points);
+  const double extent = std::max(high.x - low.x, high.y - low.y);
+  const double scale = extent > 0 ? ((1 << kBits) - 1) / extent : 0;
+  // Position in the upper half and index in the lower.
+  std::vector<std::uint64_t> keys(points.size());
+  parallel_each(points.size(), [&](std::size_t i) {
+    const Vec2 p = scale * (points[i] - low);
+    const std::uint32_t at = hilbert_place(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
+    keys[i] = std::uint64_t{at} << 32 | i;
+  });
+  sort_by_upper_half(keys);
+  std::vector<int> order(points.size());
+  parallel_each(points.size(), [&](std::size_t i) { order[i] = static_cast<int>(keys[i] & 0xffffffffu); });
+  return order;
+}
+
+namespace {
+
 std::vector<int> triangles_along_curve(const TriPatch& tri) {
   std::vector<Vec2> centroids(tri.triangles.size());
-  parallel_ranges(centroids.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& v = tri.triangles[t];
-      centroids[t] = (1.0 / 3) * (tri.points[v[0]] + tri.points[v[1]] + tri.points[v[2]]);
-    }
+  parallel_each(centroids.size(), [&](std::size_t t) {
+    const auto& v = tri.triangles[t];
+    centroids[t] = (1.0 / 3) * (tri.points[v[0]] + tri.points[v[1]] + tri.points[v[2]]);
   });
   return hilbert_order(centroids);
 }
@@ -42,12 +96,10 @@ constexpr std::size_t kPerBlock = 256, kPerRange = 32 * kPerBlock;
 std::vector<std::size_t> first_edges(const TriPatch& tri, const std::vector<int>& node) {
   const std::size_t n = node.size();
   std::vector<std::atomic<std::size_t>> counts(n / kPerRange + 1);
-  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      std::size_t higher = 0;
-      for (const int u : tri.neighbours[t]) higher += u >= 0 && node[u] > node[t];
-      counts[node[t] / kPerRange].fetch_add(higher, std::memory_order_relaxed);
-    }
+  parallel_each(n, [&](std::size_t t) {
+    std::size_t higher = 0;
+    for (const int u : tri.neighbours[t]) higher += u >= 0 && node[u] > node[t];
+    counts[node[t] / kPerRange].fetch_add(higher, std::memory_order_relaxed);
   });
   std::vector<std::size_t> first = {0};
   for (const auto& count : counts) first.push_back(first.back() + count);
@@ -198,9 +250,7 @@ DualGraph build_dual_graph(const TriPatch& tri) {
   dual.triangle = triangles_along_curve(tri);
   dual.graph.n_nodes = static_cast<int>(tri.triangles.size());
   std::vector<int> node(tri.triangles.size());
-  parallel_ranges(node.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) node[dual.triangle[i]] = static_cast<int>(i);
-  });
+  parallel_each(node.size(), [&](std::size_t i) { node[dual.triangle[i]] = static_cast<int>(i); });
   const std::vector<std::size_t> first_edge = first_edges(tri, node);
   dual.graph.edges = interior_sides(tri, dual.triangle, node, first_edge);
   dual.first_extra = static_cast<int>(dual.graph.edges.size());

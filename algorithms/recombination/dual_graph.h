@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/matching/matching.h"
@@ -28,6 +29,10 @@ struct DualGraph {
   int first_extra = 0;            ///< index of the first extra edge
   std::vector<int> extra_vertex;  ///< boundary point of each extra edge
 };
+
+/// The indices of the points in the order in which a Hilbert curve over their bounding box (65 536 cells a
+/// side) meets them; points of one cell in index order.
+std::vector<int> hilbert_order(std::span<const Vec2> points);
 
 /// The quad that triangle t and its neighbour u across a side of t make, from t's corner opposite of it.
 std::array<int, 4> merged_quad(const TriPatch& tri, int t, int side, int u);

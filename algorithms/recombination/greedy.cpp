@@ -24,13 +24,6 @@ bool is_longest(const TriPatch& tri, int t, int k) {
   return length(k) >= length((k + 1) % 3) && length(k) >= length((k + 2) % 3);
 }
 
-/// The quad of a triangle and the one across its side k.
-std::array<int, 4> merged(const TriPatch& tri, int t, int k) {
-  const auto& v = tri.triangles[t];
-  const int u = tri.neighbours[t][k];
-  return {v[k], v[(k + 1) % 3], tri.triangles[u][facing_side(tri, u, t)], v[(k + 2) % 3]};
-}
-
 /// The quads that triangles may make, and which of them they do.
 class Pairing {
  public:
@@ -71,7 +64,7 @@ class Pairing {
     if (u < t) return;
     if (options.longest_side && !is_longest(tri_, t, k) && !is_longest(tri_, u, facing_side(tri_, u, t)))
       return;
-    const auto [a, b, c, d] = merged(tri_, t, k);
+    const auto [a, b, c, d] = merged_quad(tri_, t, k, u);
     const double eta = signed_eta(tri_.points[a], tri_.points[b], tri_.points[c], tri_.points[d]);
     if (eta >= options.least_eta) pairs_.push_back({eta, t, k});
   }
@@ -115,7 +108,7 @@ QuadPatch recombine_greedily(const TriPatch& tri, const GreedyOptions& options, 
   for (int t = 0; t < static_cast<int>(tri.triangles.size()); ++t) {
     const int u = pairing.mate(t);
     if (u < 0) mesh.triangles.push_back(tri.triangles[t]);
-    if (u > t) mesh.quads.push_back(merged(tri, t, facing_side(tri, t, u)));
+    if (u > t) mesh.quads.push_back(merged_quad(tri, t, facing_side(tri, t, u), u));
   }
   if (summary != nullptr) {
     *summary = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -11,19 +12,174 @@
 #include <vector>
 
 #include "algorithms/cleanup/edit_in_blocks.h"
-#include "algorithms/regularity/cavity.h"
 #include "algorithms/regularity/patterns.h"
+#include "algorithms/treatment/treatment_moves.h"
 #include "base/cancel.h"
 #include "base/marks.h"
 #include "base/option_table.h"
 #include "geometry/mesh/quad_blocks.h"
 #include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
 
 namespace {
+
+/// Scatters the bits of a number (splitmix64).
+std::uint64_t scattered(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// Quads that other quads may replace. A vertex of the rim wants so many quads inside as its ideal valence is
+/// more than its quads outside: one at a corner, two on a side. A closed cavity has no others, but for
+/// concave vertices of the boundary, and its rim is one loop.
+class Cavity {
+ public:
+  /// Both outlive this object.
+  Cavity(const QuadTopology& mesh, const ValenceEnergy& energy) : mesh_(mesh), energy_(energy) {}
+
+  /// Empty, and never more than `most` quads.
+  void begin(int most) {
+    ++pass_;
+    most_ = most;
+    element_pass_.resize(mesh_.element_slots(), 0);
+    vertex_pass_.resize(mesh_.vertex_slots(), 0);
+    quads_at_.resize(mesh_.vertex_slots(), 0);
+    checked_at_.resize(mesh_.vertex_slots(), 0);
+    elements_.clear(), vertices_.clear(), to_check_.clear();
+  }
+
+  /// False, here and below: it would have a triangle, a held vertex or too many quads. It can be no cavity
+  /// then.
+  bool add(int element) {
+    if (has(element)) return true;
+    if (elements_.size() >= most_ || !mesh_.is_quad(element)) return false;
+    element_pass_[element] = pass_;
+    elements_.push_back(element);
+    for (int k = 0; k < 4; ++k) {
+      const int v = mesh_.corner(element, k);
+      if (mesh_.held(v)) return false;
+      if (vertex_pass_[v] != pass_) {
+        vertex_pass_[v] = pass_;
+        quads_at_[v] = checked_at_[v] = 0;
+        vertices_.push_back(v);
+      }
+      ++quads_at_[v];
+      to_check_.push_back(v);
+    }
+    return true;
+  }
+
+  bool add_around(int vertex) {
+    bool good = true;
+    mesh_.for_each_out(vertex, [&](int h) { good = good && add(QuadTopology::element(h)); });
+    return good;
+  }
+
+  /// Adds the quads at vertices of the rim that want none, or three and more, as long as there are any.
+  /// False, too, where the boundary is too concave, or the rim no loop with 2 to 8 corners (concave ones
+  /// taken off).
+  bool close() {
+    while (!to_check_.empty()) {
+      const int v = to_check_.back();
+      to_check_.pop_back();
+      if (checked_at_[v] == quads_at_[v] || is_inside(v)) continue;
+      checked_at_[v] = quads_at_[v];
+      const int want = wanted(v), most = quads_at_[v] == mesh_.valence(v) ? 3 : 2;
+      if (want >= 1 && want <= most && fans_at(v) == 1) continue;
+      if (most == 3 || !add_around(v)) return false;
+    }
+    return trace();
+  }
+
+  std::span<const int> elements() const { return elements_; }
+  /// All vertices, also of the rim.
+  std::span<const int> vertices() const { return vertices_; }
+  /// Of a closed one: the half-edges of the rim counterclockwise, and 2 - (quads wanted) of their origins.
+  std::span<const int> rim() const { return rim_; }
+  std::span<const int> turns() const { return turns_; }
+  int corners() const { return corners_; }
+  bool is_inside(int vertex) const {
+    return !mesh_.on_boundary(vertex) && quads_at(vertex) == mesh_.valence(vertex);
+  }
+  bool has(int element) const {
+    return static_cast<std::size_t>(element) < element_pass_.size() && element_pass_[element] == pass_;
+  }
+
+  /// How many of its vertices are irregular.
+  int irregular() const {
+    return static_cast<int>(std::ranges::count_if(vertices_, [&](int v) { return energy_.of(v) > 0; }));
+  }
+
+  /// A number that tells cavities apart, and what lies around them.
+  std::uint64_t key() const {
+    std::uint64_t sum = 0;
+    for (const int e : elements_) sum += scattered(2 * static_cast<std::uint64_t>(e));
+    for (const int v : vertices_)
+      if (!is_inside(v))
+        sum += scattered((static_cast<std::uint64_t>(v) << 5) + 2 * std::min(wanted(v) + 1, 7) + 1);
+    return sum;
+  }
+
+ private:
+  int quads_at(int v) const {
+    return static_cast<std::size_t>(v) < vertex_pass_.size() && vertex_pass_[v] == pass_ ? quads_at_[v] : 0;
+  }
+  int wanted(int v) const { return energy_.ideal(v) - (mesh_.valence(v) - quads_at(v)); }
+
+  /// Runs of its quads around a vertex.
+  int fans_at(int v) const {
+    if (quads_at(v) == 1 || (!mesh_.on_boundary(v) && quads_at(v) == mesh_.valence(v) - 1)) return 1;
+    int fans = 0, first = -1, last = -1;
+    mesh_.for_each_out(v, [&](int h) {
+      const int in = has(QuadTopology::element(h)) ? 1 : 0;
+      if (first < 0) first = in;
+      if (in == 1 && last != 1) ++fans;
+      last = in;
+    });
+    return fans - (!mesh_.on_boundary(v) && first == 1 && last == 1 && fans > 1 ? 1 : 0);
+  }
+
+  bool trace() {
+    rim_.clear(), turns_.clear(), corners_ = 0;
+    const auto is_outer = [&](int h) {
+      return mesh_.twin(h) < 0 || !has(QuadTopology::element(mesh_.twin(h)));
+    };
+    std::size_t n_outer = 0;
+    int first = -1;
+    for (const int e : elements_)
+      for (int h = 4 * e; h < 4 * e + 4; ++h) {
+        if (!is_outer(h)) continue;
+        ++n_outer;
+        if (first < 0 || h < first) first = h;
+      }
+    int h = first;
+    do {
+      if (rim_.size() == n_outer) return false;
+      rim_.push_back(h);
+      turns_.push_back(2 - wanted(mesh_.origin(h)));
+      corners_ += turns_.back();
+      h = mesh_.next(h);
+      while (!is_outer(h)) h = mesh_.next(mesh_.twin(h));
+    } while (h != first);
+    return rim_.size() == n_outer && corners_ >= 2 && corners_ <= 8;
+  }
+
+  const QuadTopology& mesh_;
+  const ValenceEnergy& energy_;
+  std::size_t most_ = 0;
+  unsigned pass_ = 0;
+  std::vector<unsigned> element_pass_, vertex_pass_;  ///< the last pass in which each was met
+  std::vector<int> quads_at_;                         ///< by vertex of this pass
+  std::vector<int> checked_at_;                       ///< and how many there were when it was checked last
+  std::vector<int> elements_, vertices_, to_check_, rim_, turns_;
+  int corners_ = 0;  ///< sum of the turns
+};
 
 /// How many irregular vertices near one make cavities with it, and among how many vertices they are looked
 /// for, for each quad that a cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 
-#include "algorithms/treatment/treatment_process.h"
+#include "algorithms/treatment/local_remeshing.h"
+#include "algorithms/treatment/treatment_moves.h"
+#include "base/cancel.h"
+#include "base/marks.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "delquad/matching.h"
+#include "geometry/mesh/quad_blocks.h"
+#include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
 
@@ -21,217 +26,371 @@ constexpr int kPairLoss = 2, kPairTries = 3;
 constexpr int kPairEnergy = 3;
 /// Passes over the quads that are bad in the end.
 constexpr int kRemeshingPasses = 5;
+/// Below this eta even new vertices are welcome, once nothing else helps; and in the end remeshing.
+constexpr double kInsetEta = 0.15, kRemeshedEta = 0.05;
+/// How much penalty such a move must take off, and more for each unit of valence energy that it costs.
+constexpr double kLeastRelief = 0.05, kReliefPerEnergy = 0.05;
 
-}  // namespace
+/// The state and the steps of one treatment; treat_paper() is its public face.
+class TreatmentProcess {
+ public:
+  /// Both outlive this object.
+  TreatmentProcess(const QuadBlock& block, const ParametricSize& size)
+      : block_(block),
+        mesh_(block.mesh, block.first_held),
+        energy_(mesh_),
+        relocation_(mesh_, size),
+        penalty_(mesh_, relocation_),
+        remeshing_(mesh_, relocation_, penalty_),
+        queue_(mesh_, energy_),
+        most_ring_quads_(kRingQuadsPerElement * mesh_.element_slots()),
+        most_looks_(most_looks(mesh_.element_slots())) {}
 
-void TreatmentProcess::run(const TreatmentOptions& options) {
-  for (int e = 0; e < mesh_.element_slots(); ++e) pending_.push_back(is_near(e));
-  relocation_.activate_all(block_);
-  summary_.relocated += relocation_.relax(0.1, 6);
-  // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
-  // never negative; a rescue, at most one for each element that the round began with, may raise it by a few.
-  for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds && !is_spent();
-       ++summary_.rounds) {
-    changes = single_moves();
-    changes += paired_moves();
-    summary_.relocated += relocation_.relax(0.05, 10);
-    changes += rescues();
-  }
-  summary_.stopped = is_spent();
-  relocation_.keep_convex_corners();
-  relocation_.activate_all(block_);
-  summary_.relocated += relocation_.relax(kSettled, 30);
-  if (options.max_rounds > 0) {
-    for (int pass = 0; pass < kRemeshingPasses && remeshings() > 0;) ++pass;
+  void run(const TreatmentOptions& options) {
+    for (int e = 0; e < mesh_.element_slots(); ++e) pending_.push_back(is_near(e));
+    relocation_.activate_all(block_);
+    summary_.relocated += relocation_.relax(0.1, 6);
+    // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
+    // never negative; a rescue, at most one for each element that the round began with, may raise it by a
+    // few.
+    for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds && !is_spent();
+         ++summary_.rounds) {
+      changes = single_moves();
+      changes += paired_moves();
+      summary_.relocated += relocation_.relax(0.05, 10);
+      changes += rescues();
+    }
+    summary_.stopped = is_spent();
+    relocation_.keep_convex_corners();
+    relocation_.activate_all(block_);
     summary_.relocated += relocation_.relax(kSettled, 30);
+    if (options.max_rounds > 0) {
+      for (int pass = 0; pass < kRemeshingPasses && remeshings() > 0;) ++pass;
+      summary_.relocated += relocation_.relax(kSettled, 30);
+    }
+    summary_.relocated += relocation_.lift_worst(0.5, 10);
+    summary_.looks = relocation_.looks();
   }
-  summary_.relocated += relocation_.lift_worst(0.5, 10);
-  summary_.looks = relocation_.looks();
-}
 
-// --- single moves, the largest gain first
+  QuadPatch result() const { return mesh_.to_patch(); }
+  const TreatmentSummary& summary() const { return summary_; }
 
-bool TreatmentProcess::irregular(int element) const {
-  for (int k = 0; k < 4; ++k)
-    if (const int v = mesh_.corner(element, k); v >= 0 && energy_.of(v) > 0) return true;
-  return false;
-}
+ private:
+  int single_moves() {
+    for (int e = 0; e < mesh_.element_slots(); ++e)
+      if (irregular(e) && is_near(e)) consider(e);
+    return drain();
+  }
 
-void TreatmentProcess::consider(int element) {
-  const auto push = [&](const TreatmentMove& move) {
-    const int gain = energy_.gain(move);
-    if (gain > 0) queue_.push({gain, move});
-  };
-  for_each_move(mesh_, element, push);
-  for_each_opening(mesh_, element, push);
-}
+  /// Ends: elements are passed once, new ones included, and there are new ones only where energy fell.
+  int paired_moves() {
+    int changes = 0;
+    pending_.resize(mesh_.element_slots(), 1);
+    for (int e = 0; e < mesh_.element_slots() && !is_spent(); ++e) {
+      if (!pending_[e]) continue;
+      pending_[e] = 0;
+      if (!irregular(e)) continue;
+      firsts_.clear();
+      for_each_move(mesh_, e, [&](const TreatmentMove& move) {
+        const int gain = energy_.gain(move);
+        if (gain >= -kPairLoss && is_legal(mesh_, move)) firsts_.push_back({gain, move});
+      });
+      std::sort(firsts_.rbegin(), firsts_.rend());
+      for (const Candidate& first : firsts_)
+        if (try_pair(first)) {
+          changes += 1 + drain();
+          break;
+        }
+    }
+    return changes;
+  }
 
-bool TreatmentProcess::is_near(int element) const {
-  for (int k = 0; k < 4; ++k)
-    if (const int v = mesh_.corner(element, k); v >= 0 && block_.is_near(v)) return true;
-  return false;
-}
+  /// Tries to mend each quad below this eta that was not given up; returns how much changed.
+  /// Ends: each element that was there at the start is looked at once.
+  template <class Mend>
+  int mend_below(double eta, std::vector<char>& given_up, Mend mend) {
+    int changes = 0;
+    const double least = sine_of_eta(eta);
+    for (int e = 0, n = mesh_.element_slots(); e < n; ++e) {
+      check_cancelled();
+      given_up.resize(mesh_.element_slots(), 0);
+      if (!mesh_.is_quad(e) || given_up[e] || least_sine(mesh_, e) >= least) continue;
+      given_up[e] = !mend(e);
+      if (!given_up[e]) changes += 1 + drain();
+    }
+    return changes;
+  }
 
-int TreatmentProcess::single_moves() {
-  for (int e = 0; e < mesh_.element_slots(); ++e)
-    if (irregular(e) && is_near(e)) consider(e);
-  return drain();
-}
+  int rescues() {
+    return mend_below(kPoorEta, beyond_rescue_, [&](int e) { return rescue(e); });
+  }
 
-/// Ends: each move that is kept lowers the valence energy and calls for no more others than lie around it.
-int TreatmentProcess::drain() {
-  int changes = 0;
-  while (const auto move = queue_.pop())
-    if (!is_spent()) changes += try_single(*move);
-  return changes;
-}
+  /// The last resort: the neighbourhoods of bad quads.
+  int remeshings() {
+    return mend_below(kRemeshedEta, hopeless_, [&](int e) {
+      if (!remeshing_.improve(e, kLeastRelief)) return false;
+      touched_.assign(remeshing_.touched().begin(), remeshing_.touched().end());
+      if (remeshing_.ring_quads() > 0) {
+        ++summary_.boundary_repairs;
+        summary_.ring_quads += remeshing_.ring_quads();
+      } else if (remeshing_.move().at >= 0) {
+        count(remeshing_.move());
+      }
+      accept();
+      return true;
+    });
+  }
 
-bool TreatmentProcess::try_single(const TreatmentMove& move) {
-  touched_.clear();
-  touch(touched_by(mesh_, move));
-  const double before = penalty();
-  const auto start = mesh_.mark();
-  perform(move);
-  if (!settles(before)) {
+  void consider(int element) {
+    const auto push = [&](const TreatmentMove& move) {
+      const int gain = energy_.gain(move);
+      if (gain > 0) queue_.push({gain, move});
+    };
+    for_each_move(mesh_, element, push);
+    for_each_opening(mesh_, element, push);
+  }
+
+  /// Ends: each move that is kept lowers the valence energy and calls for no more others than lie around it.
+  int drain() {
+    int changes = 0;
+    while (const auto move = queue_.pop())
+      if (!is_spent()) changes += try_single(*move);
+    return changes;
+  }
+
+  bool try_single(const TreatmentMove& move) {
+    touched_.clear();
+    touch(touched_by(mesh_, move));
+    const double before = penalty();
+    const auto start = mesh_.mark();
+    perform(move);
+    if (!settles(before)) {
+      mesh_.rollback(start);
+      return false;
+    }
+    count(move);
+    accept();
+    return true;
+  }
+
+  bool try_pair(const Candidate& first) {
+    const TouchedVertices touched = touched_by(mesh_, first.move);
+    touched_.clear();
+    touch(touched);
+    const double before = penalty();
+    const auto start = mesh_.mark();
+    perform(first.move);
+    if (find_seconds(touched, first.gain)) {
+      int tries = 0;
+      for (const Candidate& second : seconds_) {
+        if (!is_legal(mesh_, second.move)) continue;
+        if (++tries > kPairTries) break;
+        touched_.clear();
+        touch(touched);
+        touch(touched_by(mesh_, second.move));
+        const auto middle = mesh_.mark();
+        perform(second.move);
+        if (settles(before)) {
+          count(first.move);
+          count(second.move);
+          accept();
+          return true;
+        }
+        mesh_.rollback(middle);
+      }
+    }
     mesh_.rollback(start);
     return false;
   }
-  count(move);
-  accept();
-  return true;
-}
 
-// --- pairs of moves: the first may cost energy, both together gain
-
-/// Ends: elements are passed once, new ones included, and there are new ones only where energy fell.
-int TreatmentProcess::paired_moves() {
-  int changes = 0;
-  pending_.resize(mesh_.element_slots(), 1);
-  for (int e = 0; e < mesh_.element_slots() && !is_spent(); ++e) {
-    if (!pending_[e]) continue;
-    pending_[e] = 0;
-    if (!irregular(e)) continue;
-    firsts_.clear();
-    for_each_move(mesh_, e, [&](const TreatmentMove& move) {
-      const int gain = energy_.gain(move);
-      if (gain >= -kPairLoss && is_legal(mesh_, move)) firsts_.push_back({gain, move});
+  bool find_seconds(const TouchedVertices& touched, int gain) {
+    elements_met_.begin(mesh_.element_slots());
+    vertices_met_.begin(mesh_.vertex_slots());
+    region_.clear();
+    int energy = 0;
+    for_each_element_around(mesh_, touched, elements_met_, [&](int e) {
+      region_.push_back(e);
+      for (int k = 0; k < 4; ++k)
+        if (const int w = mesh_.corner(e, k); w >= 0 && vertices_met_.meet(w)) energy += energy_.of(w);
     });
-    std::sort(firsts_.rbegin(), firsts_.rend());
-    for (const Candidate& first : firsts_)
-      if (try_pair(first)) {
-        changes += 1 + drain();
-        break;
-      }
+    if (energy < kPairEnergy - gain) return false;
+    seconds_.clear();
+    for (const int e : region_)
+      for_each_move(mesh_, e, [&](const TreatmentMove& move) {
+        const int total = gain + energy_.gain(move);
+        if (total > 0) seconds_.push_back({total, move});
+      });
+    std::sort(seconds_.rbegin(), seconds_.rend());
+    const auto same = [](const Candidate& a, const Candidate& b) { return a.move == b.move; };
+    seconds_.erase(std::unique(seconds_.begin(), seconds_.end(), same), seconds_.end());
+    return !seconds_.empty();
   }
-  return changes;
-}
 
-bool TreatmentProcess::try_pair(const Candidate& first) {
-  const TouchedVertices touched = touched_by(mesh_, first.move);
-  touched_.clear();
-  touch(touched);
-  const double before = penalty();
-  const auto start = mesh_.mark();
-  perform(first.move);
-  if (find_seconds(touched, first.gain)) {
-    int tries = 0;
-    for (const Candidate& second : seconds_) {
-      if (!is_legal(mesh_, second.move)) continue;
-      if (++tries > kPairTries) break;
-      touched_.clear();
-      touch(touched);
-      touch(touched_by(mesh_, second.move));
-      const auto middle = mesh_.mark();
-      perform(second.move);
-      if (settles(before)) {
-        count(first.move);
-        count(second.move);
-        accept();
-        return true;
-      }
-      mesh_.rollback(middle);
+  bool rescue(int element) {
+    if (is_spent()) return false;
+    double best = kLeastRelief;
+    TreatmentMove choice{TreatmentMove::kInset, -1};
+    for_each_move(mesh_, element, [&](const TreatmentMove& move) {
+      if (!is_legal(mesh_, move)) return;
+      const int loss = std::max(-energy_.gain(move), 0);
+      const double relief = relief_of(move) - kReliefPerEnergy * loss;
+      if (relief > best) best = relief, choice = move;
+    });
+    if (choice.at < 0) return least_sine(mesh_, element) < sine_of_eta(kInsetEta) && rescue_by_inset(element);
+    touched_.clear();
+    touch(touched_by(mesh_, choice));
+    const double before = penalty();
+    const auto start = mesh_.mark();
+    perform(choice);
+    relax_touched();
+    // The relief was against relaxed neighbours, which may be poorer than those that are there.
+    if (before - penalty() < kLeastRelief) {
+      mesh_.rollback(start);
+      return false;
+    }
+    count(choice);
+    accept();
+    return true;
+  }
+
+  /// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
+  bool rescue_by_inset(int element) {
+    const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
+    if (!is_legal(mesh_, inset) || summary_.ring_quads >= most_ring_quads_) return false;
+    const TreatmentSummary summary = summary_;
+    const auto start = mesh_.mark();
+    touched_.clear();
+    touch(touched_by(mesh_, inset));
+    const double before = penalty();
+    perform(inset);
+    relax_touched();
+    count(inset);
+    revocable_ = true;
+    touched_on_trial_.clear();
+    accept();
+    const std::vector<int> around = touched_;
+    drain();
+    revocable_ = false;
+    touched_ = around;
+    relax_touched();
+    if (before - penalty() < kLeastRelief) {
+      mesh_.rollback(start);
+      summary_ = summary;
+      return false;
+    }
+    touched_ = touched_on_trial_;
+    accept();
+    return true;
+  }
+
+  /// How much penalty the move takes off once it has settled.
+  double relief_of(const TreatmentMove& move) {
+    touched_.clear();
+    touch(touched_by(mesh_, move));
+    const auto start = mesh_.mark();
+    relax_touched();
+    const double before = penalty();
+    perform(move);
+    relax_touched();
+    const double after = penalty();
+    mesh_.rollback(start);
+    return before - after;
+  }
+
+  void perform(const TreatmentMove& move) { apply(mesh_, relocation_, move, touched_); }
+
+  void touch(const TouchedVertices& vertices) {
+    for (const int v : vertices)
+      if (std::find(touched_.begin(), touched_.end(), v) == touched_.end()) touched_.push_back(v);
+  }
+
+  void relax_touched() {
+    for (int sweep = 0; sweep < kRescueSweeps; ++sweep)
+      for (const int v : touched_) relocation_.step(v);
+  }
+
+  double penalty() { return penalty_.around(touched_); }
+
+  bool settles(double penalty_before) {
+    for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
+      for (const int v : touched_) relocation_.step(v);
+      if (penalty() <= penalty_before) return true;
+    }
+    return false;
+  }
+
+  void accept() {
+    if (revocable_) {
+      touched_on_trial_.insert(touched_on_trial_.end(), touched_.begin(), touched_.end());
+      for (const int v : touched_)
+        if (mesh_.vertex_alive(v)) mesh_.for_each_out(v, [&](int h) { consider(QuadTopology::element(h)); });
+      return;
+    }
+    mesh_.commit();
+    pending_.resize(mesh_.element_slots(), 1);
+    hopeless_.resize(mesh_.element_slots(), 0);
+    beyond_rescue_.resize(mesh_.element_slots(), 0);
+    for (const int v : touched_) {
+      if (!mesh_.vertex_alive(v)) continue;
+      mesh_.for_each_out(v, [&](int h) {
+        const int e = QuadTopology::element(h);
+        consider(e);
+        pending_[e] = 1;
+        hopeless_[e] = beyond_rescue_[e] = 0;
+        for (int k = 0; k < 4; ++k)
+          if (const int w = mesh_.corner(e, k); w >= 0) relocation_.activate(w);
+      });
     }
   }
-  mesh_.rollback(start);
-  return false;
-}
 
-bool TreatmentProcess::find_seconds(const TouchedVertices& touched, int gain) {
-  elements_met_.begin(mesh_.element_slots());
-  vertices_met_.begin(mesh_.vertex_slots());
-  region_.clear();
-  int energy = 0;
-  for_each_element_around(mesh_, touched, elements_met_, [&](int e) {
-    region_.push_back(e);
+  void count(const TreatmentMove& move) {
+    using S = TreatmentSummary;
+    // By TreatmentMove::Kind; there are no splits.
+    static constexpr int S::*kCounters[] = {
+        &S::swaps, &S::swaps,    &S::diamonds, &S::doublets, &S::boundary_repairs,
+        &S::swaps, &S::openings, &S::openings};
+    ++(summary_.*kCounters[move.kind]);
+    if (move.kind == TreatmentMove::kInset) summary_.ring_quads += 4;
+  }
+
+  bool is_spent() const { return relocation_.looks() + penalty_.looks() > most_looks_; }
+
+  bool irregular(int element) const {
     for (int k = 0; k < 4; ++k)
-      if (const int w = mesh_.corner(e, k); w >= 0 && vertices_met_.meet(w)) energy += energy_.of(w);
-  });
-  if (energy < kPairEnergy - gain) return false;
-  seconds_.clear();
-  for (const int e : region_)
-    for_each_move(mesh_, e, [&](const TreatmentMove& move) {
-      const int total = gain + energy_.gain(move);
-      if (total > 0) seconds_.push_back({total, move});
-    });
-  std::sort(seconds_.rbegin(), seconds_.rend());
-  const auto same = [](const Candidate& a, const Candidate& b) { return a.move == b.move; };
-  seconds_.erase(std::unique(seconds_.begin(), seconds_.end(), same), seconds_.end());
-  return !seconds_.empty();
-}
-
-// --- trials
-
-void TreatmentProcess::touch(const TouchedVertices& vertices) {
-  for (const int v : vertices)
-    if (std::find(touched_.begin(), touched_.end(), v) == touched_.end()) touched_.push_back(v);
-}
-
-void TreatmentProcess::relax_touched() {
-  for (int sweep = 0; sweep < kRescueSweeps; ++sweep)
-    for (const int v : touched_) relocation_.step(v);
-}
-
-bool TreatmentProcess::settles(double penalty_before) {
-  for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
-    for (const int v : touched_) relocation_.step(v);
-    if (penalty() <= penalty_before) return true;
+      if (const int v = mesh_.corner(element, k); v >= 0 && energy_.of(v) > 0) return true;
+    return false;
   }
-  return false;
-}
 
-void TreatmentProcess::accept() {
-  if (revocable_) {
-    touched_on_trial_.insert(touched_on_trial_.end(), touched_.begin(), touched_.end());
-    for (const int v : touched_)
-      if (mesh_.vertex_alive(v)) mesh_.for_each_out(v, [&](int h) { consider(QuadTopology::element(h)); });
-    return;
+  bool is_near(int element) const {
+    for (int k = 0; k < 4; ++k)
+      if (const int v = mesh_.corner(element, k); v >= 0 && block_.is_near(v)) return true;
+    return false;
   }
-  mesh_.commit();
-  pending_.resize(mesh_.element_slots(), 1);
-  hopeless_.resize(mesh_.element_slots(), 0);
-  beyond_rescue_.resize(mesh_.element_slots(), 0);
-  for (const int v : touched_) {
-    if (!mesh_.vertex_alive(v)) continue;
-    mesh_.for_each_out(v, [&](int h) {
-      const int e = QuadTopology::element(h);
-      consider(e);
-      pending_[e] = 1;
-      hopeless_[e] = beyond_rescue_[e] = 0;
-      for (int k = 0; k < 4; ++k)
-        if (const int w = mesh_.corner(e, k); w >= 0) relocation_.activate(w);
-    });
-  }
-}
 
-void TreatmentProcess::count(const TreatmentMove& move) {
-  using S = TreatmentSummary;
-  // By TreatmentMove::Kind; there are no splits.
-  static constexpr int S::*kCounters[] = {
-      &S::swaps, &S::swaps,    &S::diamonds, &S::doublets, &S::boundary_repairs,
-      &S::swaps, &S::openings, &S::openings};
-  ++(summary_.*kCounters[move.kind]);
-  if (move.kind == TreatmentMove::kInset) summary_.ring_quads += 4;
-}
+  const QuadBlock& block_;
+  QuadTopology mesh_;
+  ValenceEnergy energy_;
+  QuadRelocation relocation_;
+  ShapePenalty penalty_;
+  LocalRemeshing remeshing_;
+  MoveQueue queue_;                  ///< single moves
+  std::vector<char> pending_;        ///< by element: changed since pairs of moves were tried there
+  std::vector<char> hopeless_;       ///< by element: unchanged since remeshing failed there
+  std::vector<char> beyond_rescue_;  ///< by element: unchanged since no move took off enough there
+  std::vector<int> touched_;         ///< vertices of the move on trial
+  std::vector<Candidate> firsts_, seconds_;
+  std::vector<int> region_;
+  Marks elements_met_, vertices_met_;
+  bool revocable_ = false;             ///< accepted moves may still be taken back
+  std::vector<int> touched_on_trial_;  ///< by those moves
+  /// Rings of new quads may not outgrow the patch, however poor its quads stay.
+  static constexpr int kRingQuadsPerElement = 4;
+  int most_ring_quads_;
+  long long most_looks_;  ///< until then moves are tried
+  TreatmentSummary summary_;
+};
+
+}  // namespace
 
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options,
                       TreatmentSummary* summary) {

@@ -1,13 +1,16 @@
 #include "features/curved/curved_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <span>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -15,7 +18,7 @@
 #include "base/segment.h"
 #include "base/sort_unique.h"
 #include "delquad/model.h"
-#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/nearest_on_regions.h"
 
 namespace delquad {
 namespace {
@@ -236,14 +239,7 @@ class SurfaceGeometry final : public ModelGeometry {
                        Span{static_cast<int>(c), b.s, a.s});
       }
     }
-    if (surface.model.projector) return;
-    const Mesh& fine = surface.model.fine;
-    std::vector<std::vector<std::array<int, 3>>> of_face(fine.regions.size());
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      of_face[fine.triangle_region[t]].push_back(fine.triangles[t]);
-    for (auto& triangles : of_face)
-      faces_.push_back(
-          triangles.empty() ? nullptr : std::make_unique<NearestTriangle>(fine.points, std::move(triangles)));
+    if (!surface.model.projector) facets_.emplace(surface.model.fine);
   }
 
   std::vector<Vec3> on_line(int line, std::span<const double> parts) const override {
@@ -275,12 +271,7 @@ class SurfaceGeometry final : public ModelGeometry {
   }
   bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
   Vec3 on_face(int region, const Vec3& x) const override {
-    if (surface_.model.projector) return surface_.model.projector->to_face(region, x);
-    if (!faces_[region]) return x;
-    const NearestTriangle::Found found = faces_[region]->find(x);
-    const auto& v = faces_[region]->triangle(found.triangle);
-    const std::vector<Vec3>& p = surface_.model.fine.points;
-    return found.weights[0] * p[v[0]] + found.weights[1] * p[v[1]] + found.weights[2] * p[v[2]];
+    return facets_ ? facets_->place(region, x) : surface_.model.projector->to_face(region, x);
   }
 
  private:
@@ -318,7 +309,7 @@ class SurfaceGeometry final : public ModelGeometry {
   std::map<Key, Span> spans_;
   std::map<int, std::vector<int>> chains_of_;  ///< of each curve
   PlaceSet sliding_;
-  std::vector<std::unique_ptr<NearestTriangle>> faces_;  ///< of a triangulation, by face
+  std::optional<NearestOnRegions> facets_;  ///< of a triangulation
 };
 
 }  // namespace
@@ -327,6 +318,51 @@ std::unique_ptr<ModelGeometry> geometry_behind(const PreparedProblem& prepared, 
                                                const Mesh& mesh) {
   if (prepared.surface) return std::make_unique<SurfaceGeometry>(*prepared.surface, nodes, mesh);
   return std::make_unique<PlanarGeometry>(prepared, nodes, mesh);
+}
+
+namespace {
+
+/// Parts of a line from whose points its tangent at the end is found, by the parabola through all three.
+constexpr double kNearEnd = 0.01;
+
+/// Away from a line's end; its length means nothing.
+Vec3 tangent_at(const Mesh& mesh, const ModelGeometry& geometry, int line, int vertex) {
+  const bool is_first = mesh.lines[line][0] == vertex;
+  const std::array<double, 2> parts =
+      is_first ? std::array{kNearEnd, 2 * kNearEnd} : std::array{1 - 2 * kNearEnd, 1 - kNearEnd};
+  std::vector<Vec3> at = geometry.on_line(line, parts);
+  if (!is_first) std::swap(at[0], at[1]);
+  return 4.0 * at[0] - at[1] - 3.0 * mesh.points[vertex];
+}
+
+}  // namespace
+
+std::vector<CurveCorner> curve_corners(const Mesh& straight, const ModelGeometry& geometry) {
+  const auto key = [&](int a, int b) {
+    const auto [lo, hi] = std::minmax(a, b);
+    return static_cast<long long>(lo) * static_cast<long long>(straight.points.size()) + hi;
+  };
+  std::unordered_map<long long, int> line_of;  // only looked up
+  for (std::size_t l = 0; l < straight.lines.size(); ++l)
+    line_of.emplace(key(straight.lines[l][0], straight.lines[l][1]), static_cast<int>(l));
+  const auto line_at = [&](int a, int b) {
+    const auto found = line_of.find(key(a, b));
+    return found == line_of.end() ? -1 : found->second;
+  };
+  std::vector<CurveCorner> corners;
+  for (std::size_t q = 0; q < straight.quads.size(); ++q)
+    for (int k = 0; k < 4; ++k) {
+      const auto& v = straight.quads[q];
+      const int out = line_at(v[k], v[(k + 1) % 4]), in = line_at(v[k], v[(k + 3) % 4]);
+      if (out < 0 || in < 0) continue;
+      const Vec3 n =
+          cross(straight.points[v[2]] - straight.points[v[0]], straight.points[v[3]] - straight.points[v[1]]);
+      const Vec3 a = tangent_at(straight, geometry, out, v[k]), b = tangent_at(straight, geometry, in, v[k]);
+      double angle = std::atan2(dot(cross(a, b), n) / norm(n), dot(a, b));
+      if (angle < -std::numbers::pi / 2) angle += 2 * std::numbers::pi;
+      corners.push_back({static_cast<int>(q), k, out, in, angle});
+    }
+  return corners;
 }
 
 }  // namespace delquad

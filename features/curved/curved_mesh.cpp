@@ -11,15 +11,14 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "base/text.h"
 #include "delquad/mesh.h"
-#include "features/curved/curve_corners.h"
 #include "features/curved/curved_geometry.h"
 #include "features/curved/jacobian_bounds.h"
 #include "features/curved/raise_order.h"
 #include "features/curved/untangle_curved.h"
-#include "features/layers/planar_layers.h"
+#include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/element_nodes.h"
 
@@ -198,28 +197,24 @@ void pair_curved_lines(Mesh& mesh) {
 /// From places halfway between nodes, where elements are furthest off.
 double distance_to_model(const Mesh& mesh, const ModelGeometry& geometry) {
   std::vector<double> of_quads(mesh.quads.size(), 0);
-  parallel_ranges(of_quads.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) {
-      std::vector<Vec3> places;
-      for (const int v : nodes_of_quad(mesh, q)) places.push_back(mesh.points[v]);
-      const Bernstein<Vec3> map = bernstein_of(places, mesh.order);
-      for (int j = 0; j < mesh.order; ++j)
-        for (int i = 0; i < mesh.order; ++i) {
-          const Vec3 x = value_at(map, (i + 0.5) / mesh.order, (j + 0.5) / mesh.order);
-          of_quads[q] = std::max(of_quads[q], norm(x - geometry.on_face(mesh.quad_region[q], x)));
-        }
-    }
+  parallel_each(of_quads.size(), [&](std::size_t q) {
+    std::vector<Vec3> places;
+    for (const int v : nodes_of_quad(mesh, q)) places.push_back(mesh.points[v]);
+    const Bernstein<Vec3> map = bernstein_of(places, mesh.order);
+    for (int j = 0; j < mesh.order; ++j)
+      for (int i = 0; i < mesh.order; ++i) {
+        const Vec3 x = value_at(map, (i + 0.5) / mesh.order, (j + 0.5) / mesh.order);
+        of_quads[q] = std::max(of_quads[q], norm(x - geometry.on_face(mesh.quad_region[q], x)));
+      }
   });
   std::vector<double> of_lines(mesh.lines.size(), 0);
-  parallel_ranges(of_lines.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t l = begin; l < end; ++l) {
-      std::vector<Vec3> places;
-      for (const int v : nodes_of_line(mesh, l)) places.push_back(mesh.points[v]);
-      for (int i = 0; i < mesh.order; ++i) {
-        const Vec3 x = value_on_line(places, (i + 0.5) / mesh.order);
-        if (const auto on_curve = geometry.on_curve(mesh.line_curve[l], x))
-          of_lines[l] = std::max(of_lines[l], norm(x - *on_curve));
-      }
+  parallel_each(of_lines.size(), [&](std::size_t l) {
+    std::vector<Vec3> places;
+    for (const int v : nodes_of_line(mesh, l)) places.push_back(mesh.points[v]);
+    for (int i = 0; i < mesh.order; ++i) {
+      const Vec3 x = value_on_line(places, (i + 0.5) / mesh.order);
+      if (const auto on_curve = geometry.on_curve(mesh.line_curve[l], x))
+        of_lines[l] = std::max(of_lines[l], norm(x - *on_curve));
     }
   });
   double most = 0;

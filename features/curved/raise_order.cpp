@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "base/cancel.h"
-#include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "geometry/mesh/element_nodes.h"
 
 namespace delquad {
@@ -43,11 +43,9 @@ class OrderRaiser {
     place_sides();
     bend_thin_quads();
     number_nodes();
-    parallel_ranges(mesh_.quads.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) {
-        check_cancelled();
-        place_inside(mesh_, q, geometry_);
-      }
+    parallel_each(mesh_.quads.size(), [&](std::size_t q) {
+      check_cancelled();
+      place_inside(mesh_, q, geometry_);
     });
   }
 
@@ -72,11 +70,9 @@ class OrderRaiser {
   }
 
   void place_sides() {
-    parallel_ranges(sides_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        check_cancelled();
-        place(sides_[s]);
-      }
+    parallel_each(sides_.size(), [&](std::size_t s) {
+      check_cancelled();
+      place(sides_[s]);
     });
   }
 
@@ -113,10 +109,9 @@ class OrderRaiser {
       if (sides_[first].line < 0 || !is_bent(sides_[first])) continue;
       for (const int i : at_side[first]) bend_across(i, at_side, added);
     }
-    parallel_ranges(sides_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s)
-        for (std::size_t k = 0; k < added[s].shift.size(); ++k)
-          sides_[s].points[k] = geometry_.on_face(sides_[s].region, sides_[s].points[k] + added[s].shift[k]);
+    parallel_each(sides_.size(), [&](std::size_t s) {
+      for (std::size_t k = 0; k < added[s].shift.size(); ++k)
+        sides_[s].points[k] = geometry_.on_face(sides_[s].region, sides_[s].points[k] + added[s].shift[k]);
     });
   }
 

@@ -28,9 +28,6 @@
 
 namespace delquad {
 
-/// Refuses numbers out of range, and what contradicts itself.
-void check_size(const SizeSpec& size);
-
 /// The size without what depends on the model; `own` makes the one that stands in for a base. A function is
 /// sampled on `domain`.
 std::shared_ptr<const SizeField> base_size(const SizeSpec& spec, const SampleDomain& domain,

@@ -14,6 +14,7 @@
 #include "features/symmetry/planar_symmetry.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "fields/fields.h"
+#include "geometry/planar/model_chain.h"
 
 namespace delquad {
 namespace {
@@ -53,19 +54,14 @@ void check_count_early(const MeshProblem& problem, const PlanarModel& model,
   check_count(coarse ? expected_quads(BackgroundMesh(coarse->patches), *size) : edges / 2, problem);
 }
 
-Box<Vec3> box_of(const PlanarModel& model) {
-  constexpr int kPoints = 64;  // a curve
-  std::vector<Vec3> points;
-  for (const ModelCurve& curve : model.curves)
-    for (int k = 0; k <= kPoints; ++k) {
-      const Vec2 p = curve.shape->point(double(k) / kPoints);
-      points.push_back({p.x, p.y, 0});
-    }
-  return Box<Vec3>::around(points);
+Box<Vec3> box_in_space(const PlanarModel& model) {
+  constexpr int kChords = 64;  // a curve
+  const auto [low, high] = box_of(model, kChords);
+  return {{low.x, low.y, 0}, {high.x, high.y, 0}};
 }
 
 double diagonal_of(const PlanarModel& model) {
-  const Box<Vec3> box = box_of(model);
+  const Box<Vec3> box = box_in_space(model);
   return norm(box.high - box.low);
 }
 
@@ -128,7 +124,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   PreparedSize& size = p.size;
   SizedModel sized(problem, model, p);
   const PlanarDomain& domain = sized.domain;
-  size.field = base_size(spec, {box_of(model)}, p.warnings, [&] {
+  size.field = base_size(spec, {box_in_space(model)}, p.warnings, [&] {
     return largest_size(
         spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
   });

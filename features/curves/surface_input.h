@@ -9,9 +9,6 @@
 
 namespace delquad {
 
-/// Refuses numbers out of range; `where` begins the message.
-void check_surface(const SurfaceSpec& surface, const std::string& where);
-
 /// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
 /// InputError for models that cannot be read, for options that have no effect on them, and for compounds of
 /// faces that do not exist or do not hang together. `kept`: where features of triangles stay, and what is
@@ -20,5 +17,11 @@ void check_surface(const SurfaceSpec& surface, const std::string& where);
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                           std::shared_ptr<const SurfaceModel>& cad);
 SurfaceModel make_surface(const MeshProblem& problem);
+
+/// The model with curves shorter than a part of the size (`curves.join_below`) made one with those that they
+/// continue, see merge_short_curves(): no node is needed where these meet, and so many short edges would make
+/// as many rows of quads end. Sizes that vary count where they are least. Curves with names stay, and those
+/// that the problem names by their numbers; all stay where sides are periodic or corners of grids are told.
+SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model);
 
 }  // namespace delquad

@@ -14,6 +14,7 @@
 #include "base/box.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "base/text.h"
@@ -292,20 +293,18 @@ std::vector<Vec3> offset_directions(const Section& section) {
   for (std::size_t q = 0; q < mesh.quads.size(); ++q)
     for (int k = 0; k < 4; ++k) corners[mesh.quads[q][k]].push_back({static_cast<int>(q), k});
   std::vector<Vec3> directions(mesh.points.size());
-  parallel_ranges(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::vector<CornerNormal> normals;
-      std::vector<std::array<int, 2>> ends;
-      for (const auto& [q, k] : corners[i]) {
-        const std::array<int, 4>& quad = mesh.quads[q];
-        normals.push_back(corner_normal(mesh, quad, k));
-        ends.push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
-      }
-      if (!is_one_fan(ends))
-        throw InputError(fmt::format("quads touch at {} in a point only, which has no one normal",
-                                     show_point(mesh.points[i])));
-      directions[i] = offset_direction(normals, mesh.points[i]);
+  parallel_each(mesh.points.size(), [&](std::size_t i) {
+    std::vector<CornerNormal> normals;
+    std::vector<std::array<int, 2>> ends;
+    for (const auto& [q, k] : corners[i]) {
+      const std::array<int, 4>& quad = mesh.quads[q];
+      normals.push_back(corner_normal(mesh, quad, k));
+      ends.push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
     }
+    if (!is_one_fan(ends))
+      throw InputError(fmt::format("quads touch at {} in a point only, which has no one normal",
+                                   show_point(mesh.points[i])));
+    directions[i] = offset_direction(normals, mesh.points[i]);
   });
   return directions;
 }

@@ -14,6 +14,7 @@
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/turn_to_agree.h"
 
 namespace delquad {
 
@@ -40,48 +41,29 @@ void require_quads(const Mesh& mesh) {
 void orient(Section& section, std::span<const HalfEdge> sides) {
   std::vector<std::array<int, 4>>& quads = section.mesh.quads;
   const std::vector<Vec3>& points = section.mesh.points;
-  struct Neighbour {
-    int quad;
-    bool is_turned;
-    int a, b;
-  };
-  std::vector<std::vector<Neighbour>> neighbours(quads.size());
+  std::vector<Neighbours> neighbours;
+  std::vector<Vec3> middles;
   for_each_edge(sides, [&](std::span<const HalfEdge> at) {
+    const Vec3 middle = 0.5 * (points[at[0].lo] + points[at[0].hi]);
     if (at.size() > 2)
       throw InputError(
           fmt::format("{} quads share the edge at {}: only surfaces whose edges have one or two are swept",
-                      at.size(), show_point(0.5 * (points[at[0].lo] + points[at[0].hi]))));
+                      at.size(), show_point(middle)));
     if (at.size() < 2) return;
-    const bool is_turned = at[0].forward == at[1].forward;
-    neighbours[at[0].element].push_back({at[1].element, is_turned, at[0].lo, at[0].hi});
-    neighbours[at[1].element].push_back({at[0].element, is_turned, at[0].lo, at[0].hi});
+    neighbours.push_back({at[0].element, at[1].element, at[0].forward != at[1].forward});
+    middles.push_back(middle);
   });
-  section.part.assign(quads.size(), -1);
-  std::vector<char> turned(quads.size(), 0);
-  std::vector<int> waiting;
-  for (std::size_t first = 0; first < quads.size(); ++first) {
-    if (section.part[first] >= 0) continue;
-    section.part[first] = section.n_parts++;
-    waiting.push_back(static_cast<int>(first));
-    while (!waiting.empty()) {
-      const int q = waiting.back();
-      waiting.pop_back();
-      for (const Neighbour& next : neighbours[q]) {
-        const char wanted = turned[q] != static_cast<char>(next.is_turned);
-        if (section.part[next.quad] < 0) {
-          section.part[next.quad] = section.part[q];
-          turned[next.quad] = wanted;
-          waiting.push_back(next.quad);
-        } else if (turned[next.quad] != wanted) {
-          throw InputError(fmt::format(
-              "the surface has one side only, as a Moebius strip, and cannot be swept: see the edge at {}",
-              show_point(0.5 * (points[next.a] + points[next.b]))));
-        }
-      }
-    }
-  }
+  const Turned turned = turn_to_agree(quads.size(), neighbours);
+  if (turned.clash >= 0)
+    throw InputError(fmt::format(
+        "the surface has one side only, as a Moebius strip, and cannot be swept: see the edge at {}",
+        show_point(middles[turned.clash])));
+  section.n_parts = static_cast<int>(turned.pieces.size());
+  section.part.resize(quads.size());
+  for (int p = 0; p < section.n_parts; ++p)
+    for (const int q : turned.pieces[p]) section.part[q] = p;
   for (std::size_t q = 0; q < quads.size(); ++q)
-    if (turned[q]) std::swap(quads[q][1], quads[q][3]);
+    if (turned.is_turned[q]) std::swap(quads[q][1], quads[q][3]);
 }
 
 /// Takes out lines that are no edges of quads, and points that no quad has.

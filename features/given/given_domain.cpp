@@ -12,6 +12,8 @@
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/tri_topology.h"
+#include "geometry/mesh/turn_to_agree.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
 #include "patches/patch_outline.h"
@@ -51,65 +53,36 @@ void refuse_repeated_corners(const GivenMesh& given) {
   });
 }
 
+double area_of(const Mesh& mesh, const std::vector<int>& corners) {
+  double area = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    area += cross(seen_from_above(mesh.points[corners[k]]),
+                  seen_from_above(mesh.points[corners[(k + 1) % corners.size()]])) /
+            2;
+  return area;
+}
+
 /// Turns elements over until neighbours agree, and pieces of the mesh until their area is positive.
-class Turning {
- public:
-  Turning(const GivenMesh& given, std::span<const HalfEdge> sides, Polygons& polygons)
-      : given_(given), polygons_(polygons), across_(polygons.corners.size()), turned_(across_.size(), -1) {
-    for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-      if (edge.size() > 2)
-        throw InputError(fmt::format("{}: {} is in {} elements: at most two were expected", given.source,
-                                     text_of_edge(given.mesh, edge[0].lo, edge[0].hi), edge.size()));
-      if (edge.size() != 2) return;
-      const bool disagree = edge[0].forward == edge[1].forward;
-      across_[edge[0].element].push_back({edge[1].element, disagree});
-      across_[edge[1].element].push_back({edge[0].element, disagree});
-    });
-    for (std::size_t e = 0; e < across_.size(); ++e)
-      if (turned_[e] < 0) turn_piece(static_cast<int>(e));
-  }
-
- private:
-  double area(int element) const {
-    double area = 0;
-    for (std::size_t k = 0; k < polygons_.corners[element].size(); ++k) {
-      const int i = static_cast<int>(k);
-      area += cross(at(polygons_.at(element, i)), at(polygons_.at(element, polygons_.next(element, i)))) / 2;
-    }
-    return area;
-  }
-  Vec2 at(int v) const { return seen_from_above(given_.mesh.points[v]); }
-
-  void turn_piece(int first) {
-    std::vector<int> piece{first};
-    turned_[first] = 0;
+void turn_over(const GivenMesh& given, std::span<const HalfEdge> sides, Polygons& polygons) {
+  std::vector<Neighbours> neighbours;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() > 2)
+      throw InputError(fmt::format("{}: {} is in {} elements: at most two were expected", given.source,
+                                   text_of_edge(given.mesh, edge[0].lo, edge[0].hi), edge.size()));
+    if (edge.size() == 2)
+      neighbours.push_back({edge[0].element, edge[1].element, edge[0].forward != edge[1].forward});
+  });
+  const Turned turned = turn_to_agree(polygons.corners.size(), neighbours);
+  if (turned.clash >= 0)
+    throw InputError(given.source + ": the elements have no common side, as those of a Moebius strip");
+  for (const std::vector<int>& piece : turned.pieces) {
     double sum = 0;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const int e = piece[i];
-      sum += (turned_[e] != 0 ? -1 : 1) * area(e);
-      for (const auto& [other, disagree] : across_[e]) {
-        const int wanted = turned_[e] ^ static_cast<int>(disagree);
-        if (turned_[other] < 0) {
-          turned_[other] = wanted;
-          piece.push_back(other);
-        } else if (turned_[other] != wanted) {
-          throw InputError(given_.source + ": the elements have no common side, as those of a Moebius strip");
-        }
-      }
-    }
     for (const int e : piece)
-      if ((turned_[e] != 0) != (sum < 0)) std::ranges::reverse(polygons_.corners[e]);
+      sum += (turned.is_turned[e] ? -1 : 1) * area_of(given.mesh, polygons.corners[e]);
+    for (const int e : piece)
+      if ((turned.is_turned[e] != 0) != (sum < 0)) std::ranges::reverse(polygons.corners[e]);
   }
-
-  struct Across {
-    int element;
-    bool disagree;
-  };
-  const GivenMesh& given_;
-  Polygons& polygons_;
-  std::vector<std::vector<Across>> across_;
-  std::vector<int> turned_;
-};
+}
 
 /// The edges that stay: they bound patches, or stand in one.
 class Fences {
@@ -438,7 +411,7 @@ GivenDomain make_given_domain(const GivenMesh& given) {
   const std::vector<HalfEdge> sides = sorted_half_edges(given.mesh);
   check_free_edges(given, sides);
   Polygons polygons(given.mesh);
-  Turning(given, sides, polygons);
+  turn_over(given, sides, polygons);
   const Fences fences(given.mesh, sides, polygons);
   GivenDomain result;
   std::map<std::pair<int, int>, int> curve_of;
@@ -505,20 +478,6 @@ std::array<std::array<int, 3>, 2> halves(const std::vector<Vec2>& points, const 
   };
   const std::array<std::array<int, 3>, 2> one{{{a, b, c}, {a, c, d}}}, other{{{a, b, d}, {b, c, d}}};
   return worst(one) >= worst(other) ? one : other;
-}
-
-void link_neighbours(TriPatch& tri) {
-  std::map<std::pair<int, int>, int> triangle_at;
-  for (std::size_t t = 0; t < tri.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      triangle_at[{tri.triangles[t][k], tri.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
-  for (const auto& v : tri.triangles) {
-    auto& across = tri.neighbours.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      const auto found = triangle_at.find({v[(k + 2) % 3], v[(k + 1) % 3]});
-      across[k] = found == triangle_at.end() ? -1 : found->second;
-    }
-  }
 }
 
 TriPatch as_triangles(const QuadPatch& elements) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "base/predicates.h"
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/quad_topology.h"
+#include "geometry/mesh/tri_topology.h"
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/relocation/untangling.h"
 
@@ -171,23 +171,6 @@ class GridMaker {
   const std::vector<double>& layers_;
 };
 
-/// Across the side from a to b; neighbours by sides.
-void set_neighbours(TriPatch& tri) {
-  std::map<std::array<int, 2>, std::array<int, 2>> open;
-  tri.neighbours.assign(tri.triangles.size(), {-1, -1, -1});
-  for (int t = 0; t < static_cast<int>(tri.triangles.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int a = tri.triangles[t][(k + 1) % 3], b = tri.triangles[t][(k + 2) % 3];
-      if (const auto at = open.find({b, a}); at != open.end()) {
-        const auto [u, m] = at->second;
-        tri.neighbours[t][k] = u;
-        tri.neighbours[u][m] = t;
-      } else {
-        open[{a, b}] = {t, k};
-      }
-    }
-}
-
 }  // namespace
 
 template <class Vec>
@@ -298,7 +281,7 @@ PatchMesh grid_as(PatchForm form, const QuadPatch& grid) {
     mesh.triangles.triangles.push_back({a, b, c});
     mesh.triangles.triangles.push_back({a, c, d});
   }
-  set_neighbours(mesh.triangles);
+  link_neighbours(mesh.triangles);
   return mesh;
 }
 

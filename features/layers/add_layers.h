@@ -8,6 +8,7 @@
 #include "base/counters.h"
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
+#include "patches/prepared.h"
 
 namespace delquad {
 
@@ -45,5 +46,13 @@ struct LayerReport {
 /// periodic curves; where there are such, patches get even numbers of edges. Mirror images of patches get
 /// those of their layers. Throws InputError for layers that cannot be, and for more than `max_quads`.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
+
+/// Puts the layers of a problem into its domain, and makes the background mesh of the rest. Sizes become less
+/// beside edges that are much shorter than these, and warnings tell where layers had to be lower, and where
+/// the rest of the mesh is far coarser than they are.
+void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p);
+
+/// Which quads of a mesh are of layers: in each region the first ones.
+std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh);
 
 }  // namespace delquad

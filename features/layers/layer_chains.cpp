@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/text.h"
@@ -16,6 +18,93 @@
 #include "geometry/mesh/entity_names.h"
 
 namespace delquad {
+
+namespace {
+
+/// Curves of which each line has a patch beside it, another one or none on the other side, and no crack.
+std::vector<char> bounding_curves(const PlanarDomain& domain) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> patches;
+  for (std::size_t p = 0; p < domain.patches.size(); ++p)
+    for (const auto& [a, b] : domain.patches[p].edges)
+      patches[std::minmax(domain.patches[p].point_node[a], domain.patches[p].point_node[b])].push_back(p);
+  const std::set<int> on_crack(domain.on_crack.begin(), domain.on_crack.end());
+  std::vector<char> bounds(domain.boundary.curves.size(), 1);
+  for (std::size_t l = 0; l < domain.boundary.lines.size(); ++l) {
+    const auto& [a, b] = domain.boundary.lines[l];
+    const std::vector<std::size_t>& beside = patches[std::minmax(a, b)];
+    const bool stands_inside = beside.size() == 2 && beside[0] == beside[1];
+    if (beside.empty() || stands_inside || (on_crack.contains(a) && on_crack.contains(b)))
+      bounds[domain.boundary.line_curve[l]] = 0;
+  }
+  return bounds;
+}
+
+std::vector<std::set<int>> regions_of_curves(const PlanarDomain& domain) {
+  std::vector<std::set<int>> regions(domain.boundary.curves.size());
+  for (std::size_t p = 0; p < domain.patches.size(); ++p)
+    for (const int curve : domain.patches[p].edge_curve)
+      if (curve >= 0) regions[curve].insert(domain.patch_region[p]);
+  return regions;
+}
+
+std::vector<char> regions_named(const PlanarDomain& domain, const LayerSpec& spec) {
+  std::vector<char> into;
+  for (const std::string& name : spec.into)
+    for (const int r : find_entities(domain.boundary.regions, "region", name, spec.where)) {
+      into.resize(domain.boundary.regions.size(), 0);
+      into[r] = 1;
+    }
+  return into;
+}
+
+}  // namespace
+
+int CurveLayers::at(int curve, int region) const {
+  if (curve < 0) return -1;
+  for (const int s : of_curve[curve])
+    if (into[s].empty() || into[s][region]) return s;
+  return -1;
+}
+
+CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSpec> specs) {
+  const std::vector<Entity>& curves = domain.boundary.curves;
+  const std::vector<char> bounds = bounding_curves(domain);
+  const std::vector<std::set<int>> regions = regions_of_curves(domain);
+  CurveLayers layers{std::vector<std::vector<int>>(curves.size()), {}};
+  for (std::size_t s = 0; s < specs.size(); ++s) {
+    layers.into.push_back(regions_named(domain, specs[s]));
+    const auto goes_into = [&](std::size_t spec, int r) {
+      return layers.into[spec].empty() || layers.into[spec][r];
+    };
+    for (const std::string& name : specs[s].on) {
+      bool is_beside = specs[s].into.empty();  // one of the regions
+      for (const int c : find_entities(curves, "curve", name, specs[s].where)) {
+        std::vector<int>& here = layers.of_curve[c];
+        for (const int r : regions[c]) is_beside = is_beside || goes_into(s, r);
+        if (std::ranges::find(here, static_cast<int>(s)) != here.end()) continue;
+        if (!bounds[c])
+          throw InputError(
+              fmt::format("{}: {} stands inside of one region, or is a crack: expected a curve that bounds "
+                          "a region",
+                          specs[s].where, curve_title(curves[c])));
+        for (const int r : regions[c]) {
+          if (!goes_into(s, r)) continue;
+          const auto other =
+              std::ranges::find_if(here, [&](int o) { return goes_into(static_cast<std::size_t>(o), r); });
+          if (other != here.end())
+            throw InputError(fmt::format("{}: {} has a layer already, by {}", specs[s].where,
+                                         curve_title(curves[c]), specs[*other].where));
+        }
+        here.push_back(static_cast<int>(s));
+      }
+      if (!is_beside)
+        throw InputError(fmt::format("{}: '{}' bounds none of the regions '{}'", specs[s].where, name,
+                                     fmt::join(specs[s].into, "', '")));
+    }
+  }
+  return layers;
+}
+
 namespace {
 
 /// Whether values are ascending or descending.
@@ -83,8 +172,8 @@ class ChainFinder {
       if (spec_[p] >= 0 && !seen[p]) add_chain(p, seen);
     for (std::size_t c = 0; c < found_.chains.size(); ++c) {
       if (found_.chains[c].is_closed) continue;
-      add_wall_after(static_cast<int>(c));
-      add_wall_before(static_cast<int>(c));
+      add_wall(static_cast<int>(c), true);
+      add_wall(static_cast<int>(c), false);
     }
     return std::move(found_);
   }
@@ -122,31 +211,20 @@ class ChainFinder {
     return spec_[p] >= 0 || spec_[before_[p]] >= 0 || graph_.stops(patch_.point_node[p]);
   }
 
-  void add_wall_after(int c) {
+  /// The wall that follows on a chain, or leads to it.
+  void add_wall(int c, bool follows) {
     LayerChain& chain = found_.chains[c];
-    std::vector<int> points = {chain.points.back()};
-    do points.push_back(next_[points.back()]);
+    const std::vector<int>& step = follows ? next_ : before_;
+    std::vector<int> points = {follows ? chain.points.back() : chain.points.front()};
+    do points.push_back(step[points.back()]);
     while (!is_stop(points.back()));
-    chain.wall[1] = add_wall(std::move(points), where(chain));
-    found_.walls[chain.wall[1]].chain[0] = c;
-  }
-
-  void add_wall_before(int c) {
-    LayerChain& chain = found_.chains[c];
-    std::vector<int> points = {chain.points.front()};
-    do points.push_back(before_[points.back()]);
-    while (!is_stop(points.back()));
-    std::ranges::reverse(points);
-    chain.wall[0] = add_wall(std::move(points), where(chain));
-    found_.walls[chain.wall[0]].chain[1] = c;
-  }
-
-  int add_wall(std::vector<int> points, const std::string& where) {
+    if (!follows) std::ranges::reverse(points);
     const auto known = std::ranges::find(found_.walls, points, &LayerWall::points);
     const int index = static_cast<int>(known - found_.walls.begin());
     if (known == found_.walls.end())
-      found_.walls.push_back(make_layer_wall(domain_, index_, std::move(points), graph_, where));
-    return index;
+      found_.walls.push_back(make_layer_wall(domain_, index_, std::move(points), graph_, where(chain)));
+    chain.wall[follows] = index;
+    found_.walls[index].chain[!follows] = c;
   }
 
   const PlanarDomain& domain_;

@@ -24,6 +24,9 @@ std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span
                                            const CurveLayers& layers, const BoundaryGraph& graph,
                                            const std::vector<std::vector<double>>& heights);
 
+/// Adds a node that stays where it is; returns its number.
+int add_node(PlanarDomain& domain, Vec2 at);
+
 /// The walls of all patches, each once, however many patches have it.
 class LayerWalls {
  public:
@@ -88,7 +91,6 @@ class LayerWalls {
   bool make_even();
   std::vector<std::size_t> odd_patches() const;
   std::vector<std::vector<std::size_t>> patches_changed_by() const;
-  int add_node(Vec2 at);
   const std::vector<int>& make_side(int id, int end);
   void make_between(int id);
 

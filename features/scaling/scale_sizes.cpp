@@ -8,20 +8,10 @@
 #include <variant>
 
 #include "delquad/error.h"
+#include "fields/size_by.h"
 
 namespace delquad {
 namespace {
-
-class ScaledSize final : public SizeField {
- public:
-  ScaledSize(std::shared_ptr<const SizeField> size, double factor)
-      : size_(std::move(size)), factor_(factor) {}
-  double at(const Vec3& x, int& hint) const override { return factor_ * size_->at(x, hint); }
-
- private:
-  std::shared_ptr<const SizeField> size_;
-  double factor_;
-};
 
 void scale_per_turn(double& per_turn, double factor) {
   if (per_turn > 0) per_turn = std::max(per_turn / factor, kLeastPerTurn);
@@ -56,7 +46,9 @@ void refine(LayerSpec& layer, double k) {
 MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
   SizeSpec& size = problem.size;
   bool follows_curvature = size.curvature > 0;
-  if (size.field) size.field = std::make_shared<ScaledSize>(size.field, factor);
+  if (size.field)
+    size.field =
+        size_by([factor, base = size.field](const Vec3& x, int& hint) { return factor * base->at(x, hint); });
   if (size.function)
     size.function = [factor, base = std::move(size.function)](std::span<const Vec3> points,
                                                               std::span<double> delta) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "fields/size_by.h"
+
 namespace delquad {
 namespace {
 
@@ -23,32 +25,6 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-class JitteredSize final : public SizeField {
- public:
-  JitteredSize(std::shared_ptr<const SizeField> base, long long seed, double diagonal)
-      : base_(std::move(base)) {
-    Random random(seed);
-    const double most = 2 * std::numbers::pi * kWavelengths / diagonal;
-    for (Wave& wave : waves_) {
-      wave.k = {most * (2 * random() - 1), most * (2 * random() - 1), most * (2 * random() - 1)};
-      wave.phase = 2 * std::numbers::pi * random();
-    }
-  }
-  double at(const Vec3& x, int& hint) const override {
-    double sum = 0;
-    for (const Wave& wave : waves_) sum += std::sin(dot(wave.k, x) + wave.phase);
-    return base_->at(x, hint) * (1 + kAmplitude / kWaves * sum);
-  }
-
- private:
-  struct Wave {
-    Vec3 k;
-    double phase;
-  };
-  std::shared_ptr<const SizeField> base_;
-  std::array<Wave, kWaves> waves_;
-};
-
 /// What is rotated, and by what.
 template <class Base>
 class Rotated : public Base {
@@ -59,15 +35,6 @@ class Rotated : public Base {
  protected:
   std::shared_ptr<const Base> base_;
   Rotation rotation_;
-};
-
-class RotatedSize final : public Rotated<SizeField> {
- public:
-  using Rotated::Rotated;
-  double at(const Vec3& x, int& hint) const override {
-    const Vec2 p = rotation_.back({x.x, x.y});
-    return base_->at({p.x, p.y, x.z}, hint);
-  }
 };
 
 class RotatedCurve final : public Rotated<Curve> {
@@ -93,7 +60,22 @@ class RotatedCross final : public Rotated<CrossField> {
 
 std::shared_ptr<const SizeField> jittered(std::shared_ptr<const SizeField> size, long long seed,
                                           double diagonal) {
-  return std::make_shared<JitteredSize>(std::move(size), seed, diagonal);
+  struct Wave {
+    Vec3 k;
+    double phase;
+  };
+  std::array<Wave, kWaves> waves;
+  Random random(seed);
+  const double most = 2 * std::numbers::pi * kWavelengths / diagonal;
+  for (Wave& wave : waves) {
+    wave.k = {most * (2 * random() - 1), most * (2 * random() - 1), most * (2 * random() - 1)};
+    wave.phase = 2 * std::numbers::pi * random();
+  }
+  return size_by([size = std::move(size), waves](const Vec3& x, int& hint) {
+    double sum = 0;
+    for (const Wave& wave : waves) sum += std::sin(dot(wave.k, x) + wave.phase);
+    return size->at(x, hint) * (1 + kAmplitude / kWaves * sum);
+  });
 }
 
 Rotation Rotation::by_seed(long long seed) {
@@ -120,7 +102,10 @@ void rotate(const Rotation& rotation, PlanarDomain& domain) {
 }
 
 std::shared_ptr<const SizeField> rotated(std::shared_ptr<const SizeField> size, const Rotation& rotation) {
-  return std::make_shared<RotatedSize>(std::move(size), rotation);
+  return size_by([size = std::move(size), rotation](const Vec3& x, int& hint) {
+    const Vec2 p = rotation.back({x.x, x.y});
+    return size->at({p.x, p.y, x.z}, hint);
+  });
 }
 
 std::shared_ptr<const CrossField> rotated(std::shared_ptr<const CrossField> cross, const Rotation& rotation) {

@@ -20,14 +20,6 @@ constexpr int kSamplesOfCurve = 32, kProbesOfCurve = 5;
 /// Normals of planes may be so far from perpendicular; radians.
 constexpr double kPerpendicular = 1e-9;
 
-double extent_of(const PlanarModel& model) {
-  std::vector<Vec2> points;
-  for (const ModelCurve& curve : model.curves)
-    for (int k = 0; k <= kSamplesOfCurve; ++k)
-      points.push_back(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve));
-  return norm(Box<Vec2>::around(std::span(points)).size());
-}
-
 /// The parameters of the corners of a curve, and of its ends.
 std::vector<double> corner_parameters(const Curve& shape) {
   std::vector<double> corners{0};
@@ -172,7 +164,7 @@ std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
 }
 
 std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
-  const double tolerance = kTouch * extent_of(model);
+  const double tolerance = kTouch * norm(box_of(model, kSamplesOfCurve).size());
   const NearCurves curves(model);
   if (!spec.automatic) {
     const auto& planes = spec.planes;
@@ -260,11 +252,7 @@ void add_images_of_nodes(const ModelCurve& curve, const Symmetry& symmetry, Plan
 PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry) {
   PlanarModel result = model;
   for (const ModelCurve& curve : model.curves) add_images_of_nodes(curve, symmetry, result);
-  std::vector<Vec2> points;
-  for (const ModelCurve& curve : model.curves)
-    for (int k = 0; k <= kSamplesOfCurve; ++k)
-      points.push_back(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve));
-  const Box<Vec2> box = Box<Vec2>::around(std::span(points));
+  const Box<Vec2> box = box_of(model, kSamplesOfCurve);
   for (int k = 0; k < symmetry.n_planes(); ++k) {
     const auto [a, b] = symmetry.axis(k, box);
     result.curves.push_back({make_segment(a, b), {}, {}});

@@ -1,34 +1,27 @@
 #include "geometry/cad/agree_faces.h"
 
 #include <algorithm>
-#include <set>
-#include <utility>
 
 #include "base/sort_unique.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/turn_to_agree.h"
 
 namespace delquad::cad {
 
 namespace {
 
-struct Neighbour {
-  int face;
-  bool agrees;
-  friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
-};
-
-std::vector<std::set<Neighbour>> neighbours(const Mesh& mesh) {
-  std::vector<std::set<Neighbour>> of(mesh.regions.size());
+std::vector<Neighbours> neighbours(const Mesh& mesh) {
+  std::vector<Neighbours> found;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     if (edge.size() != 2) return;
-    const int f = mesh.triangle_region[edge[0].element], g = mesh.triangle_region[edge[1].element];
-    const bool agrees = edge[0].forward != edge[1].forward;
-    if (f == g && agrees) return;
-    of[f].insert({g, agrees});
-    of[g].insert({f, agrees});
+    const auto [f, g] =
+        std::minmax({mesh.triangle_region[edge[0].element], mesh.triangle_region[edge[1].element]});
+    const bool agree = edge[0].forward != edge[1].forward;
+    if (f != g || !agree) found.push_back({f, g, agree});
   });
-  return of;
+  sort_unique(found);
+  return found;
 }
 
 void turn(Mesh& mesh, const std::vector<char>& turned) {
@@ -79,32 +72,16 @@ double volume(const Mesh& part) {
 
 Agreement agree_faces(Mesh& mesh) {
   Agreement result;
-  const auto of = neighbours(mesh);
-  std::vector<char> known(of.size(), 0), turned(of.size(), 0);
-  for (std::size_t seed = 0; seed < of.size(); ++seed) {
-    if (known[seed]) continue;
-    std::vector<int> component{static_cast<int>(seed)};
-    known[seed] = 1;
-    for (std::size_t i = 0; i < component.size(); ++i) {
-      const int f = component[i];
-      for (const auto& [g, agrees] : of[f]) {
-        const char wanted = agrees ? turned[f] : !turned[f];
-        if (!known[g]) {
-          known[g] = 1;
-          turned[g] = wanted;
-          component.push_back(g);
-        } else if (turned[g] != wanted) {
-          result.orientable = false;
-        }
-      }
-    }
-    const auto n = std::ranges::count_if(component, [&](int f) { return turned[f] != 0; });
-    const bool other_way = 2 * n > std::ssize(component);
+  Turned turned = turn_to_agree(mesh.regions.size(), neighbours(mesh));
+  result.orientable = turned.clash < 0;
+  for (const std::vector<int>& piece : turned.pieces) {
+    const auto n = std::ranges::count_if(piece, [&](int f) { return turned.is_turned[f] != 0; });
+    const bool other_way = 2 * n > std::ssize(piece);
     if (other_way)
-      for (const int f : component) turned[f] = !turned[f];
-    result.n_turned += static_cast<int>(other_way ? std::ssize(component) - n : n);
+      for (const int f : piece) turned.is_turned[f] = !turned.is_turned[f];
+    result.n_turned += static_cast<int>(other_way ? std::ssize(piece) - n : n);
   }
-  turn(mesh, turned);
+  turn(mesh, turned.is_turned);
   return result;
 }
 

@@ -1,6 +1,8 @@
 #include "geometry/mesh/tri_topology.h"
 
+#include <array>
 #include <cassert>
+#include <map>
 #include <utility>
 
 namespace delquad {
@@ -16,6 +18,22 @@ void relink(TriPatch& tri, int t, int from, int to) {
 int facing_side(const TriPatch& tri, int t, int u) {
   const auto& n = tri.neighbours[t];
   return n[0] == u ? 0 : n[1] == u ? 1 : n[2] == u ? 2 : -1;
+}
+
+void link_neighbours(TriPatch& tri) {
+  std::map<std::array<int, 2>, std::array<int, 2>> open;
+  tri.neighbours.assign(tri.triangles.size(), {-1, -1, -1});
+  for (int t = 0; t < static_cast<int>(tri.triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = tri.triangles[t][(k + 1) % 3], b = tri.triangles[t][(k + 2) % 3];
+      if (const auto at = open.find({b, a}); at != open.end()) {
+        const auto [u, m] = at->second;
+        tri.neighbours[t][k] = u;
+        tri.neighbours[u][m] = t;
+      } else {
+        open[{a, b}] = {t, k};
+      }
+    }
 }
 
 void swap_side(TriPatch& tri, int t, int k) {

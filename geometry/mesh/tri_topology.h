@@ -10,6 +10,9 @@ namespace delquad {
 /// The side of triangle t that faces triangle u, -1 when they share none.
 int facing_side(const TriPatch& tri, int t, int u);
 
+/// Finds the neighbours of all triangles, by their corners.
+void link_neighbours(TriPatch& tri);
+
 /// Swaps side k of t, across which lies a triangle u, for the other diagonal of the two. With a the corner
 /// opposite of the side in t, b the next one and d the corner opposite in u, t begins with a, b, d and u with
 /// a, d.

@@ -327,4 +327,11 @@ ModelChain chain_model(const PlanarModel& model) {
   return Chainer(model).run();
 }
 
+Box<Vec2> box_of(const PlanarModel& model, int chords) {
+  Box<Vec2> box = Box<Vec2>::around({model.curves.at(0).shape->point(0)});
+  for (const ModelCurve& curve : model.curves)
+    for (int k = 0; k <= chords; ++k) box.add(curve.shape->point(static_cast<double>(k) / chords));
+  return box;
+}
+
 }  // namespace delquad

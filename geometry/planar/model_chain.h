@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "geometry/planar/planar_model.h"
 
 namespace delquad {
@@ -38,5 +39,8 @@ ModelChain chain_model(const PlanarModel& model);
 std::string curve_label(const PlanarModel& model, int curve);
 /// The same for a point.
 std::string point_label(const PlanarModel& model, int point);
+
+/// Of the curves, by so many chords each.
+Box<Vec2> box_of(const PlanarModel& model, int chords);
 
 }  // namespace delquad

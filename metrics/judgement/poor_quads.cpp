@@ -11,7 +11,7 @@
 #include "base/box.h"
 #include "base/option_table.h"
 #include "base/text.h"
-#include "features/layers/planar_layers.h"
+#include "features/layers/add_layers.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/judgement/failing_elements.h"

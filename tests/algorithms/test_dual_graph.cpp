@@ -9,7 +9,6 @@
 #include <numbers>
 #include <set>
 
-#include "algorithms/recombination/hilbert.h"
 #include "algorithms/recombination/recombine.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/shapes.h"

@@ -3,6 +3,7 @@
 #include "fields/fields.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "tests/support/prepare_surface.h"
 
 namespace delquad {
 namespace {
@@ -38,7 +39,8 @@ SurfaceModel three_pages() {
 TEST(BranchingSurface, FacesShareTheirCurvesNodes) {
   MeshProblem c;
   c.name = c.where = "pages";
-  const PreparedProblem prepared = prepare_surface(c, three_pages(), make_constant_size(0.25), [](double) {});
+  const PreparedProblem prepared =
+      testing_support::prepare_surface(c, three_pages(), make_constant_size(0.25));
   const MeshResult result = run_word(prepared, parse_word("DB"));
   EXPECT_EQ(result.mesh.quads.size(), 3u * 16);
   EXPECT_TRUE(result.mesh.triangles.empty());

@@ -5,6 +5,7 @@
 #include "geometry/surface/triangulated_model.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
@@ -14,8 +15,8 @@ PreparedProblem prepared_lens(const Options& options) {
   MeshProblem problem;
   problem.name = problem.where = "lens";
   problem.options = options;
-  return prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                         make_constant_size(0.3), [](double) {});
+  return testing_support::prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
+                                          make_constant_size(0.3));
 }
 
 MeshResult lens(const Options& options) { return run_word(prepared_lens(options), parse_word("DBC")); }

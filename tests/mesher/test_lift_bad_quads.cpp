@@ -8,6 +8,7 @@
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces.h"
 
@@ -31,7 +32,7 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
     c.name = c.where = "ball";
     c.options.set("curves.agreement", 0);  // with it, they are not needed
     const PreparedProblem prepared =
-        prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4), [](double) {});
+        surfaces::prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4));
     const MeshResult result = run_word(prepared, parse_word("DB"));
     rings += result.log.summaries.number("lift_bad_quads", "rings");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
@@ -45,7 +46,7 @@ TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
     MeshProblem c;
     c.name = c.where = "ball";
     const PreparedProblem prepared =
-        prepare_surface(c, rough_ball(seed, 0.3), make_constant_size(0.7), [](double) {});
+        surfaces::prepare_surface(c, rough_ball(seed, 0.3), make_constant_size(0.7));
     const MeshResult result = run_word(prepared, parse_word("DB"));
     mended += result.log.summaries.number("lift_bad_quads", "mended");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
@@ -57,8 +58,7 @@ TEST(LiftBadQuads, SaysWhatItWasWorth) {
   using Pairs = std::vector<std::vector<double>>;
   MeshProblem c;
   c.name = c.where = "ball";
-  const PreparedProblem prepared =
-      prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4), [](double) {});
+  const PreparedProblem prepared = surfaces::prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4));
   const MeshResult run = run_word(prepared, parse_word("DB"));
   const Summaries& done = run.log.summaries;
   ASSERT_GT(done.number("lift_bad_quads", "moved"), 0);

@@ -9,6 +9,7 @@
 #include "geometry/surface/triangulated_model.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/quad_patches.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -22,9 +23,8 @@ TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
   c.name = c.where = "lens";
   for (const double height : {0.45, 0.7})
     for (const double size : {5.0, 1.5, 1.2, 1.0, 0.8, 0.6}) {
-      const PreparedProblem prepared =
-          prepare_surface(c, make_surface_model(testing_support::lens(64, 12, height)),
-                          make_constant_size(size), [](double) {});
+      const PreparedProblem prepared = testing_support::prepare_surface(
+          c, make_surface_model(testing_support::lens(64, 12, height)), make_constant_size(size));
       for (const char* word : {"F", "D", "DL", "FB", "DB", "PB", "DLB", "DBC", "DBCO"}) {
         SCOPED_TRACE(std::string(word) + " " + std::to_string(size) + " " + std::to_string(height));
         const MeshResult result = run_word(prepared, parse_word(word));

@@ -13,6 +13,7 @@
 #include "io/mesh_io.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
@@ -49,8 +50,8 @@ class SoundCube : public testing::Test {
  protected:
   SoundCube() {
     case_.name = case_.where = "cube";
-    prepared_ = prepare_surface(case_, make_surface_model(testing_support::box(8)), make_constant_size(0.25),
-                                [](double) {});
+    prepared_ = testing_support::prepare_surface(case_, make_surface_model(testing_support::box(8)),
+                                                 make_constant_size(0.25));
     mesh_ = run_word(prepared_, parse_word("DB")).mesh;
   }
   Soundness check(const std::vector<char>& left_out = std::vector<char>(6, 0)) const {
@@ -289,7 +290,7 @@ TEST(SoundSurface, MayLookDown) {
     MeshProblem c;
     c.name = c.where = "square";
     const PreparedProblem prepared =
-        prepare_surface(c, make_surface_model(square), make_constant_size(0.2), [](double) {});
+        testing_support::prepare_surface(c, make_surface_model(square), make_constant_size(0.2));
     const MeshResult result = run_word(prepared, parse_word("DBCO"));
     EXPECT_TRUE(result.soundness.sound()) << down << ": " << result.soundness.text();
     EXPECT_EQ(result.metrics.values.at("n_inverted"), 0);
@@ -305,8 +306,8 @@ TEST(SoundSurface, MayLookDown) {
 TEST(SoundSurface, TwinsAreNot) {
   MeshProblem c;
   c.name = c.where = "lens";
-  PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                                             make_constant_size(5), [](double) {});
+  PreparedProblem prepared = testing_support::prepare_surface(
+      c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(5));
   const auto run = [&] { return run_word(prepared, parse_word("DB")); };
   const MeshResult parted = run();
   EXPECT_FALSE(has(parted.soundness, "conforming")) << parted.soundness.text();

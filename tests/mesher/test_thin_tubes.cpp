@@ -10,6 +10,7 @@
 #include "metrics/judgement/poor_quads.h"
 #include "metrics/metrics.h"
 #include "tests/support/polygon_face.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {
@@ -20,7 +21,7 @@ namespace surfaces = testing_support;
 PreparedProblem prepared_surface(SurfaceModel model, double size) {
   MeshProblem c;
   c.name = c.where = "tube";
-  return prepare_surface(c, std::move(model), make_constant_size(size), [](double) {});
+  return surfaces::prepare_surface(c, std::move(model), make_constant_size(size));
 }
 
 /// Elements do not meet themselves, and no two have the same vertices.

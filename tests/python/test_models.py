@@ -26,7 +26,7 @@ def test_layers_along_curves():
         delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{"height": 1, **layer}])
     with pytest.raises(delquad.InputError, match="'flor'.*'floor'"):
         delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{**layer, "on": "flor"}])
-    with pytest.raises(delquad.InputError, match="no region has the name 'air'"):
+    with pytest.raises(delquad.InputError, match="no region is called 'air'"):
         delquad.mesh(delquad.planar([sides]), size=0.1, layers=[{**layer, "into": "air"}])
 
 

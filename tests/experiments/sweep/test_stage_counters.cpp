@@ -21,6 +21,7 @@
 #include "smoothing/cvt/smooth_points.h"
 #include "smoothing/optimisation/optimisation_options.h"
 #include "tests/support/analytic_fields.h"
+#include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
@@ -33,9 +34,9 @@ using Json = nlohmann::json;
 template <class... Summaries>
 struct Types {};
 /// The summaries of all steps.
-using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
-                           TreatmentSummary, CleanupSummary, RegularitySummary, OptimisationSummary,
-                           DiscardSummary, PartingSummary, LiftingSummary>;
+using AllSummaries =
+    Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary, TreatmentSummary,
+          CleanupSummary, RegularitySummary, OptimisationSummary, PartingSummary, LiftingSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
@@ -152,8 +153,8 @@ MeshProblem case_of(const char* name) {
 
 TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   const MeshProblem c = case_of("lens");
-  const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                                                   make_constant_size(0.3), [](double) {});
+  const PreparedProblem prepared = testing_support::prepare_surface(
+      c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   MeshResult result;
   const Json record = record_of(c, prepared, "DBCQO", &result);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {
@@ -179,8 +180,8 @@ TEST(StageRecords, HaveEveryCounterOfEveryStep) {
 TEST(StageRecords, StepsThatAreSwitchedOffAreNotThere) {
   MeshProblem c = case_of("lens");
   c.options.set("repair.part_twins", false).set("repair.lift_bad_quads", false);
-  const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                                                   make_constant_size(0.3), [](double) {});
+  const PreparedProblem prepared = testing_support::prepare_surface(
+      c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   const Json record = record_of(c, prepared, "DB");
   EXPECT_FALSE(record.contains("part_twins"));
   EXPECT_FALSE(record.contains("lift_bad_quads"));
@@ -287,8 +288,8 @@ TEST_F(Tube, FillsThatAreTakenBackAreNotCountedAsDone) {
 TEST(StageRecords, SayWhatMadeTheSizeLess) {
   MeshProblem c = case_of("lens");
   c.size.curvature = 24;
-  const PreparedProblem prepared = prepare_surface(c, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                                                   make_constant_size(0.5), [](double) {});
+  const PreparedProblem prepared = testing_support::prepare_surface(
+      c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.5));
   const Json record = record_of(c, prepared, "DB");
   EXPECT_EQ(record["domain"]["size_adapted_to"], Json({"curvature"}));
   EXPECT_GT(record["metrics"]["tau"].get<double>(), record["metrics"]["tau_given"].get<double>() + 5);

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "delquad/mesher.h"
-#include "features/curved/curve_corners.h"
+#include "features/curved/curved_geometry.h"
 #include "features/curved/raise_order.h"
 #include "features/curved/untangle_curved.h"
 #include "geometry/mesh/element_nodes.h"

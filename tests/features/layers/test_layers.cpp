@@ -262,7 +262,7 @@ TEST(Layers, BadInput) {
   MeshProblem twice = plate.problem(0.1, {good, good});
   expect_input_error([&] { mesh(twice, "DB"); }, {"'south' has a layer already"});
   bad = good, bad.into = {"flud"};
-  refused(bad, {"no region has the name 'flud'"});
+  refused(bad, {"no region is called 'flud'"});
   MeshProblem surface = plate.problem(0.1, {good});
   surface.model = ExampleModel{"bracket"};
   expect_input_error([&] { mesh(surface, "DB"); }, {"planar"});

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "base/parallel.h"
+
+namespace delquad {
+
+/// Calls work(i) for each i in [0, n), by the ranges of parallel_ranges(): for many calls that take about as
+/// long.
+template <class Work>
+void parallel_each(std::size_t n, const Work& work) {
+  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
+}  // namespace delquad

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "delquad/fields.h"
+
+namespace delquad {
+
+/// The size that a function says, of a place and a hint as SizeField::at() has them.
+template <class F>
+std::shared_ptr<const SizeField> size_by(F size) {
+  struct SizeBy final : SizeField {
+    explicit SizeBy(F f) : size(std::move(f)) {}
+    double at(const Vec3& x, int& hint) const override { return size(x, hint); }
+    F size;
+  };
+  return std::make_shared<SizeBy>(std::move(size));
+}
+
+}  // namespace delquad

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/mesh/nearest_triangle.h"
+
+namespace delquad {
+
+/// The triangles of each region of a mesh.
+class NearestOnRegions {
+ public:
+  explicit NearestOnRegions(const Mesh& mesh);
+  /// The point of a region nearest to x; x itself where it has no triangles.
+  Vec3 place(int region, const Vec3& x) const;
+
+ private:
+  std::vector<std::vector<Vec3>> points_;                    ///< of each region
+  std::vector<std::unique_ptr<NearestTriangle>> triangles_;  ///< null: none
+};
+
+}  // namespace delquad

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace delquad {
+
+/// Two that agree as they are, or else where one of them is turned over.
+struct Neighbours {
+  int a, b;
+  bool agree;
+  auto operator<=>(const Neighbours&) const = default;
+};
+
+struct Turned {
+  std::vector<char> is_turned;           ///< over, so that neighbours agree
+  std::vector<std::vector<int>> pieces;  ///< of neighbours, by their first, which is not turned over
+  int clash = -1;                        ///< neighbours that cannot agree, as on a Moebius strip; -1: none
+};
+
+/// Which of `n` elements or faces are to be turned over.
+Turned turn_to_agree(std::size_t n, std::span<const Neighbours> neighbours);
+
+}  // namespace delquad
