@@ -1,10 +1,19 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 
 #include "delquad/error.h"
 
 namespace delquad {
+
+/// Throws an error whose message is made as by fmt::format().
+template <class E = InputError, class... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) {
+  throw E(fmt::format(text, std::forward<Args>(args)...));
+}
 
 /// Runs `f`; an InputError gains `where` in front, unless it stands there already.
 template <class F>

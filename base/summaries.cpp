@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
 
 #include "delquad/extend.h"
 #include "delquad/options.h"

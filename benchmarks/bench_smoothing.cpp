@@ -7,8 +7,8 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "base/context.h"
 #include "benchmarks/square_case.h"
+#include "smoothing/cvt/moving_delaunay.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "smoothing/cvt/spatial_order.h"
 
 // Energy and gradient of Lp-CVT smoothing, with the repair of the triangulation, and CGAL's spatially sorted
 // Delaunay triangulation of the same points; whole runs; L-BFGS and Lloyd's iteration to the same energy.

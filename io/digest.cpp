@@ -2,7 +2,6 @@
 
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
-#include <map>
 #include <system_error>
 #include <utility>
 

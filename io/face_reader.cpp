@@ -14,7 +14,7 @@ namespace delquad {
 
 void FaceReader::add_face(const std::vector<int>& corners, int region) {
   const size_t n = corners.size();
-  if (n < 3) in_.fail(fmt::format("face of {} vertices: expected three or more", n));
+  if (n < 3) in_.fail("face of {} vertices: expected three or more", n);
   if (n == 4) {
     mesh_.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
     mesh_.quad_region.push_back(region);
@@ -27,15 +27,41 @@ void FaceReader::add_face(const std::vector<int>& corners, int region) {
     auto parts = split_polygon(points);
     if (!parts)
       in_.fail(
-          fmt::format("face of {} vertices: expected a polygon that does not cross itself, to split it "
-                      "into triangles",
-                      n));
+          "face of {} vertices: expected a polygon that does not cross itself, to split it "
+          "into triangles",
+          n);
     triangles = std::move(*parts);
     ++n_polygons_;
     n_triangles_ += static_cast<long long>(triangles.size());
   }
   for (const auto& t : triangles) mesh_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
   mesh_.triangle_region.insert(mesh_.triangle_region.end(), triangles.size(), region);
+}
+
+std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
+                        std::vector<int> (*places)(int order)) {
+  const int order = corners == 2   ? order_of_line(nodes.size())
+                    : corners == 3 ? 1
+                                   : order_of_quad(nodes.size());
+  if (!takes_order(mesh, order)) return other_order(order, mesh.order);
+  if (corners == 2) {
+    add_line(mesh, nodes, entity);
+  } else if (corners == 3) {
+    mesh.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+    mesh.triangle_region.push_back(entity);
+  } else if (order == 1) {
+    mesh.quads.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
+    mesh.quad_region.push_back(entity);
+  } else {
+    add_quad(mesh, nodes, places(order), entity);
+  }
+  return "";
+}
+
+void NamedPoints::add(Mesh& mesh, int point, const std::string& name) {
+  const auto [at, is_new] = index_.emplace(point, mesh.named_points.size());
+  if (is_new) mesh.named_points.push_back({point, {static_cast<int>(at->second) + 1, {}}});
+  mesh.named_points[at->second].entity.names.push_back(name);
 }
 
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place) {

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/element_nodes.h"
 #include "io/text_scanner.h"
 
 namespace delquad {
@@ -17,6 +19,20 @@ namespace delquad {
 /// Throws InputError for the first stray point of a mesh, unless they are kept. `place`: where the file has a
 /// point.
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
+
+/// Adds a line, triangle or quad by its nodes: its corners first, then those that `places` of its order has
+/// beside them. Returns what is wrong where its order is not that of the mesh; empty: it was added.
+std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
+                        std::vector<int> (*places)(int order) = gmsh_places);
+
+/// The named points of a mesh that is read.
+class NamedPoints {
+ public:
+  void add(Mesh& mesh, int point, const std::string& name);
+
+ private:
+  std::map<int, std::size_t> index_;
+};
 
 /// What the readers of text files of points and faces share.
 class FaceReader {

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 
@@ -100,8 +101,7 @@ void copy_into(std::ostream& out, const std::filesystem::path& file) {
   std::vector<char> block(1 << 16);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
     out.write(block.data(), in.gcount());
-  if (!in.eof())
-    throw InputError(file.string() + ": cannot be read: " + std::generic_category().message(errno));
+  if (!in.eof()) refuse("{}: cannot be read: {}", file.string(), std::generic_category().message(errno));
 }
 
 std::function<void(std::ostream&)> by_library(

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/located.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
-#include "io/mesh_io.h"
 #include "io/picture.h"
 
 namespace delquad {
@@ -53,8 +53,7 @@ std::string extensions_of(const Can& can) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw InputError(path.string() + ": is a folder: expected a mesh file");
-  throw InputError(path.string() + ": unknown kind of mesh file '" + path.extension().string() +
-                   "': expected " + known);
+  refuse("{}: unknown kind of mesh file '{}': expected {}", path.string(), path.extension().string(), known);
 }
 
 }  // namespace
@@ -112,14 +111,13 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
   const MeshFormat* format = find_format(kind);
   if (format == nullptr || !can_write(*format)) unknown(path, extensions_of(can_write));
   if (!format->package.empty())
-    throw InputError(
-        fmt::format("{}: this program was built without the library for '{}': install Debian's package {} "
-                    "and build it again",
-                    path.string(), kind, format->package));
+    refuse(
+        "{}: this program was built without the library for '{}': install Debian's package {} "
+        "and build it again",
+        path.string(), kind, format->package);
   if (order > format->most_order)
-    throw InputError(fmt::format(
-        "{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
-        extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; })));
+    refuse("{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
+           extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; }));
   if (options.binary && !format->has_binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
@@ -130,8 +128,8 @@ void check_hex_format(const std::filesystem::path& path, bool binary) {
   const auto can = [](const MeshFormat& f) { return f.write_hexahedra != nullptr; };
   if (format == nullptr) unknown(path, extensions_of(can));
   if (!can(*format))
-    throw InputError(fmt::format("{}: '{}' is not written with hexahedra here: expected {}", path.string(),
-                                 kind, extensions_of(can)));
+    refuse("{}: '{}' is not written with hexahedra here: expected {}", path.string(), kind,
+           extensions_of(can));
   check_mesh_format(path, {binary, MshCurves::kAll});
 }
 
@@ -148,15 +146,14 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOp
 void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {
   check_mesh_format(path, options, order);
   if (order != 2)
-    throw InputError(
-        fmt::format("{}: quads of 8 nodes have order 2, these have order {}: expected --order 2 with "
-                    "--serendipity",
-                    path.string(), order));
+    refuse(
+        "{}: quads of 8 nodes have order 2, these have order {}: expected --order 2 with "
+        "--serendipity",
+        path.string(), order);
   const std::string kind = kind_to_write(path);
   const auto can = [](const MeshFormat& f) { return f.eight_nodes != EightNodes::kNever; };
   if (!can(*find_format(kind)))
-    throw InputError(fmt::format("{}: '{}' has no quads of 8 nodes here: expected {}", path.string(), kind,
-                                 extensions_of(can)));
+    refuse("{}: '{}' has no quads of 8 nodes here: expected {}", path.string(), kind, extensions_of(can));
 }
 
 void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {

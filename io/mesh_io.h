@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <map>
 #include <ostream>
 #include <string>
 #include <string_view>

@@ -9,8 +9,8 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/located.h"
 #include "base/text.h"
-#include "delquad/error.h"
 #include "io/formats/msh_raw.h"
 
 namespace delquad {
@@ -63,7 +63,7 @@ void require_values(NodalValues& field, const std::string& file) {
       field.values[i] = 1;  // is never asked for
     } else if (std::isnan(field.values[i])) {
       const Vec3& p = field.mesh.points[i];
-      throw InputError(fmt::format("{}: the field has no value at {}", file, show_point(p)));
+      refuse("{}: the field has no value at {}", file, show_point(p));
     }
   }
 }
@@ -75,20 +75,18 @@ std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::stri
   std::set<std::string> names;
   for (const FieldInFile& field : fields) names.insert(TextScanner::printable(field.name));
   if (fields.empty())
-    throw InputError(file +
-                     ": has no field: expected $NodeData or $ElementData, or in a VTU file point data "
-                     "or cell data");
+    refuse("{}: has no field: expected $NodeData or $ElementData, or in a VTU file point data or cell data",
+           file);
   if (name.empty() && names.size() > 1)
-    throw InputError(fmt::format("{}: has the fields {}: say which, as {}:NAME", file, fmt::join(names, ", "),
-                                 std::filesystem::path(file).filename().string()));
+    refuse("{}: has the fields {}: say which, as {}:NAME", file, fmt::join(names, ", "),
+           std::filesystem::path(file).filename().string());
   for (std::size_t i = fields.size(); i-- > 0;) {
     if (!name.empty() && fields[i].name != name) continue;
     if (fields[i].n_components == 1) return i;
-    throw InputError(fmt::format("{}: the field {} has {} components: expected one", file,
-                                 TextScanner::printable(fields[i].name), fields[i].n_components));
+    refuse("{}: the field {} has {} components: expected one", file, TextScanner::printable(fields[i].name),
+           fields[i].n_components);
   }
-  throw InputError(fmt::format("{}: has no field {}: expected {}", file, TextScanner::printable(name),
-                               fmt::join(names, ", ")));
+  refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
 
 std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>& of_triangles,

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "io/svg.h"
 
 namespace delquad {
 
@@ -35,5 +37,31 @@ void draw_crosses(const std::filesystem::path& path, const Mesh& outline,
 /// A scalar at the points of a triangle mesh, log-coloured, with a legend.
 void draw_scalar(const std::filesystem::path& path, const Mesh& triangles, const std::vector<double>& values,
                  const std::string& title);
+
+struct IrregularVertex {
+  int vertex;
+  int valence;  ///< on the boundary, where it is that of a pair, as inside: 3 or 5
+  double size;  ///< mean of the sizes of the elements around it
+};
+
+/// What pictures show.
+struct IrregularVertices {
+  std::vector<IrregularVertex> vertices;  ///< ascending
+  std::vector<std::array<int, 2>> pairs;  ///< of a mesh of quads, see pair_irregular()
+};
+
+/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, and those of pairs.
+/// element_size: by element, triangles first.
+IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size);
+
+/// What pictures of meshes share. Elements of about one size have one width of their edges: its step, by the
+/// element's size in pixels.
+int step_of_width(double pixels);
+void add_elements(svg::Picture& picture, const svg::Path& elements, const std::string& fill, int step,
+                  bool with_edges);
+/// Dots on irregular vertices that are seen and lines that join pairs of them, with their legend, below that
+/// of eta. pixels: the size of each element.
+void add_irregular(svg::Picture& picture, const Mesh& mesh, int regular, const std::vector<double>& pixels,
+                   const std::function<bool(const Vec3&)>& is_seen);
 
 }  // namespace delquad

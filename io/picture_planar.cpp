@@ -6,12 +6,40 @@
 
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
-#include "io/irregular_vertices.h"
 #include "io/picture.h"
 #include "io/svg.h"
 #include "metrics/metrics.h"
+#include "metrics/regularity.h"
 
 namespace delquad {
+
+IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size) {
+  std::vector<int> valence(mesh.points.size(), 0);
+  std::vector<double> size(mesh.points.size(), 0);
+  for_each_element(mesh, [&](int element, const auto& v) {
+    for (const int i : v) {
+      ++valence[i];
+      size[i] += element_size[element];
+    }
+  });
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<int> shown = valence;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) shown[edge[0].lo] = shown[edge[0].hi] = regular;
+  });
+  IrregularVertices irregular;
+  if (mesh.triangles.empty())
+    for (const IrregularPair& pair : pair_irregular(mesh, sides).pairs) {
+      irregular.pairs.push_back({pair.few, pair.many});
+      if (shown[pair.few] == regular) shown[pair.few] = regular - 1;
+      if (shown[pair.many] == regular) shown[pair.many] = regular + 1;
+    }
+  for (int i = 0; i < static_cast<int>(valence.size()); ++i)
+    if (shown[i] != regular && valence[i] != 0)
+      irregular.vertices.push_back({i, shown[i], size[i] / valence[i]});
+  return irregular;
+}
+
 namespace {
 
 using svg::Path;
@@ -42,26 +70,16 @@ class ElementPaths {
   /// `colour_class` from 0 to kMeshColours - 1, -1: no colour.
   template <size_t N>
   void add(const std::array<int, N>& v, int colour_class, const std::vector<Vec3>& outline) {
-    constexpr int kLeast = -8, kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
-    const double size = pixel_size(mesh_, v, picture_.scale());
-    const int step =
-        size > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(size))), kLeast, kMost) : kLeast;
+    const int step = step_of_width(pixel_size(mesh_, v, picture_.scale()));
     std::vector<svg::Spot> corners;
     for (const Vec3& x : outline) corners.push_back(picture_.spot(x));
     paths_[{-step, colour_class}].polygon(corners);
   }
 
   void draw(Picture& picture, bool with_edges) const {
-    constexpr double kEdgeWidth = 0.06;  // of the element's size
-    constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between neighbours drawn without edges
-    for (const auto& [key, path] : paths_) {
-      const std::string fill = key.second < 0 ? "#dcdcdc" : svg::colour((key.second + 0.5) / kMeshColours);
-      if (with_edges) {
-        picture.add(path, fill, "#222", kEdgeWidth * std::exp2(-0.5 * key.first));
-      } else {
-        picture.add(path, fill, fill, kSeamWidth);
-      }
-    }
+    for (const auto& [key, path] : paths_)
+      add_elements(picture, path, key.second < 0 ? "#dcdcdc" : svg::colour((key.second + 0.5) / kMeshColours),
+                   -key.first, with_edges);
   }
 
  private:
@@ -69,28 +87,6 @@ class ElementPaths {
   const Picture& picture_;
   std::map<std::pair<int, int>, Path> paths_;  // large elements first
 };
-
-/// Dots on irregular vertices, and lines that join pairs of them.
-std::vector<svg::Mark> add_irregular(const Mesh& mesh, int regular, Picture& picture) {
-  const double scale = picture.scale();
-  std::vector<double> size;
-  for_each_element(mesh, [&](int, const auto& v) { size.push_back(pixel_size(mesh, v, scale)); });
-  constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the mean size of the elements around; pixels
-  std::vector<svg::Mark> marks;
-  const IrregularVertices irregular = irregular_vertices(mesh, regular, size);
-  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
-    const int index = std::abs(regular - valence) == 1 ? regular - valence : 0;
-    marks.push_back({flat(mesh.points[vertex]), index, std::clamp(kRadius * mean_size, kLeast, kMost)});
-  }
-  std::vector<std::array<Vec2, 2>> pairs;
-  for (const auto& [few, many] : irregular.pairs)
-    pairs.push_back({flat(mesh.points[few]), flat(mesh.points[many])});
-  picture.add_marks(marks, pairs);
-  return marks;
-}
-
-using svg::Path;
-using svg::Picture;
 
 constexpr double kOutlineWidth = 1.2;  // pixels
 
@@ -181,6 +177,44 @@ std::vector<std::pair<double, std::string>> labels(const ColourScale& scale) {
 
 }  // namespace
 
+int step_of_width(double pixels) {
+  constexpr int kLeast = -8, kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
+  return pixels > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(pixels))), kLeast, kMost)
+                    : kLeast;
+}
+
+void add_elements(Picture& picture, const Path& elements, const std::string& fill, int step,
+                  bool with_edges) {
+  constexpr double kEdgeWidth = 0.06;  // of the element's size
+  constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between neighbours drawn without edges
+  picture.add(elements, fill, with_edges ? "#222" : fill,
+              with_edges ? kEdgeWidth * std::exp2(0.5 * step) : kSeamWidth);
+}
+
+void add_irregular(Picture& picture, const Mesh& mesh, int regular, const std::vector<double>& pixels,
+                   const std::function<bool(const Vec3&)>& is_seen) {
+  constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the mean size of the elements around; pixels
+  std::vector<svg::Mark> marks;
+  const IrregularVertices irregular = irregular_vertices(mesh, regular, pixels);
+  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
+    if (!is_seen(mesh.points[vertex])) continue;
+    const int index = std::abs(regular - valence) == 1 ? regular - valence : 0;
+    marks.push_back({flat(mesh.points[vertex]), index, std::clamp(kRadius * mean_size, kLeast, kMost)});
+  }
+  std::vector<std::array<Vec2, 2>> pairs;
+  for (const auto& [few, many] : irregular.pairs)
+    if (is_seen(mesh.points[few]) && is_seen(mesh.points[many]))
+      pairs.push_back({flat(mesh.points[few]), flat(mesh.points[many])});
+  picture.add_marks(marks, pairs);
+  if (!mesh.quads.empty())
+    picture.add_colour_bar("eta",
+                           {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
+  if (!marks.empty())
+    picture.add_mark_legend({{1, "valence " + std::to_string(regular - 1)},
+                             {-1, "valence " + std::to_string(regular + 1)},
+                             {0, "other valence"}});
+}
+
 void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::string& title) {
   Picture picture(mesh.points, title);
   ElementPaths elements(mesh, picture);
@@ -195,17 +229,9 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
   constexpr double kOutlineWidth = 1.1;
   picture.add_outline(mesh, kOutlineWidth);
 
-  const int regular = mesh.quads.empty() ? 6 : 4;
-  const std::vector<svg::Mark> marks = add_irregular(mesh, regular, picture);
-  if (!mesh.quads.empty()) {
-    picture.add_colour_bar("eta",
-                           {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
-  }
-  if (!marks.empty()) {
-    picture.add_mark_legend({{1, "valence " + std::to_string(regular - 1)},
-                             {-1, "valence " + std::to_string(regular + 1)},
-                             {0, "other valence"}});
-  }
+  std::vector<double> pixels;
+  for_each_element(mesh, [&](int, const auto& v) { pixels.push_back(pixel_size(mesh, v, picture.scale())); });
+  add_irregular(picture, mesh, mesh.quads.empty() ? 6 : 4, pixels, [](const Vec3&) { return true; });
   picture.write(path);
 }
 
@@ -240,8 +266,7 @@ void draw_crosses(const std::filesystem::path& path, const Mesh& outline,
 
 void draw_scalar(const std::filesystem::path& path, const Mesh& triangles, const std::vector<double>& values,
                  const std::string& title) {
-  const bool all_finite =
-      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  const bool all_finite = std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
   if (values.size() != triangles.points.size() || !all_finite) {
     throw std::invalid_argument("draw_scalar: one finite value a point is needed");
   }

@@ -7,7 +7,6 @@
 #include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
-#include "io/irregular_vertices.h"
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
@@ -51,6 +50,12 @@ template <size_t N>
 Vec3 area_vector(const std::vector<Vec3>& points, const std::array<int, N>& v) {
   if constexpr (N == 3) return 0.5 * cross(points[v[1]] - points[v[0]], points[v[2]] - points[v[0]]);
   return 0.5 * cross(points[v[2]] - points[v[0]], points[v[N - 1]] - points[v[1]]);
+}
+
+/// Square root of the projected area, in pixels.
+template <size_t N>
+double pixel_size(const Mesh& mesh, const std::array<int, N>& v, const Picture& picture) {
+  return std::sqrt(std::abs(area_vector(mesh.points, v).z)) * picture.scale();
 }
 
 /// Elements of a projected mesh on a raster that just holds it.
@@ -212,11 +217,7 @@ class ElementLayers {
     for_each_element(mesh, [&](int element, const auto& v) {
       const auto visibility = raster.of(v);
       if (visibility == Raster::Visibility::kHidden) return;
-      constexpr int kLeast = -8,
-                    kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
-      const double size = std::sqrt(std::abs(area_vector(mesh.points, v).z)) * picture.scale();
-      const int step =
-          size > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(size))), kLeast, kMost) : kLeast;
+      const int step = step_of_width(pixel_size(mesh, v, picture));
       std::vector<svg::Spot> corners;
       double depth = 0;
       for (const int i : v) depth += mesh.points[i].z / static_cast<double>(v.size());
@@ -233,18 +234,12 @@ class ElementLayers {
   }
 
   void draw(Picture& picture, bool with_edges) const {
-    const auto add = [&](const Path& path, const std::string& fill, int step) {
-      constexpr double kEdgeWidth = 0.06;  // of the element's size
-      constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between neighbours drawn without edges
-      picture.add(path, fill, with_edges ? "#222" : fill,
-                  with_edges ? kEdgeWidth * std::exp2(0.5 * step) : kSeamWidth);
-    };
     for (const Behind& one : behind_) {
       Path path;
       path.polygon(one.corners);
-      add(path, fill_[one.element], one.step);
+      add_elements(picture, path, fill_[one.element], one.step, with_edges);
     }
-    for (const auto& [key, path] : front_) add(path, key.second, -key.first);
+    for (const auto& [key, path] : front_) add_elements(picture, path, key.second, -key.first, with_edges);
   }
 
  private:
@@ -289,33 +284,6 @@ Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) 
   return path;
 }
 
-/// Dots on irregular vertices that are seen, and lines that join pairs of them.
-std::vector<svg::Mark> add_seen_irregular(const Mesh& mesh, const Raster& raster, Picture& picture) {
-  const double scale = picture.scale();
-  std::vector<double> size;
-  for_each_element(mesh, [&](int, const auto& v) {
-    size.push_back(std::sqrt(std::abs(area_vector(mesh.points, v).z)) * scale);
-  });
-  constexpr int kRegular = 4;
-  constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the size of the elements around; pixels
-  std::vector<svg::Mark> marks;
-  const IrregularVertices irregular = irregular_vertices(mesh, kRegular, size);
-  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
-    const Vec3& p = mesh.points[vertex];
-    if (!raster.sees_point(p)) continue;
-    const int index = kRegular - valence;
-    marks.push_back(
-        {{p.x, p.y}, std::abs(index) == 1 ? index : 0, std::clamp(kRadius * mean_size, kLeast, kMost)});
-  }
-  std::vector<std::array<Vec2, 2>> pairs;
-  for (const auto& [few, many] : irregular.pairs) {
-    const Vec3 &p = mesh.points[few], &q = mesh.points[many];
-    if (raster.sees_point(p) && raster.sees_point(q)) pairs.push_back({Vec2{p.x, p.y}, Vec2{q.x, q.y}});
-  }
-  picture.add_marks(marks, pairs);
-  return marks;
-}
-
 }  // namespace
 
 void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std::string& title) {
@@ -328,10 +296,11 @@ void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std
   constexpr double kLineWidth = 1.1;
   picture.add(seen_lines(projected, raster, picture), "none", "#000", kLineWidth);
   if (!mesh.quads.empty()) {
-    const std::vector<svg::Mark> marks = add_seen_irregular(projected, raster, picture);
-    picture.add_colour_bar("eta",
-                           {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
-    if (!marks.empty()) picture.add_mark_legend({{1, "valence 3"}, {-1, "valence 5"}, {0, "other valence"}});
+    std::vector<double> pixels;
+    for_each_element(projected,
+                     [&](int, const auto& v) { pixels.push_back(pixel_size(projected, v, picture)); });
+    constexpr int kRegular = 4;
+    add_irregular(picture, projected, kRegular, pixels, [&](const Vec3& p) { return raster.sees_point(p); });
   }
   picture.write(path);
 }

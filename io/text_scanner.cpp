@@ -1,6 +1,5 @@
 #include "io/text_scanner.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -14,7 +13,6 @@
 #include "base/text.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
-#include "io/mesh_io.h"
 
 namespace delquad {
 namespace {
@@ -109,7 +107,7 @@ TextScanner::TextScanner(const std::filesystem::path& path)
 
 std::string_view TextScanner::bytes(size_t count, std::string_view what) {
   in_bytes_ = true;
-  if (count > bytes_left()) fail(fmt::format("the file ends where {} was expected", what));
+  if (count > bytes_left()) fail("the file ends where {} was expected", what);
   const std::string_view result = std::string_view(text_).substr(at_, count);
   at_ += count;
   return result;
@@ -150,7 +148,7 @@ bool TextScanner::at_end_of_line() {
 }
 
 std::string_view TextScanner::token(std::string_view what) {
-  if (at_end()) fail(fmt::format("the file ends where {} was expected", what));
+  if (at_end()) fail("the file ends where {} was expected", what);
   const size_t first = at_;
   while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
   return std::string_view(text_).substr(first, at_ - first);
@@ -161,10 +159,10 @@ long long TextScanner::integer(std::string_view what, long long low, long long h
   long long value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-    fail(fmt::format("expected {} (an integer), found {}", what, printable(text)));
+    fail("expected {} (an integer), found {}", what, printable(text));
   }
   if (error != std::errc() || value < low || value > high) {
-    fail(fmt::format("expected {} from {} to {}, found {}", what, low, high, printable(text)));
+    fail("expected {} from {} to {}, found {}", what, low, high, printable(text));
   }
   return value;
 }
@@ -172,7 +170,7 @@ long long TextScanner::integer(std::string_view what, long long low, long long h
 long long TextScanner::count(std::string_view what) {
   const long long n = integer(what, 0, INT_MAX);
   if (n > static_cast<long long>(bytes_left()))
-    fail(fmt::format("{} do not fit in the {} bytes that follow: expected {}", n, bytes_left(), what));
+    fail("{} do not fit in the {} bytes that follow: expected {}", n, bytes_left(), what);
   return n;
 }
 
@@ -186,14 +184,14 @@ double TextScanner::real(std::string_view what, Strays strays) {
                 ? 0.0
                 : std::numeric_limits<double>::infinity();
   if (!is_number || (strays == Strays::kRefused && !std::isfinite(value))) {
-    fail(fmt::format("expected {} (a finite number), found {}", what, printable(text)));
+    fail("expected {} (a finite number), found {}", what, printable(text));
   }
   return finite(value, strays);
 }
 
 double TextScanner::finite(double value, Strays strays) const {
   if (std::isfinite(value)) return value;
-  if (strays == Strays::kRefused) fail(fmt::format("coordinate {}: expected a finite number", value));
+  if (strays == Strays::kRefused) fail("coordinate {}: expected a finite number", value);
   return std::numeric_limits<double>::max();
 }
 
@@ -220,15 +218,6 @@ std::string TextScanner::printable(std::string_view token) {
 
 std::string TextScanner::place(size_t position) const {
   return in_bytes_ ? fmt::format("{}: byte {}", path_, position) : fmt::format("{}:{}", path_, position);
-}
-
-void TextScanner::fail(std::string_view message) const {
-  throw InputError(fmt::format("{}: {}", place(position()), message));
-}
-
-void TextScanner::fail(std::string_view message, int line) const {
-  if (in_bytes_) throw InputError(fmt::format("{}: {}", path_, message));
-  throw InputError(fmt::format("{}:{}: {}", path_, line, message));
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {
@@ -264,8 +253,7 @@ std::string content_kind(std::string_view text) {
 void refuse_other_kinds(const TextScanner& in, std::string_view expected) {
   const std::string kind = content_kind(in.text());
   if (kind.empty() || kind.find(' ' + std::string(expected) + ' ') != std::string::npos) return;
-  in.fail(
-      fmt::format("holds {}: expected {}; files are told apart by the end of their name", kind, expected));
+  in.fail("holds {}: expected {}; files are told apart by the end of their name", kind, expected);
 }
 
 }  // namespace delquad

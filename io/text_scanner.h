@@ -1,9 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/located.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -56,8 +60,16 @@ class TextScanner {
   /// The whole file.
   std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }
-  [[noreturn]] void fail(std::string_view message) const;
-  [[noreturn]] void fail(std::string_view message, int line) const;
+  /// Errors with the place, or the line, and a message that is made as by fmt::format().
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
+    refuse("{}: {}", place(position()), fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  [[noreturn]] void fail_at(int line, fmt::format_string<Args...> text, Args&&... args) const {
+    refuse("{}: {}", in_bytes_ ? path_ : place(static_cast<size_t>(line)),
+           fmt::format(text, std::forward<Args>(args)...));
+  }
 
  private:
   std::string path_, text_;

@@ -19,7 +19,7 @@
 #include "mesher/finish_steps.h"
 #include "metrics/judgement/poor_quads.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "smoothing/optimisation/optimisation_options.h"
+#include "smoothing/optimisation/track_optimisation.h"
 
 namespace delquad {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "base/parallel.h"
 #include "delquad/error.h"
-#include "geometry/mesh/half_edges.h"
 #include "metrics/regularity.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"

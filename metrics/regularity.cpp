@@ -1,7 +1,6 @@
 #include "metrics/regularity.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <numbers>
 #include <tuple>

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace delquad {
@@ -18,6 +20,18 @@ struct Command {
   bool has_time_limit = false;
 };
 using Commands = std::vector<Command>;
+
+/// Adds a command that runs `run` with its arguments, and returns both for its options.
+template <class Arguments>
+std::pair<CLI::App*, Arguments&> add_command(CLI::App& app, Commands& commands, const char* name,
+                                             const char* about, int (*run)(const Arguments&),
+                                             bool has_time_limit = false) {
+  const auto given = std::make_shared<Arguments>();
+  commands.push_back({.app = app.add_subcommand(name, about),
+                      .run = [given, run] { return run(*given); },
+                      .has_time_limit = has_time_limit});
+  return {commands.back().app, *given};
+}
 
 // Each adds a command, or several, with its options. They are explained in this order.
 void add_run(CLI::App& app, Commands& commands);

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <sstream>
 
 #include "base/box.h"
@@ -18,7 +16,6 @@
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
-#include "program/check_files.h"
 #include "program/commands.h"
 #include "program/options.h"
 
@@ -56,13 +53,13 @@ std::vector<Vec3> chain_of(const Mesh& mesh, const std::vector<std::array<int, 2
     if (neighbours[i].size() == 1) ends.push_back(static_cast<int>(i));
     if (neighbours[i].size() > 2) {
       const Vec3& p = mesh.points[i];
-      throw InputError(fmt::format("{}: {} lines meet at ({}, {}, {}): expected one chain", where,
-                                   neighbours[i].size(), p.x, p.y, p.z));
+      refuse("{}: {} lines meet at ({}, {}, {}): expected one chain", where, neighbours[i].size(), p.x, p.y,
+             p.z);
     }
   }
   if (ends.size() != 2)
-    throw InputError(fmt::format("{}: its {} lines have {} ends: expected one open chain, with two", where,
-                                 lines.size(), ends.size()));
+    refuse("{}: its {} lines have {} ends: expected one open chain, with two", where, lines.size(),
+           ends.size());
   const auto far = [&](int i) { return norm(mesh.points[i] - start_near); };
   int before = -1, at = far(ends[1]) < far(ends[0]) ? ends[1] : ends[0];
   std::vector<Vec3> points = {mesh.points[at]};
@@ -74,8 +71,8 @@ std::vector<Vec3> chain_of(const Mesh& mesh, const std::vector<std::array<int, 2
     points.push_back(mesh.points[at]);
   }
   if (points.size() != lines.size() + 1)
-    throw InputError(fmt::format("{}: beside one chain of {} lines there are {} that close", where,
-                                 points.size() - 1, lines.size() + 1 - points.size()));
+    refuse("{}: beside one chain of {} lines there are {} that close", where, points.size() - 1,
+           lines.size() + 1 - points.size());
   return points;
 }
 
@@ -96,10 +93,10 @@ std::vector<Vec3> read_polyline(const std::string& text, const Vec3& start_near)
        at = text.find(':', at + 1))
     if (is_mesh_file(text.substr(0, at))) file = text.substr(0, at), name = text.substr(at + 1);
   if (!is_mesh_file(file))
-    throw InputError(
-        fmt::format("'{}': expected a file of points (.txt) or of a mesh with lines, perhaps with :NAME of a "
-                    "curve behind it",
-                    text));
+    refuse(
+        "'{}': expected a file of points (.txt) or of a mesh with lines, perhaps with :NAME of a "
+        "curve behind it",
+        text);
   const Mesh mesh = read_mesh(file);
   require_straight(mesh, file);
   std::vector<std::array<int, 2>> lines;
@@ -133,15 +130,13 @@ std::vector<double> read_list(const std::string& option, const std::string& text
     const auto value = as_number(part);
     numbers.push_back(value && std::isfinite(*value) ? *value : std::nan(""));
   }
-  if (numbers.size() != count ||
-      std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
-    throw InputError(
-        fmt::format("{} '{}': expected {} finite numbers, such as {}", option, text, count, example));
+  if (numbers.size() != count || std::ranges::any_of(numbers, [](double x) { return std::isnan(x); }))
+    refuse("{} '{}': expected {} finite numbers, such as {}", option, text, count, example);
   return numbers;
 }
 
 void require_with(bool given, const char* option, bool allowed, const char* with) {
-  if (given && !allowed) throw InputError(fmt::format("{} goes with {} only", option, with));
+  if (given && !allowed) refuse("{} goes with {} only", option, with);
 }
 
 SweepPath path_of(const ExtrudeArguments& arguments, const Mesh& mesh) {
@@ -236,9 +231,8 @@ int extrude_command(const ExtrudeArguments& arguments) {
 }  // namespace
 
 void add_extrude(CLI::App& app, Commands& commands) {
-  const auto given = std::make_shared<ExtrudeArguments>();
-  ExtrudeArguments& arguments = *given;
-  CLI::App* extrude = app.add_subcommand("extrude", "Sweep a mesh of quads: hexahedra");
+  const auto [extrude, arguments] =
+      add_command(app, commands, "extrude", "Sweep a mesh of quads: hexahedra", extrude_command, true);
   extrude->add_option("mesh", arguments.mesh, "mesh file, quads alone")->required();
   extrude->add_option("-o,--output", arguments.output, "hexahedra to write (.msh, .vtu or .inp)")->required();
   extrude->add_option("--along", arguments.along,
@@ -263,8 +257,6 @@ void add_extrude(CLI::App& app, Commands& commands) {
   extrude->add_option("--json", arguments.json, "record to write");
   add_max_elements(*extrude, arguments.max_elements, "refuse to make more hexahedra than this");
   add_threads(*extrude, arguments.threads);
-  commands.push_back(
-      {.app = extrude, .run = [given] { return extrude_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "base/box.h"
 #include "base/text.h"
@@ -15,7 +13,6 @@
 #include "geometry/surface/model_report.h"
 #include "io/cases/case_file.h"
 #include "io/mesh_io.h"
-#include "program/check_files.h"
 #include "program/commands.h"
 #include "program/mesh_options.h"
 #include "program/options.h"
@@ -287,9 +284,9 @@ int info_command(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& app, Commands& commands) {
-  auto given = std::make_shared<InfoArguments>();
-  InfoArguments& arguments = *given;
-  CLI::App* info = app.add_subcommand("info", "Tell what a model consists of and what is hard to mesh in it");
+  const auto [info, arguments] =
+      add_command(app, commands, "info", "Tell what a model consists of and what is hard to mesh in it",
+                  info_command, true);
   info->add_option("model", arguments.model,
                    "CAD (.step, .stp, .iges, .igs, .brep), triangles (.stl, .obj, .off, .ply, .3mf, .msh) or "
                    "a planar model (.toml, .msh)")
@@ -301,7 +298,6 @@ void add_info(CLI::App& app, Commands& commands) {
       "-o,--output", arguments.output,
       "the model as it is understood, to look at (.vtu, .msh): triangles by face, lines by curve, as "
       "they are found in a triangulation");
-  commands.push_back({.app = info, .run = [given] { return info_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

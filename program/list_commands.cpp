@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <ostream>
 
 #include "delquad/error.h"
@@ -9,14 +8,13 @@
 #include "io/cases/case_keys.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
-#include "program/check_files.h"
 #include "program/commands.h"
 #include "program/options.h"
 
 namespace delquad {
 namespace {
 
-int schema_command(bool options) {
+int schema_command(const bool& options) {
   fmt::print("{}", options ? option_table_text() : experiment_schema());
   return kDone;
 }
@@ -73,26 +71,24 @@ int example_command(const ExampleArguments& arguments) {
 }  // namespace
 
 void add_lists(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<bool>(false);
-  CLI::App* schema =
-      app.add_subcommand("schema", "Print the JSON Schema of experiment files, for editors and checkers");
-  schema->add_flag("--options", *options, "print the options of the stages as a table (Markdown) instead");
-  commands.push_back({schema, [options] { return schema_command(*options); }, [] { return true; }});
+  const auto [schema, options] =
+      add_command(app, commands, "schema",
+                  "Print the JSON Schema of experiment files, for editors and checkers", schema_command);
+  schema->add_flag("--options", options, "print the options of the stages as a table (Markdown) instead");
+  commands.back().only_prints = [] { return true; };
   CLI::App* formats = app.add_subcommand(
       "formats", "List the kinds of mesh files: what is read, what is written, up to which order");
   commands.push_back({formats, formats_command});
 }
 
 void add_example(CLI::App& app, Commands& commands) {
-  auto given = std::make_shared<ExampleArguments>();
-  ExampleArguments& arguments = *given;
-  CLI::App* example = app.add_subcommand("example", "Write a CAD model that the program makes itself");
+  const auto [example, arguments] = add_command(
+      app, commands, "example", "Write a CAD model that the program makes itself", example_command, true);
   CLI::Option* list = example->add_flag("--list", arguments.list, "names of the examples");
   example->add_option("name", arguments.name, "which one")->excludes(list);
   example->add_option("-o,--output", arguments.output, "CAD file to write (.step, .stp or .brep)")
       ->excludes(list);
-  commands.push_back(
-      {example, [given] { return example_command(*given); }, [given] { return given->list; }, true});
+  commands.back().only_prints = [&given = arguments] { return given.list; };
 }
 
 }  // namespace delquad

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ostream>
 #include <set>
 #include <utility>
 #include <vector>
@@ -24,9 +23,9 @@
 #include "io/cases/read_problem.h"
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
-#include "program/check_files.h"
 #include "program/commands.h"
 #include "program/mesh_options.h"
+#include "program/options.h"
 #include "program/print.h"
 
 namespace delquad {
@@ -160,8 +159,7 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
   for (const Entity& region : mesh.regions)
     for (const std::string& name : region.names)
       if (name.starts_with("failing"))
-        throw InputError(
-            fmt::format("--failing-sets: region '{}' has the name of such a set: expected another", name));
+        refuse("--failing-sets: region '{}' has the name of such a set: expected another", name);
   std::vector<std::set<std::string>> sets(mesh.triangles.size() + mesh.quads.size());
   for (const CriterionResult& result : report.results)
     for (const int element : result.failing) sets[element].insert("failing_" + result.limit.key);

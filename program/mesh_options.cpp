@@ -1,7 +1,5 @@
 #include "program/mesh_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -140,12 +138,11 @@ void set_options(const MeshArguments& arguments, Options& options) {
   for (const std::string& text : arguments.set) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(
-          fmt::format("--set '{}': expected OPTION=VALUE, such as regularity.tolerance=5", text));
+      refuse("--set '{}': expected OPTION=VALUE, such as regularity.tolerance=5", text);
     try {
       options.set(text.substr(0, equals), value_of(text.substr(equals + 1)));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("--set: {}", error.what()));
+      refuse("--set: {}", error.what());
     }
   }
 }
@@ -155,12 +152,11 @@ void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   criteria.strict |= arguments.strict;
   // Elsewhere an element is in one set, and would leave that of its region.
   if (arguments.failing_sets && arguments.output.extension() != ".inp")
-    throw InputError(
-        fmt::format("--failing-sets: {}: expected an .inp file, where an element may be in several sets",
-                    arguments.output.string()));
+    refuse("--failing-sets: {}: expected an .inp file, where an element may be in several sets",
+           arguments.output.string());
   if ((arguments.failing_sets || arguments.strict) && criteria.empty())
-    throw InputError(fmt::format("{}: there are no criteria: expected --criteria, too",
-                                 arguments.strict ? "--strict" : "--failing-sets"));
+    refuse("{}: there are no criteria: expected --criteria, too",
+           arguments.strict ? "--strict" : "--failing-sets");
 }
 
 }  // namespace
@@ -194,7 +190,7 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
     surface.feature_angle = checked_feature_angle(*arguments.feature_angle, given("--feature-angle"));
   if (arguments.ignore_below) {
     if (!(*arguments.ignore_below > 0) || !std::isfinite(*arguments.ignore_below))
-      throw InputError(fmt::format("--ignore-below {}: expected a length > 0", *arguments.ignore_below));
+      refuse("--ignore-below {}: expected a length > 0", *arguments.ignore_below);
     given("--ignore-below");
     surface.ignore_below = *arguments.ignore_below;
   }

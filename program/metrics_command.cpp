@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <ostream>
 #include <tuple>
 
 #include "delquad/error.h"
@@ -13,7 +12,6 @@
 #include "io/mesh_io.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/solve/solver_metrics.h"
-#include "program/check_files.h"
 #include "program/commands.h"
 #include "program/options.h"
 #include "program/print.h"
@@ -102,9 +100,8 @@ int metrics_command(const MetricsArguments& arguments) {
 }  // namespace
 
 void add_metrics(CLI::App& app, Commands& commands) {
-  auto given = std::make_shared<MetricsArguments>();
-  MetricsArguments& arguments = *given;
-  CLI::App* metrics = app.add_subcommand("metrics", "Measure a mesh");
+  const auto [metrics, arguments] =
+      add_command(app, commands, "metrics", "Measure a mesh", metrics_command, true);
   metrics->add_option("mesh", arguments.mesh, "mesh file")->required();
   add_size(*metrics, arguments.size, kSizeHelp);
   metrics->add_option("--solve", arguments.solvers, "errors of finite elements, too: poisson, elasticity")
@@ -113,8 +110,6 @@ void add_metrics(CLI::App& app, Commands& commands) {
       ->check(CLI::IsMember(solver_names()));
   add_criteria(*metrics, arguments.criteria, arguments.strict);
   metrics->add_option("--json", arguments.json, "record to write");
-  commands.push_back(
-      {.app = metrics, .run = [given] { return metrics_command(*given); }, .has_time_limit = true});
 }
 
 }  // namespace delquad

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 // Options that several commands have.
 
@@ -30,5 +32,12 @@ void add_criteria(CLI::App& command, std::string& criteria, bool& strict);
 void add_threads(CLI::App& command, int& threads);
 void add_max_elements(CLI::App& command, long long& most,
                       const char* help = "refuse sizes that ask for more quads than this");
+
+/// Throws InputError for a file that cannot be written, before any work.
+void check_output(const std::filesystem::path& path);
+
+/// Throws InputError when two of the files, each with what it is for the program, are the same one, by
+/// whatever names and links. Empty paths are left out; devices may serve twice.
+void check_distinct(const std::vector<std::pair<std::string, std::filesystem::path>>& files);
 
 }  // namespace delquad

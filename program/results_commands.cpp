@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,14 +9,13 @@
 #include "base/parallel.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/merge.h"
-#include "experiments/sweep/rerun.h"
 #include "experiments/sweep/verify.h"
 #include "io/cases/case.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
 #include "metrics/tables/comparison.h"
+#include "metrics/tables/result_records.h"
 #include "metrics/tables/tables.h"
-#include "metrics/tables/times.h"
 #include "program/commands.h"
 #include "program/options.h"
 #include "program/print.h"
@@ -28,94 +26,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int tables_command(const fs::path& folder) {
-  const Outcome outcome = make_tables(folder);
+/// Of commands on folders of results, each of which has its own.
+struct ResultsArguments {
+  fs::path folder;  ///< of rerun: a record
+  fs::path output, data = kDataFolder;
+  std::vector<fs::path> folders;
+  int threads = thread_count();
+};
+
+int tables_command(const ResultsArguments& given) {
+  const Outcome outcome = make_tables(given.folder);
   print_tables(outcome);
-  const std::vector<std::string> errors = write_tables(folder, outcome);
+  const std::vector<std::string> errors = write_tables(given.folder, outcome);
   for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
   return errors.empty() ? kDone : kBadInput;
 }
 
-int rerun_command(const fs::path& record, const fs::path& data) {
-  const Rerun rerun = rerun_record(record, data);
+int rerun_command(const ResultsArguments& given) {
+  const Rerun rerun = rerun_record(given.folder, given.data);
   for (const auto* lines : {&rerun.differences, &rerun.values})
     for (const std::string& difference : *lines) fmt::print("differs: {}\n", difference);
-  fmt::print("{}: {}\n", record.string(),
+  fmt::print("{}: {}\n", given.folder.string(),
              !rerun.same_mesh       ? "another mesh"
              : rerun.values.empty() ? "the same mesh, byte for byte"
                                     : "the same mesh, byte for byte, but other values");
   return rerun.same_mesh && rerun.values.empty() ? kDone : kRegression;
 }
 
-int verify_command(const fs::path& folder, const fs::path& data, int threads) {
-  const RunScope run({.threads = threads});
-  const Verification result = verify_results(folder, data);
+int verify_command(const ResultsArguments& given) {
+  const RunScope run({.threads = given.threads});
+  const Verification result = verify_results(given.folder, given.data);
   for (const std::string& finding : result.findings) fmt::print("{}\n", finding);
-  fmt::print("{}: {} records, {} meshes measured again: {}\n", folder.string(), result.cells, result.measured,
+  fmt::print("{}: {} records, {} meshes measured again: {}\n", given.folder.string(), result.cells,
+             result.measured,
              result.findings.empty() ? "all well" : fmt::format("{} findings", result.findings.size()));
   return result.findings.empty() ? kDone : kRegression;
 }
 
-int merge_command(const std::vector<fs::path>& folders, const fs::path& output) {
-  merge_results(folders, output);
-  fmt::print("results: {}\n", output.string());
+int merge_command(const ResultsArguments& given) {
+  merge_results(given.folders, given.output);
+  fmt::print("results: {}\n", given.output.string());
   return kDone;
 }
 
-int report_command(const fs::path& folder, const fs::path& output) {
-  const auto problems = write_report(folder, output);
+int report_command(const ResultsArguments& given) {
+  const auto problems = write_report(given.folder, given.output);
   if (verbosity() != Verbosity::kQuiet)
     for (const std::string& problem : problems) fmt::print(stderr, "warning: {}\n", problem);
-  fmt::print("report: {}\n", output.string());
+  fmt::print("report: {}\n", given.output.string());
   return kDone;
-}
-
-void add_tables(CLI::App& app, Commands& commands) {
-  const auto folder = std::make_shared<fs::path>();
-  CLI::App* table = app.add_subcommand("tables", "Make the tables of an experiment from its results");
-  table->add_option("folder", *folder, "folder of 'delquad run'")->required();
-  commands.push_back({table, [folder] { return tables_command(*folder); }});
-}
-
-void add_rerun(CLI::App& app, Commands& commands) {
-  const auto record = std::make_shared<fs::path>(), data = std::make_shared<fs::path>(kDataFolder);
-  CLI::App* again = app.add_subcommand(
-      "rerun", "Make a result again from its record: the same bytes, or what stands in their way");
-  again->add_option("record", *record, "record.json of a cell")->required();
-  add_data(*again, *data);
-  commands.push_back({again, [record, data] { return rerun_command(*record, *data); }});
-}
-
-void add_verify(CLI::App& app, Commands& commands) {
-  const auto folder = std::make_shared<fs::path>(), data = std::make_shared<fs::path>(kDataFolder);
-  const auto threads = std::make_shared<int>(thread_count());
-  CLI::App* check = app.add_subcommand(
-      "verify", "Check that results are as they were written; exit code 1 when something is not");
-  check->add_option("folder", *folder, "folder of 'delquad run'")->required();
-  add_data(*check, *data);
-  check->add_option("-j,--jobs", *threads, "cells at a time; default: all cores")
-      ->check(CLI::Range(1, kMostThreads));
-  commands.push_back({check, [=] { return verify_command(*folder, *data, *threads); }});
-}
-
-void add_merge(CLI::App& app, Commands& commands) {
-  const auto folders = std::make_shared<std::vector<fs::path>>();
-  const auto output = std::make_shared<fs::path>();
-  CLI::App* together = app.add_subcommand(
-      "merge", "Put results of one experiment, made in several folders, together in a new one");
-  together->add_option("folders", *folders, "folders of 'delquad run', which stay as they are")
-      ->required()
-      ->expected(2, -1);
-  together->add_option("-o,--output", *output, "folder to make")->required();
-  commands.push_back({together, [folders, output] { return merge_command(*folders, *output); }});
-}
-
-void add_report(CLI::App& app, Commands& commands) {
-  const auto folder = std::make_shared<fs::path>(), output = std::make_shared<fs::path>();
-  CLI::App* report = app.add_subcommand("report", "Make a page of results to look at in a browser");
-  report->add_option("folder", *folder, "folder of 'delquad run', or one that holds several")->required();
-  report->add_option("-o,--output", *output, "file to write (.html)")->required();
-  commands.push_back({report, [folder, output] { return report_command(*folder, *output); }});
 }
 
 struct CompareArguments {
@@ -147,18 +106,47 @@ int compare_command(const CompareArguments& arguments) {
 }  // namespace
 
 void add_results(CLI::App& app, Commands& commands) {
-  add_tables(app, commands);
-  add_rerun(app, commands);
-  add_verify(app, commands);
-  add_merge(app, commands);
-  add_report(app, commands);
+  const auto add = [&](const char* name, const char* about, int (*run)(const ResultsArguments&)) {
+    return add_command(app, commands, name, about, run);
+  };
+  constexpr const char* kFolder = "folder of 'delquad run'";
+  const auto [tables, of_tables] =
+      add("tables", "Make the tables of an experiment from its results", tables_command);
+  tables->add_option("folder", of_tables.folder, kFolder)->required();
+
+  const auto [rerun, of_rerun] =
+      add("rerun", "Make a result again from its record: the same bytes, or what stands in their way",
+          rerun_command);
+  rerun->add_option("record", of_rerun.folder, "record.json of a cell")->required();
+  add_data(*rerun, of_rerun.data);
+
+  const auto [verify, of_verify] =
+      add("verify", "Check that results are as they were written; exit code 1 when something is not",
+          verify_command);
+  verify->add_option("folder", of_verify.folder, kFolder)->required();
+  add_data(*verify, of_verify.data);
+  verify->add_option("-j,--jobs", of_verify.threads, "cells at a time; default: all cores")
+      ->check(CLI::Range(1, kMostThreads));
+
+  const auto [merge, of_merge] =
+      add("merge", "Put results of one experiment, made in several folders, together in a new one",
+          merge_command);
+  merge->add_option("folders", of_merge.folders, "folders of 'delquad run', which stay as they are")
+      ->required()
+      ->expected(2, -1);
+  merge->add_option("-o,--output", of_merge.output, "folder to make")->required();
+
+  const auto [report, of_report] =
+      add("report", "Make a page of results to look at in a browser", report_command);
+  report->add_option("folder", of_report.folder, "folder of 'delquad run', or one that holds several")
+      ->required();
+  report->add_option("-o,--output", of_report.output, "file to write (.html)")->required();
 }
 
 void add_compare(CLI::App& app, Commands& commands) {
-  auto given = std::make_shared<CompareArguments>();
-  CompareArguments& arguments = *given;
-  CLI::App* compare =
-      app.add_subcommand("compare", "Compare the results of two runs; exit code 1 when something got worse");
+  const auto [compare, arguments] =
+      add_command(app, commands, "compare",
+                  "Compare the results of two runs; exit code 1 when something got worse", compare_command);
   compare->add_option("before", arguments.before, "folder of results, or a mesh")->required();
   compare->add_option("after", arguments.after, "folder of results, or mesh, to judge")->required();
   compare->add_option("--metrics", arguments.metrics, "keys of records, or 'seconds'")
@@ -167,7 +155,6 @@ void add_compare(CLI::App& app, Commands& commands) {
   compare->add_option("--tolerance", arguments.tolerance, "part of a value by which it may change")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  commands.push_back({compare, [given] { return compare_command(*given); }});
 }
 
 }  // namespace delquad

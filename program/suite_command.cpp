@@ -1,34 +1,35 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
-#include "experiments/suite/ranking.h"
 #include "experiments/suite/submission.h"
 #include "experiments/suite/suite_list.h"
-#include "experiments/suite/write_suite.h"
 #include "program/commands.h"
 
 namespace delquad {
 namespace {
 
-int suite_models_command(const std::filesystem::path& folder) {
-  write_suite(folder);
-  fmt::print("{}: {} models\n{}\n", suite_title(), suite().models.size(), folder.string());
+struct SuiteArguments {
+  std::filesystem::path folder, result;
+};
+
+int suite_models_command(const SuiteArguments& given) {
+  write_suite(given.folder);
+  fmt::print("{}: {} models\n{}\n", suite_title(), suite().models.size(), given.folder.string());
   return kDone;
 }
 
-int suite_add_command(const std::filesystem::path& result, const std::filesystem::path& folder) {
-  const Submission submission = read_submission(result);
-  const SubmissionCount count = add_submission(submission, folder);
+int suite_add_command(const SuiteArguments& given) {
+  const Submission submission = read_submission(given.result);
+  const SubmissionCount count = add_submission(submission, given.folder);
   fmt::print("{}: {} meshes measured, {} refused, {} missing: {}\n", submission.program, count.measured,
-             count.refused, count.missing, (folder / submission.program / "table.md").string());
+             count.refused, count.missing, (given.folder / submission.program / "table.md").string());
   return kDone;
 }
 
-int suite_table_command(const std::filesystem::path& folder) {
-  const Table table = rank_programs(folder);
-  write_ranking(folder, table);
+int suite_table_command(const SuiteArguments& given) {
+  const Table table = rank_programs(given.folder);
+  write_ranking(given.folder, table);
   fmt::print("{}\n", to_markdown(table));
   return kDone;
 }
@@ -36,21 +37,19 @@ int suite_table_command(const std::filesystem::path& folder) {
 }  // namespace
 
 void add_suite(CLI::App& app, Commands& commands) {
-  namespace fs = std::filesystem;
-  const auto folder = std::make_shared<fs::path>(), result = std::make_shared<fs::path>();
   CLI::App* suite = app.add_subcommand("suite", "Compare programs on models that this one makes");
   suite->require_subcommand(1);
-  CLI::App* models =
-      suite->add_subcommand("models", "Write the suite's models and sizes, and the experiment");
-  models->add_option("-o,--output", *folder, "folder to write to")->required();
-  CLI::App* add = suite->add_subcommand("add", "Measure the meshes of another program");
-  add->add_option("result", *result, "folder of its meshes, with result.toml")->required();
-  add->add_option("-o,--output", *folder, "folder of results")->required();
-  CLI::App* table = suite->add_subcommand("table", "Rank the programs of a folder of results");
-  table->add_option("folder", *folder, "folder of results")->required();
-  commands.push_back({models, [folder] { return suite_models_command(*folder); }});
-  commands.push_back({add, [result, folder] { return suite_add_command(*result, *folder); }});
-  commands.push_back({table, [folder] { return suite_table_command(*folder); }});
+  const auto [models, of_models] =
+      add_command(*suite, commands, "models", "Write the suite's models and sizes, and the experiment",
+                  suite_models_command);
+  models->add_option("-o,--output", of_models.folder, "folder to write to")->required();
+  const auto [add, of_add] =
+      add_command(*suite, commands, "add", "Measure the meshes of another program", suite_add_command);
+  add->add_option("result", of_add.result, "folder of its meshes, with result.toml")->required();
+  add->add_option("-o,--output", of_add.folder, "folder of results")->required();
+  const auto [table, of_table] =
+      add_command(*suite, commands, "table", "Rank the programs of a folder of results", suite_table_command);
+  table->add_option("folder", of_table.folder, "folder of results")->required();
 }
 
 }  // namespace delquad

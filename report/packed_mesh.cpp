@@ -12,7 +12,7 @@
 #include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
-#include "io/irregular_vertices.h"
+#include "io/picture.h"
 #include "io/xml.h"
 #include "metrics/metrics.h"
 

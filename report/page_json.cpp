@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "delquad/extend.h"
 #include "experiments/sweep/experiment.h"
+#include "geometry/mesh/element_nodes.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/svg.h"
 #include "metrics/metrics.h"
 #include "metrics/tables/samples.h"
@@ -17,6 +20,7 @@
 #include "report/packed_mesh.h"
 
 namespace delquad {
+
 namespace {
 
 Json values_json(const std::map<std::string, double>& values) {
@@ -202,6 +206,237 @@ Json samples_json(const std::vector<CellRecord>& records, const std::vector<Tabl
 Json brief_number(double value) {
   if (!std::isfinite(value)) return Json();
   return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
+}
+
+namespace {
+
+constexpr int kRings = 3;
+
+std::vector<int> vertices_of(const Mesh& mesh, int element) {
+  const int n = static_cast<int>(mesh.triangles.size());
+  if (element >= n) return {mesh.quads[element - n].begin(), mesh.quads[element - n].end()};
+  return {mesh.triangles[element].begin(), mesh.triangles[element].end()};
+}
+
+/// The quads in question, worst first.
+std::vector<int> pick(const Mesh& mesh, const std::vector<double>& eta, std::size_t count) {
+  std::vector<int> order(mesh.quads.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int q) { return eta[q]; });
+  std::vector<int> picked;
+  std::set<int> taken;
+  for (const int q : order) {
+    if (picked.size() == count) break;
+    if (std::ranges::any_of(mesh.quads[q], [&](int v) { return taken.contains(v); })) continue;
+    taken.insert(mesh.quads[q].begin(), mesh.quads[q].end());
+    picked.push_back(q);
+  }
+  return picked;
+}
+
+/// Elements within kRings of an element, itself first.
+class Surroundings {
+ public:
+  explicit Surroundings(const Mesh& mesh) : mesh_(mesh), start_(mesh.points.size() + 1, 0) {
+    for_each_element(mesh, [&](int, const auto& v) {
+      for (const int i : v) ++start_[i + 1];
+    });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    around_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> next = start_;
+    for_each_element(mesh, [&](int element, const auto& v) {
+      for (const int i : v) around_[next[i]++] = element;
+    });
+  }
+
+  std::vector<int> of(int element) const {
+    std::vector<int> found = {element};
+    std::set<int> known = {element};
+    std::size_t first = 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::size_t end = found.size();
+      for (; first < end; ++first)
+        for (const int v : vertices_of(mesh_, found[first]))
+          for (int k = start_[v]; k < start_[v + 1]; ++k)
+            if (known.insert(around_[k]).second) found.push_back(around_[k]);
+    }
+    return found;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<int> start_, around_;  // elements by vertex
+};
+
+/// Maps space to the plane of a quad, in units of its mean edge.
+struct View {
+  Vec3 centre{0, 0, 0}, right, up, normal;
+  double unit;
+  explicit View(const Mesh& mesh, const std::array<int, 4>& v) {
+    const auto& p = mesh.points;
+    double edges = 0;
+    for (int k = 0; k < 4; ++k) {
+      centre = centre + 0.25 * p[v[k]];
+      edges += norm(p[v[(k + 1) % 4]] - p[v[k]]);
+    }
+    unit = edges > 0 ? 4 / edges : 1;
+    normal = cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[1]]);
+    if (!(norm(normal) > 0)) normal = {0, 0, 1};
+    normal = (1 / norm(normal)) * normal;
+    const bool is_flat = std::abs(normal.z) > 1 - 1e-9;  // then as the mesh lies
+    right = is_flat ? Vec3{1, 0, 0} : cross(Vec3{0, 0, 1}, normal);
+    right = (unit / norm(right)) * right;
+    up = is_flat ? Vec3{0, unit, 0} : cross(normal, right);
+  }
+  Vec2 operator()(const Vec3& p) const { return {dot(p - centre, right), dot(p - centre, up)}; }
+};
+
+Closeup look_at(const Mesh& mesh, const std::vector<double>& eta, const Surroundings& surroundings,
+                int quad) {
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  const View view(mesh, mesh.quads[quad]);
+  Closeup closeup{eta[quad], 1 / view.unit, view.normal, view.centre, {}, {}, {}};
+  std::map<int, int> number;
+  for (const int element : surroundings.of(n_triangles + quad)) {
+    std::vector<int> corners = element < n_triangles
+                                   ? vertices_of(mesh, element)
+                                   : nodes_around(mesh, static_cast<std::size_t>(element - n_triangles));
+    for (int& v : corners) {
+      const auto [at, is_new] = number.try_emplace(v, static_cast<int>(number.size()));
+      if (is_new) closeup.points.push_back(view(mesh.points[v]));
+      v = at->second;
+    }
+    closeup.elements.push_back(std::move(corners));
+    closeup.etas.push_back(element < n_triangles ? 1 : eta[element - n_triangles]);
+  }
+  return closeup;
+}
+
+}  // namespace
+
+std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count) {
+  const std::vector<double> eta = quad_etas(mesh);
+  const Surroundings surroundings(mesh);
+  std::vector<Closeup> closeups;
+  for (const int q : pick(mesh, eta, count)) closeups.push_back(look_at(mesh, eta, surroundings, q));
+  return closeups;
+}
+
+namespace {
+
+using namespace nlohmann::literals;
+
+constexpr std::size_t kCloseups = 3;
+/// Curves of convergence a cell has at most: of its largest patches nothing is known here, so the first ones.
+constexpr std::size_t kMostCurves = 12;
+
+/// Whole numbers take little room.
+long long hundredths(double value) { return std::llround(value * 100); }
+
+Json energies_json(const Json& energies) {
+  Json json = Json::array();
+  for (const Json& e : energies) json.push_back(e.is_null() ? Json() : brief_number(e.get<double>()));
+  return json;
+}
+
+/// How many quads are around the vertices inside: shares as d4 counts them, of all vertices inside. Those
+/// with a triangle have an entry of their own.
+Json valences_json(const Json& record) {
+  const Json& all = record.at("valences");
+  const Json& metrics = record.at("metrics");
+  const bool has_quads = metrics.value("n_quads", 0.0) > 0;
+  if (!has_quads || !record.contains("quad_valences"))
+    return {{"of", has_quads ? "elements" : "triangles"}, {"counts", all}, {"mixed", 0}};
+  long long mixed = 0;
+  for (const Json& count : all) mixed += count.get<long long>();
+  for (const Json& count : record["quad_valences"]) mixed -= count.get<long long>();
+  return {{"of", "quads"}, {"counts", record["quad_valences"]}, {"mixed", mixed}};
+}
+
+Json closeups_json(const Mesh& mesh) {
+  Json json = Json::array();
+  for (const Closeup& closeup : worst_quads(mesh, kCloseups)) {
+    Json points = Json::array(), etas = Json::array();
+    for (const Vec2& p : closeup.points) points.push_back({hundredths(p.x), hundredths(p.y)});
+    for (const double eta : closeup.etas) etas.push_back(hundredths(eta));
+    json.push_back({{"eta", closeup.eta},
+                    {"size", closeup.size},
+                    {"normal", {closeup.normal.x, closeup.normal.y, closeup.normal.z}},
+                    {"at", {closeup.at.x, closeup.at.y, closeup.at.z}},
+                    {"points", points},
+                    {"elements", closeup.elements},
+                    {"etas", etas}});
+  }
+  return json;
+}
+
+Json surface_facts(const Json& surface) {
+  const auto count = [&](const char* pointer) {
+    return surface.at(Json::json_pointer(pointer)).get<long long>();
+  };
+  const auto distance = [&](const char* which) {
+    return surface.at("distances_in_diagonals").at(which).at("max").get<double>();
+  };
+  return Json::array(
+      {{"watertight", surface.at("/topology/watertight"_json_pointer).get<bool>()
+                          ? "yes"
+                          : fmt::format("no: {} free edges", count("/topology/free_edges"))},
+       {"Euler characteristic, mesh and model", fmt::format("{}, {}", count("/topology/euler_characteristic"),
+                                                            count("/model_topology/euler_characteristic"))},
+       {"nonconforming edges", fmt::format("{}", count("/nonconforming_edges"))},
+       {"cuts", fmt::format("{}", surface.at("cuts").size())},
+       {"farthest from mesh to surface, surface to mesh, in diagonals of the model",
+        fmt::format("{:.1e}, {:.1e}", distance("mesh_to_surface"), distance("surface_to_mesh"))}});
+}
+
+std::string size_text(const Json& size) {
+  std::string text = size.at("base").is_null() ? "" : size.at("base").get<std::string>();
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  if (const auto n = size.at("sources").size(); n > 0) add(fmt::format("{} sources", n));
+  for (const Json& named : size.value("on", Json::array()))
+    add(fmt::format("'{}' {}", named.at("name").get<std::string>(), named.at("size").get<double>()));
+  for (const char* key : {"gradation", "curvature", "min", "max"})
+    if (const Json value = size.value(key, Json()); !value.is_null())
+      add(fmt::format("{} {}", key, value.get<double>()));
+  return text.empty() ? "as the model says" : text;
+}
+
+}  // namespace
+
+Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
+  Json json = {{"word", record.at("pipeline")}, {"status", record.at("status")}};
+  if (record.contains("peer"))
+    json["peer"] = {{"version", record["peer"].at("version")}, {"command", record["peer"].at("command")}};
+  if (json["status"] != "ok") {
+    json["reason"] = record.at("reason");
+    return json;
+  }
+  json["values"] = record.at("metrics");
+  if (const Json& clock = record.at("meshing_seconds"); !clock.is_null()) json["values"]["seconds"] = clock;
+  json["steps"] = record.value("seconds", Json::object());
+  json["eta"] = record.at("eta_histogram").at("counts");
+  json["valences"] = valences_json(record);
+  json["warnings"] = record.value("warnings", Json::array());
+  if (record.contains("surface")) json["surface"] = surface_facts(record["surface"]);
+  if (record.contains("smoothing")) {
+    const Json& curves = record["smoothing"].at("energy_by_evaluation");
+    json["patches"] = curves.size();
+    json["energy"] = Json::array();
+    for (std::size_t i = 0; i < std::min(curves.size(), kMostCurves); ++i)
+      json["energy"].push_back(energies_json(curves[i]));
+  }
+  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh);
+  return json;
+}
+
+Json facts_json(const Json& record) {
+  Json facts = Json::array();
+  facts.push_back({"model", record.at("model")});
+  const Json options = record.value("options", Json::object());
+  if (options.contains("size")) facts.push_back({"size", size_text(options["size"])});
+  if (options.contains("cross")) facts.push_back({"directions", options["cross"]});
+  if (record.contains("domain")) facts.push_back({"patches", record["domain"].at("patches").dump()});
+  return facts;
 }
 
 }  // namespace delquad

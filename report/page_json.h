@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "delquad/mesh.h"
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/table.h"
 
@@ -40,5 +43,28 @@ Json samples_json(const std::vector<CellRecord>& records, const std::vector<Tabl
 
 /// With five digits, more than a chart shows; null of NaN.
 Json brief_number(double value);
+
+/// A bad quad and what is around it, seen from its front.
+struct Closeup {
+  double eta;
+  double size;  ///< mean edge
+  Vec3 normal;
+  Vec3 at;                                 ///< its centre
+  std::vector<Vec2> points;                ///< in units of the quad's mean edge, its centre at the origin
+  std::vector<std::vector<int>> elements;  ///< triangles and quads, the bad quad first
+  std::vector<double> etas;                ///< of the elements; those of triangles are 1
+};
+
+/// The `count` worst quads of which no two have a vertex in common, worst first, with the elements that three
+/// steps from element to element lead to.
+std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
+
+using Json = nlohmann::ordered_json;
+
+/// What a page says of one cell: from its record, and from its mesh where there is one.
+Json cell_json(const Json& record, const std::optional<Mesh>& mesh);
+
+/// What holds for a variant of a case, by the record of one of its cells: pairs of texts.
+Json facts_json(const Json& record);
 
 }  // namespace delquad

@@ -14,12 +14,11 @@
 #include "delquad/error.h"
 #include "experiments/sweep/record.h"
 #include "io/mesh_io.h"
-#include "metrics/tables/json_problem.h"
 #include "metrics/tables/samples.h"
+#include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
 #include "report/packed_mesh.h"
 #include "report/page_json.h"
-#include "report/sheet_json.h"
 
 namespace delquad {
 namespace {

@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/located.h"
 #include "base/matching/matching.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
@@ -75,8 +76,7 @@ std::unique_ptr<MatchingSolver> matching_solver(const std::string& name, const O
     if (solver.name == name) return std::make_unique<CheckedSolver>(name, solver.make(options));
   std::string known;
   for (const std::string& other : matching_solver_names()) known += (known.empty() ? "" : ", ") + other;
-  throw InputError("unknown matching solver '" + name + "'; known: " + known +
-                   suggestion(name, matching_solver_names()));
+  refuse("unknown matching solver '{}'; known: {}{}", name, known, suggestion(name, matching_solver_names()));
 }
 
 std::vector<std::string> matching_solver_names() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/located.h"
 #include "delquad/error.h"
 
 namespace delquad::python {
@@ -23,11 +24,11 @@ py::array as_array(const py::handle& object, const std::string& what, const char
   if (!array) PyErr_Clear();
   // Kinds of numpy: booleans, whole numbers, floating-point numbers.
   if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos)
-    throw InputError(fmt::format(
+    refuse(
         "{}: expected {}, got {}", what, expected,
         array && array.dtype().kind() != 'O'
             ? "an array of type " + std::string(py::str(array.dtype()))
-            : "a " + std::string(py::str(py::type::of(object).attr("__name__"))) + " that is no such array"));
+            : "a " + std::string(py::str(py::type::of(object).attr("__name__"))) + " that is no such array");
   return array;
 }
 
@@ -40,31 +41,27 @@ template <class V>
 void require_finite(const std::vector<V>& points, const std::string& what) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
-      throw InputError(fmt::format("{}: point {} is ({}, {}): finite coordinates were expected", what, i,
-                                   points[i].x, points[i].y));
+      refuse("{}: point {} is ({}, {}): finite coordinates were expected", what, i, points[i].x, points[i].y);
 }
 
 int checked_int(std::int64_t value, const std::string& what) {
   if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
-    throw InputError(fmt::format("{}: {} is out of range", what, value));
+    refuse("{}: {} is out of range", what, value);
   return static_cast<int>(value);
 }
 
 Integers as_integers(const py::handle& object, const std::string& what, const char* expected) {
   const py::array array = as_array(object, what, expected);
   if (array.dtype().kind() == 'f' && array.size() > 0)
-    throw InputError(fmt::format("{}: expected {}, got an array of type {}", what, expected,
-                                 std::string(py::str(array.dtype()))));
+    refuse("{}: expected {}, got an array of type {}", what, expected, std::string(py::str(array.dtype())));
   return Integers(array);
 }
 
 std::vector<double> read_vector(const py::handle& object, std::size_t n, const std::string& what) {
   std::vector<double> numbers = read_numbers(object, what);
-  if (numbers.size() != n)
-    throw InputError(fmt::format("{}: expected {} numbers, got {}", what, n, numbers.size()));
+  if (numbers.size() != n) refuse("{}: expected {} numbers, got {}", what, n, numbers.size());
   for (const double x : numbers)
-    if (!std::isfinite(x))
-      throw InputError(fmt::format("{}: is {}: finite coordinates were expected", what, x));
+    if (!std::isfinite(x)) refuse("{}: is {}: finite coordinates were expected", what, x);
   return numbers;
 }
 

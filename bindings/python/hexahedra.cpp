@@ -2,7 +2,6 @@
 
 #include "base/context.h"
 #include "bindings/python/arrays.h"
-#include "bindings/python/calling_thread.h"
 #include "bindings/python/problem.h"
 #include "delquad/hexahedra.h"
 

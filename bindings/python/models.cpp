@@ -5,6 +5,7 @@
 #include <sstream>
 #include <variant>
 
+#include "base/located.h"
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
 #include "geometry/cad/example_models.h"
@@ -101,10 +102,10 @@ ModelCurve sampled_curve(const py::function& function, double t0, double t1, con
     const py::object returned = function(py::array_t<double>(static_cast<py::ssize_t>(t.size()), t.data()));
     const std::vector<Vec2> read = read_plane_points(returned, "what the curve's function returned");
     if (read.size() != t.size())
-      throw InputError(
-          fmt::format("what the curve's function returned: expected {} points, one for each "
-                      "parameter, got {}",
-                      t.size(), read.size()));
+      refuse(
+          "what the curve's function returned: expected {} points, one for each "
+          "parameter, got {}",
+          t.size(), read.size());
     std::ranges::copy(read, target.begin());
   };
   return {make_sampled_curve(points, t0, t1), name, ""};

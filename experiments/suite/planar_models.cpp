@@ -3,14 +3,77 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "base/segment.h"
+#include "delquad/mesh.h"
 #include "experiments/suite/model_makers.h"
-#include "experiments/suite/model_text.h"
 #include "experiments/suite/random.h"
 
 namespace delquad {
+
 namespace {
+
+/// A number with nine digits after the point, and no minus in front of zero.
+std::string nine_digits(double value) {
+  const std::string text = fmt::format("{:.9f}", value);
+  return text == "-0.000000000" ? text.substr(1) : text;
+}
+
+std::string point(Vec2 p) { return "[" + nine_digits(p.x) + ", " + nine_digits(p.y) + "]"; }
+
+/// What a loop is called: its curves, and what is inside; empty: nothing.
+struct LoopNames {
+  std::string boundary, region;
+};
+
+/// The text of a model file, loop by loop.
+class ModelText {
+ public:
+  void polygon(const std::vector<Vec2>& corners, const LoopNames& names) {
+    std::string list;
+    for (const Vec2& p : corners) list += (list.empty() ? "" : ", ") + point(p);
+    begin_loop("polygon = [" + list + "]", names);
+  }
+
+  void rectangle(Vec2 low, Vec2 high, const LoopNames& names) {
+    begin_loop("rectangle = [" + point(low) + ", " + point(high) + "]", names);
+  }
+
+  void circle(Vec2 centre, double radius, const LoopNames& names) {
+    begin_loop("circle = { centre = " + point(centre) + ", radius = " + nine_digits(radius) + " }", names);
+  }
+
+  /// Formulas in t.
+  void curve(const std::string& name, const std::string& x, const std::string& y, double from, double to) {
+    text_ += fmt::format(
+        "[[curve]]\nname = \"{}\"\nexpression = {{ x = \"{}\", y = \"{}\", from = {}, to = {} }}\n", name, x,
+        y, nine_digits(from), nine_digits(to));
+  }
+
+  void segment(const std::string& name, Vec2 a, Vec2 b) {
+    text_ += fmt::format("[[curve]]\nname = \"{}\"\nsegment = [{}, {}]\n", name, point(a), point(b));
+  }
+
+  /// Of curves that close up.
+  void hole(const std::vector<std::string>& curves) {
+    std::string list;
+    for (const std::string& name : curves) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    begin_loop("curves = [" + list + "]", {});
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  void begin_loop(const std::string& shape, const LoopNames& names) {
+    text_ += "[[loop]]\n" + shape + "\n";
+    if (!names.boundary.empty()) text_ += "boundary = \"" + names.boundary + "\"\n";
+    if (!names.region.empty()) text_ += "region = \"" + names.region + "\"\n";
+  }
+
+  std::string text_;
+};
 
 Vec2 polar(double radius, double angle) { return radius * Vec2{std::cos(angle), std::sin(angle)}; }
 

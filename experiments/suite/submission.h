@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 
@@ -34,5 +35,18 @@ SubmissionCount add_submission(const Submission& submission, const std::filesyst
 /// is further from the mesh, and none of the mesh further from the model, than 1.25 times the size there. Of
 /// planar domains that is asked of the boundaries. Makes planar meshes run counterclockwise.
 void check_is_of_model(const Prepared& prepared, Mesh& mesh);
+
+/// Programs and pipelines on the suite, the best first: all families together, then each.
+///
+/// `results`: a folder with results of the suite, one folder for each run or submission. A case counts as
+/// solved when its mesh is sound and has quads only. The score is the mean over all cases of the mean eta
+/// times tau times the share of quads, 0 for a case without a sound mesh; in percent. The other measures are
+/// means over the sound meshes, but for the worst eta, which is the least, and the CPU seconds, which are the
+/// sum. Programs of which all cells are not applicable are not ranked: they have one row, and a note with the
+/// reason. Throws InputError where there are no results, or results of something else.
+Table rank_programs(const std::filesystem::path& results);
+
+/// Writes the table in every format to results/ranking/table.*.
+void write_ranking(const std::filesystem::path& results, const Table& table);
 
 }  // namespace delquad

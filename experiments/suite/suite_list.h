@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "experiments/sweep/experiment.h"
 
 namespace delquad {
 
@@ -43,5 +46,14 @@ std::string make_suite_model(const SuiteModel& model);
 /// SHA-256 of a model's file, in hexadecimal. Of STEP: without the header, all numbers rounded to six digits
 /// after the point, so that it does not depend on the machine.
 std::string suite_digest(const SuiteModel& model, const std::string& content);
+
+/// Writes all that other programs and ours need to mesh the suite's cases to a folder, which is made: the
+/// models (.toml, .step, .obj), of planar cases the boundary as lines (NAME_1.msh, ...), cases.json with the
+/// sizes, and suite.toml, the experiment. Throws InputError when something cannot be written, and when a
+/// model is not the one that the list has the SHA-256 of: results could not be compared.
+void write_suite(const std::filesystem::path& folder);
+
+/// The models and suite.toml alone, as an experiment with one case for each model and size, in their order.
+Experiment write_suite_experiment(const std::filesystem::path& folder);
 
 }  // namespace delquad

@@ -1,20 +1,13 @@
 #include "experiments/sweep/experiment.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include "base/located.h"
-#include "experiments/sweep/experiment_keys.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
-#include "io/cases/toml_reader.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/tables.h"
@@ -51,8 +44,7 @@ std::vector<std::string> read_solvers(const TomlTable& table) {
 CorrelationRequest read_correlation(const TomlTable& table, const std::vector<std::string>& metrics) {
   CorrelationRequest request{table.texts("of"), table.texts("with")};
   for (const auto& [key, list] : {std::pair("of", &request.of), std::pair("with", &request.with)}) {
-    if (list->empty())
-      throw InputError(fmt::format("{}: '{}' is empty: expected keys of measures", table.where(key), key));
+    if (list->empty()) refuse("{}: '{}' is empty: expected keys of measures", table.where(key), key);
     for (const std::string& metric : *list) check_known(table, key, metric, metrics);
   }
   table.finish(correlate_keys());
@@ -71,8 +63,7 @@ std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::s
     if (std::ranges::count(columns, key) > 1)
       throw InputError(table.where("columns") + ": '" + key + "' twice among the columns");
   }
-  if (columns.empty())
-    throw InputError(table.where("columns") + ": 'columns' is empty: expected keys of measures");
+  if (columns.empty()) refuse("{}: 'columns' is empty: expected keys of measures", table.where("columns"));
   return columns;
 }
 
@@ -287,8 +278,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   read_case_keys(table, experiment.defaults_);
   table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
-    throw InputError(file.string() +
-                     ": no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'");
+    refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
   if (!experiment.cases_.empty() && experiment.linf)
     throw InputError(table.where("linf_delaunay") + ": 'linf_delaunay' and cases exclude each other");
   std::vector<std::string> names;

@@ -1,9 +1,6 @@
 #include "experiments/sweep/experiment_copy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <system_error>

@@ -3,21 +3,123 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 
 #include "base/located.h"
+#include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
-#include "experiments/sweep/experiment_keys.h"
 #include "experiments/sweep/schema.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/table.h"
+#include "metrics/tables/tables.h"
 
 // The measures and the peers of an experiment.
 
 namespace delquad {
+
+namespace {
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// What looks like placeholders, such as "{input}"; not "${input}", which is the shell's.
+std::vector<std::string> names_in_braces(const std::string& word) {
+  std::vector<std::string> names;
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  for (std::size_t at = 0; (at = word.find('{', at)) != std::string::npos; ++at) {
+    const auto end = word.find('}', at);
+    if (end == std::string::npos || end == at + 1 || (at > 0 && word[at - 1] == '$')) continue;
+    const std::string name = word.substr(at, end + 1 - at);
+    if (std::all_of(name.begin() + 1, name.end() - 1, is_letter)) names.push_back(name);
+  }
+  return names;
+}
+
+bool is_program_text(const std::string& word) {
+  return word.find_first_of(" \t\n\"'$;(") != std::string::npos;
+}
+
+}  // namespace
+
+std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most) {
+  std::vector<int> counts;
+  for (const double n : table.numbers(key)) {
+    if (n != std::floor(n) || n < least || n > most)
+      refuse("{}: '{}' must hold integers from {} to {}", table.where(key), key, static_cast<int>(least),
+             static_cast<int>(most));
+    counts.push_back(static_cast<int>(n));
+  }
+  if (counts.empty()) throw InputError(table.where(key) + ": '" + key + "' is empty");
+  return counts;
+}
+
+std::vector<std::string> read_command(const TomlTable& table, const char* key) {
+  std::vector<std::string> command = table.texts(key);
+  if (!command.empty() && !command[0].empty()) return command;
+  refuse("{}: '{}' is empty: expected a program and its arguments", table.where(key), key);
+}
+
+int read_count(const TomlTable& table, const char* key, int least, int most, int absent) {
+  const long long count = table.integer(key, absent);
+  if (!table.has(key) || (count >= least && count <= most)) return static_cast<int>(count);
+  refuse("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most);
+}
+
+void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
+                        const std::vector<std::string>& known,
+                        const std::vector<std::vector<std::string>>& needed) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(table.where("command") + ": 'command' " + what);
+  };
+  std::vector<std::string> strange;
+  for (const std::string& word : command)
+    for (const std::string& name : names_in_braces(word)) {
+      if (std::ranges::find(known, name) != known.end()) continue;
+      if (is_program_text(word))
+        strange.push_back(name);
+      else
+        refuse(fmt::format("has the unknown {}; known: {}{}", name, fmt::join(known, ", "),
+                           suggestion(name, known)));
+    }
+  for (const std::vector<std::string>& group : needed) {
+    if (std::ranges::any_of(group, [&](const std::string& name) { return has_placeholder(command, name); }))
+      continue;
+    for (const std::string& name : strange)
+      if (const std::string near = suggestion(name, group); !near.empty())
+        refuse("has the unknown " + name + near);
+    refuse(fmt::format("lacks {}", fmt::join(group, ", and in its place ")));
+  }
+}
+
+bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder) {
+  return std::ranges::any_of(command, [&](const std::string& w) { return w.find(placeholder) != w.npos; });
+}
+
+void check_folder_name(const TomlTable& table, const std::string& name,
+                       const std::vector<std::string>& others) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  if (name.empty() || name.front() == '.' || name.size() > 100 || !std::ranges::all_of(name, plain))
+    throw InputError(table.where("name") + ": '" + name +
+                     "' names a folder: expected letters, digits, '_', '-' and '.', not at the front");
+  for (const std::string& other : others)
+    if (lower_case(other) == lower_case(name))
+      throw InputError(table.where("name") + ": a second case '" + name + "'" +
+                       (other == name ? "" : ": beside '" + other + "' it would share its folder"));
+  for (const std::string& file : result_files())
+    if (lower_case(name) == file)
+      refuse("{}: '{}' names a folder, but that of a file of results", table.where("name"), name);
+}
+
 namespace {
 
 Better read_better(const TomlTable& table) {
@@ -25,16 +127,14 @@ Better read_better(const TomlTable& table) {
   if (text == "higher") return Better::kHigher;
   if (text == "lower") return Better::kLower;
   if (text == "neither") return Better::kNeither;
-  throw InputError(table.where("better") + ": 'better' is '" + text +
-                   "': expected \"higher\", \"lower\" or \"neither\"");
+  refuse("{}: 'better' is '{}': expected \"higher\", \"lower\" or \"neither\"", table.where("better"), text);
 }
 
 /// Whether `calibrate` asks for as many quads as ours.
 bool read_calibrate(const TomlTable& table, bool absent) {
   const std::string text = table.text("calibrate", absent ? "quads" : "none");
   if (text == "quads" || text == "none") return text == "quads";
-  throw InputError(
-      fmt::format("{}: 'calibrate' is '{}': expected \"quads\" or \"none\"", table.where("calibrate"), text));
+  refuse("{}: 'calibrate' is '{}': expected \"quads\" or \"none\"", table.where("calibrate"), text);
 }
 
 bool makes_quads(const std::string& text) {
@@ -55,8 +155,8 @@ HandOver read_hand_over(const TomlTable& table, const char* key, HandOver plain,
   if (text == name_of_plain) return plain;
   if (text == "triangles") return HandOver::kTriangles;
   if (text == "none") return HandOver::kNothing;
-  throw InputError(fmt::format("{}: '{}' is '{}': expected \"{}\", \"triangles\" or \"none\"",
-                               table.where(key), key, text, name_of_plain));
+  refuse("{}: '{}' is '{}': expected \"{}\", \"triangles\" or \"none\"", table.where(key), key, text,
+         name_of_plain);
 }
 
 /// What a peer is given of planar domains, surfaces and sizes.
@@ -65,16 +165,15 @@ void read_domains(const TomlTable& table, Peer& peer) {
   peer.surfaces = read_hand_over(table, "surfaces", HandOver::kModel, "file");
   for (const auto& [key, given] : {std::pair("planar", peer.planar), std::pair("surfaces", peer.surfaces)})
     if (given == HandOver::kTriangles && peer.input == kGmshScript)
-      throw InputError(fmt::format("{}: '{}' is \"triangles\", which 'input = \"geo\"' cannot hold",
-                                   table.where(key), key));
+      refuse("{}: '{}' is \"triangles\", which 'input = \"geo\"' cannot hold", table.where(key), key);
   peer.size_field = table.text("size_field", "");
   const std::vector<std::string>& known = size_field_formats();
   if (table.has("size_field") && std::ranges::find(known, peer.size_field) == known.end())
-    throw InputError(fmt::format("{}: 'size_field' is '{}': expected one of {}", table.where("size_field"),
-                                 peer.size_field, fmt::join(known, ", ")));
+    refuse("{}: 'size_field' is '{}': expected one of {}", table.where("size_field"), peer.size_field,
+           fmt::join(known, ", "));
   if (has_placeholder(peer.command, "{size_field}") == peer.size_field.empty())
-    throw InputError(fmt::format("{}: {{size_field}} in 'command' and the key 'size_field' need each other",
-                                 table.where("command")));
+    refuse("{}: {{size_field}} in 'command' and the key 'size_field' need each other",
+           table.where("command"));
 }
 
 }  // namespace
@@ -137,8 +236,7 @@ void Experiment::read_peer(const TomlTable& table) {
                                std::string& extension) {
     const std::string format = table.text(key, extension.substr(1));
     if (std::ranges::find(known, format) == known.end())
-      throw InputError(fmt::format("{}: '{}' is '{}': expected one of {}", table.where(key), key, format,
-                                   fmt::join(known, ", ")));
+      refuse("{}: '{}' is '{}': expected one of {}", table.where(key), key, format, fmt::join(known, ", "));
     extension = "." + format;
   };
   peer.command = read_command(table, "command");
@@ -167,8 +265,7 @@ void Experiment::check_calibration() const {
   if (calibrate_where.empty()) return;
   const std::string head =
       fmt::format("{}: '{}' has no effect: ", calibrate_where, calibrate ? "calibrate" : "calibrate_to");
-  if (peers.empty())
-    throw InputError(head + "there are no peers: expected [[peer]] tables, 'peer_files' or --peer");
+  if (peers.empty()) refuse("{}there are no peers: expected [[peer]] tables, 'peer_files' or --peer", head);
   const auto is_calibrated = [](const Peer& peer) { return !peer.calibrate_to.empty(); };
   if (!calibrate && std::ranges::none_of(peers, is_calibrated))
     throw InputError(head + "expected 'calibrate = \"quads\"' beside it");

@@ -9,10 +9,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <system_error>
-#include <vector>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "experiments/console/interrupt.h"
 
@@ -106,12 +105,12 @@ void prepare_folder(const fs::path& folder) {
   std::error_code status;
   fs::create_directories(folder, status);
   if (!fs::is_directory(folder))
-    throw InputError(fmt::format("{}: the folder cannot be made: {}", folder.string(), status.message()));
+    refuse("{}: the folder cannot be made: {}", folder.string(), status.message());
   std::string probe = (folder / ".delquad-XXXXXX").string();
   const int file = mkstemp(probe.data());
   if (file < 0)
-    throw InputError(fmt::format("{}: the folder cannot be written to: {}", folder.string(),
-                                 std::generic_category().message(errno)));
+    refuse("{}: the folder cannot be written to: {}", folder.string(),
+           std::generic_category().message(errno));
   close(file);
   fs::remove(probe, status);
 }
@@ -144,14 +143,11 @@ FolderLock::~FolderLock() {
 void FolderLock::lock(const std::filesystem::path& path, bool shared) {
   constexpr mode_t kMode = 0666;
   const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode);
-  if (file < 0)
-    throw InputError(
-        fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(errno)));
+  if (file < 0) refuse("{}: cannot be written: {}", path.string(), std::generic_category().message(errno));
   files_.push_back(file);
   if (flock(file, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK)
-    throw InputError(
-        fmt::format("{}: cannot be locked: {}", path.string(), std::generic_category().message(errno)));
+    refuse("{}: cannot be locked: {}", path.string(), std::generic_category().message(errno));
   throw InputError(path.parent_path().string() +
                    ": another run works on this folder: wait for it, or give another folder");
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 #include <random>
 
 #include "algorithms/insertion/linf_delaunay.h"

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/verify.h"
-#include "metrics/tables/json_problem.h"
+#include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
 
 namespace delquad {
@@ -35,11 +35,11 @@ std::vector<std::string> titles(const StudyFile& study) {
 
 void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study) {
   if (other.experiment != study.experiment)
-    throw InputError(fmt::format("{}: holds results of the experiment '{}', not of '{}'", folder.string(),
-                                 other.experiment, study.experiment));
+    refuse("{}: holds results of the experiment '{}', not of '{}'", folder.string(), other.experiment,
+           study.experiment);
   if (titles(other) != titles(study))
-    throw InputError(fmt::format("{}: its [matrix] varies {}, not {}", folder.string(),
-                                 Json(titles(other)).dump(), Json(titles(study)).dump()));
+    refuse("{}: its [matrix] varies {}, not {}", folder.string(), Json(titles(other)).dump(),
+           Json(titles(study)).dump());
   unite(study.cases, other.cases);
   unite(study.pipelines, other.pipelines);
   for (std::size_t k = 0; k < study.axes.size(); ++k) unite(study.axes[k].second, other.axes[k].second);
@@ -80,9 +80,8 @@ bool is_better(const Candidate& one, const Candidate& before) {
   if (other.reason.empty() != known.reason.empty()) return other.reason.empty();
   if (!one.damage.empty()) return false;
   if (other.reason.empty() && digests_of(other) != digests_of(known))
-    throw InputError(
-        fmt::format("the cell {} {} is not the same in {} and {}: they have other models or meshes",
-                    known.group, known.pipeline, known.folder.string(), other.folder.string()));
+    refuse("the cell {} {} is not the same in {} and {}: they have other models or meshes", known.group,
+           known.pipeline, known.folder.string(), other.folder.string());
   return false;
 }
 
@@ -101,9 +100,8 @@ void check_sound(const CellsToUnite& cells) {
   std::vector<std::string> damage;
   for (const auto& [name, cell] : cells) unite(damage, cell.damage);
   if (!damage.empty())
-    throw InputError(fmt::format(
-        "{}{}: remove the folder of the cell, and 'delquad run' makes it again", damage[0],
-        damage.size() > 1 ? fmt::format(" (and {} more, by 'delquad verify')", damage.size() - 1) : ""));
+    refuse("{}{}: remove the folder of the cell, and 'delquad run' makes it again", damage[0],
+           damage.size() > 1 ? fmt::format(" (and {} more, by 'delquad verify')", damage.size() - 1) : "");
 }
 
 void copy_cell(const CellRecord& cell, const fs::path& output) {
@@ -119,8 +117,7 @@ void check_output(const std::vector<fs::path>& folders, const fs::path& output) 
   if (fs::exists(output)) throw InputError(output.string() + ": is there already: expected a new folder");
   for (const fs::path& folder : folders)
     if (*fs::weakly_canonical(fs::absolute(output)).lexically_relative(fs::canonical(folder)).begin() != "..")
-      throw InputError(
-          fmt::format("{}: lies inside of {}, which is to stay as it is", output.string(), folder.string()));
+      refuse("{}: lies inside of {}, which is to stay as it is", output.string(), folder.string());
 }
 
 void fill(const fs::path& target, const std::vector<fs::path>& folders, const StudyFile& study,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -78,14 +77,6 @@ std::string how_it_failed(const MetricCommand& metric, const ProgramRun& run, co
   return end.empty() ? "" : metric.command[0] + ": " + end + complaint(errors);
 }
 
-/// A number and nothing else; also nan and inf.
-std::optional<double> number_in(const std::string& text) {
-  double value = 0;
-  const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 bool is_plain(const std::string& name) {
   return !name.empty() && name.size() <= 100 && std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
@@ -121,7 +112,7 @@ MetricOutcome parse_metric_output(const std::string& key, const std::string& pri
   const std::string text(trimmed(printed));
   if (text.empty()) return failed("printed nothing");
   for (const std::string& part : {text, last_line(text)}) {
-    if (const auto number = number_in(part)) {
+    if (const auto number = as_number(part)) {
       if (std::isinf(*number)) return failed("printed an infinite number");
       return {{{key, *number}}, ""};
     }

@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "base/activity.h"
 #include "base/calibration.h"
-#include "delquad/error.h"
+#include "base/located.h"
 #include "experiments/sweep/folders.h"
-#include "experiments/sweep/peer_reference.h"
+#include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/check_mesh.h"
@@ -21,9 +22,60 @@
 #include "io/mesh_io.h"
 #include "metrics/surface/surface_report.h"
 #include "metrics/tables/result_records.h"
-#include "metrics/tables/table.h"
 
 namespace delquad {
+
+namespace {
+
+/// The record of the cell, if it is of the same case, options and program.
+std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
+  if (cell.folder.empty()) return std::nullopt;
+  std::ifstream in(cell.folder / "record.json");
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || json.value("key", "") != cell.key) return std::nullopt;
+  return json;
+}
+
+/// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
+std::optional<double> quads_of_word(const Prepared& prepared, const std::string& word) {
+  const DoingStage counting("our word that the peer is calibrated to");
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch.path() / "quads";
+  std::optional<ProcessFailure> failure;
+  std::optional<Job> job(std::in_place);
+  job->work = [&] { std::ofstream(file) << fmt::format("{}", count_of_quads(mesh(prepared, word).mesh)); };
+  job->failed = [&](const ProcessFailure& why) { failure = why; };
+  run_jobs([&] { return std::exchange(job, std::nullopt); }, {});
+  if (failure && failure->kind == "bad input") return std::nullopt;
+  if (failure)
+    throw JobFailed(
+        {failure->kind, fmt::format("our word {}, whose number of quads it was to have, failed: {}; "
+                                    "the peer was not run",
+                                    word, failure->reason)});
+  double quads = 0;
+  if (!(std::ifstream(file) >> quads)) throw InputError(file.string() + ": cannot be written");
+  return quads;
+}
+
+}  // namespace
+
+std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
+                                      const ReferenceCell& cell) {
+  if (const auto record = valid_record(cell)) {
+    if (record->value("status", "") != "ok") return std::nullopt;
+    const nlohmann::json& metrics = record->at("metrics");
+    return metrics.at("n_quads").get<double>() + 0.5 * metrics.at("n_triangles").get<double>();
+  }
+  return quads_of_word(prepared, word);
+}
+
+Prepared prepare_scaled(const Prepared& prepared, double scale) {
+  MeshProblem problem = prepared.problem();
+  problem.quads.reset();
+  problem.refine = 1 / scale;
+  return prepare(std::move(problem));
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,10 +189,10 @@ void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   const double tolerance = peer.keeps_boundary ? 1e-6 : 0.02;  // chords of another boundary
   const double covered = area_in_plane(mesh) / area;
   if (!(std::abs(covered - 1) <= tolerance))
-    throw PeerError(fmt::format("its mesh covers {:.6g} % of the domain's area", 100 * covered));
+    refuse<PeerError>("its mesh covers {:.6g} % of the domain's area", 100 * covered);
   if (const int missing = peer.keeps_boundary ? missing_edges(prepared->boundary, mesh) : 0; missing > 0)
-    throw PeerError(
-        fmt::format("{} of {} boundary edges are not in its mesh", missing, prepared->boundary.lines.size()));
+    refuse<PeerError>("{} of {} boundary edges are not in its mesh", missing,
+                      prepared->boundary.lines.size());
 }
 
 void check_surface(const Prepared& prepared, const Mesh& mesh) {
@@ -148,10 +200,10 @@ void check_surface(const Prepared& prepared, const Mesh& mesh) {
   const Mesh& model = prepared.fine();
   const double covered = area_in_space(mesh) / area_in_space(model);
   if (!(std::abs(covered - 1) <= kCovered))
-    throw PeerError(fmt::format("its mesh covers {:.4g} % of the model's area", 100 * covered));
+    refuse<PeerError>("its mesh covers {:.4g} % of the model's area", 100 * covered);
   const int free_edges = topology_of(mesh).free_edges;
   if (free_edges > 0 && topology_of(model).watertight())
-    throw PeerError(fmt::format("its mesh has {} open edges, the model none", free_edges));
+    refuse<PeerError>("its mesh has {} open edges, the model none", free_edges);
 }
 
 /// Its size where that is uniform; for a peer that has a field besides, the largest.
@@ -334,7 +386,7 @@ std::string peer_version(const Peer& peer) {
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);)
     if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
-  throw PeerError(fmt::format("{}: prints no version", fmt::join(words, " ")));
+  refuse<PeerError>("{}: prints no version", fmt::join(words, " "));
 }
 
 void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
@@ -345,8 +397,7 @@ void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   const std::vector<char> branching(prepared.is_surface() ? mesh.curves.size() : 0, 1);
   const std::vector<std::string> violations = check_invariants(mesh, branching);
   if (!violations.empty())
-    throw PeerError(
-        fmt::format("its mesh is not sound ({} violations): {}", violations.size(), violations[0]));
+    refuse<PeerError>("its mesh is not sound ({} violations): {}", violations.size(), violations[0]);
   prepared.is_surface() ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
 }
 

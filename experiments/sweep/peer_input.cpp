@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/located.h"
 #include "base/text.h"
 #include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
@@ -194,8 +195,7 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
   const bool on_surface = task.prepared.is_surface();
   const HandOver given = on_surface ? peer.surfaces : peer.planar;
   if (given == HandOver::kNothing)
-    throw NotApplicable(
-        fmt::format("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains"));
+    refuse<NotApplicable>("'{}' meshes no {}", peer.name, on_surface ? "surfaces" : "planar domains");
   if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
   if (!task.c.layers.empty())
     throw NotApplicable("layers along curves are made by this program's meshes alone");

@@ -20,7 +20,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "delquad/error.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/sweep/peer.h"
 

@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "base/warning.h"
 #include "delquad/error.h"
-#include "experiments/sweep/machine.h"
 #include "io/cases/read_problem.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/metrics.h"

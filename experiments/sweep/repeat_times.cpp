@@ -8,14 +8,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <ostream>
-#include <string_view>
 
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/result_records.h"
 #include "metrics/tables/statistics.h"
-#include "metrics/tables/times.h"
 
 namespace delquad {
 namespace {

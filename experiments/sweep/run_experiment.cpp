@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/cells.h"
@@ -13,7 +14,6 @@
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/linf_study.h"
 #include "experiments/sweep/repeat_times.h"
-#include "experiments/sweep/sweep_progress.h"
 #include "experiments/sweep/variant_work.h"
 #include "metrics/tables/study_file.h"
 
@@ -213,8 +213,8 @@ class Sweep {
 void check_study(const Experiment& experiment, const fs::path& folder) {
   const auto study = read_study(folder);
   if (study && study->experiment != experiment.file.stem().string())
-    throw InputError(fmt::format("{}: holds results of the experiment '{}', not of '{}': give another folder",
-                                 folder.string(), study->experiment, experiment.file.stem().string()));
+    refuse("{}: holds results of the experiment '{}', not of '{}': give another folder", folder.string(),
+           study->experiment, experiment.file.stem().string());
 }
 
 Outcome run_study(const Experiment& experiment, const fs::path& folder) {

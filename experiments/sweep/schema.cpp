@@ -79,61 +79,51 @@ Json whole_matrix_schema() {
 
 }  // namespace
 
-const TomlKeys& peer_keys() {
-  static const TomlKeys keys = {
-      {"name", "in pipelines and tables", kPeerName, nullptr, false, true},
-      {"command", "program and arguments, with {input} and {output}", kCommand, nullptr, false, true},
-      {"version", "program and arguments that print the version", kCommand, nullptr, false, true},
-      {"input", "what it reads", one_of({"geo", "msh", "obj", "inp", "mesh"})},
-      {"output", "what it writes", one_of({"msh", "obj", "off", "stl"})},
-      {"exit_codes", "with which its mesh is worth a look", kExitCodes},
-      {"keeps_boundary", "whether it has the boundary's edges", kFlag},
-      {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
-      {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
-      {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
-      {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
-      {"calibrate_to", "the word whose number that is", kText},
-      {"optional", "whether it may be missing", kFlag}};
-  return keys;
+TomlKeys peer_keys() {
+  return {{"name", "in pipelines and tables", kPeerName, nullptr, false, true},
+          {"command", "program and arguments, with {input} and {output}", kCommand, nullptr, false, true},
+          {"version", "program and arguments that print the version", kCommand, nullptr, false, true},
+          {"input", "what it reads", one_of({"geo", "msh", "obj", "inp", "mesh"})},
+          {"output", "what it writes", one_of({"msh", "obj", "off", "stl"})},
+          {"exit_codes", "with which its mesh is worth a look", kExitCodes},
+          {"keeps_boundary", "whether it has the boundary's edges", kFlag},
+          {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
+          {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
+          {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
+          {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
+          {"calibrate_to", "the word whose number that is", kText},
+          {"optional", "whether it may be missing", kFlag}};
 }
 
-const TomlKeys& peer_file_keys() {
-  static const TomlKeys keys = {{"peer", "other meshers", "", peer_keys, true, true}};
-  return keys;
+TomlKeys peer_file_keys() { return {{"peer", "other meshers", "", peer_keys, true, true}}; }
+
+TomlKeys metric_keys() {
+  return {{"name", "in tables and records", kMetricName, nullptr, false, true},
+          {"command", "program and arguments, with {mesh}", kCommand, nullptr, false, true},
+          {"files", "that its value depends on, too", kTexts},
+          {"title", "in tables; else the name", kText},
+          {"unit", "for people", kText},
+          {"better", "which values are", one_of({"higher", "lower", "neither"})},
+          {"digits", "after the decimal point, in tables", between("integer", 0, kMostDigits)},
+          {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
 }
 
-const TomlKeys& metric_keys() {
-  static const TomlKeys keys = {
-      {"name", "in tables and records", kMetricName, nullptr, false, true},
-      {"command", "program and arguments, with {mesh}", kCommand, nullptr, false, true},
-      {"files", "that its value depends on, too", kTexts},
-      {"title", "in tables; else the name", kText},
-      {"unit", "for people", kText},
-      {"better", "which values are", one_of({"higher", "lower", "neither"})},
-      {"digits", "after the decimal point, in tables", between("integer", 0, kMostDigits)},
-      {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
-  return keys;
+TomlKeys ratio_keys() {
+  return {{"metric", "key of a measure", kText, nullptr, false, true},
+          {"numerator", "a pipeline", kText, nullptr, false, true},
+          {"denominator", "a pipeline", kText, nullptr, false, true},
+          {"expected", "what it should be", kPositive, nullptr, false, true},
+          {"source", "where that stands", kText}};
 }
 
-const TomlKeys& ratio_keys() {
-  static const TomlKeys keys = {{"metric", "key of a measure", kText, nullptr, false, true},
-                                {"numerator", "a pipeline", kText, nullptr, false, true},
-                                {"denominator", "a pipeline", kText, nullptr, false, true},
-                                {"expected", "what it should be", kPositive, nullptr, false, true},
-                                {"source", "where that stands", kText}};
-  return keys;
+TomlKeys correlate_keys() {
+  return {{"of", "keys of measures", kColumnList, nullptr, false, true},
+          {"with", "keys of others", kColumnList, nullptr, false, true}};
 }
 
-const TomlKeys& correlate_keys() {
-  static const TomlKeys keys = {{"of", "keys of measures", kColumnList, nullptr, false, true},
-                                {"with", "keys of others", kColumnList, nullptr, false, true}};
-  return keys;
-}
-
-const TomlKeys& linf_study_keys() {
-  static const TomlKeys keys = {{"points", "how many", kPoints, nullptr, false, true},
-                                {"seeds", "of the points", kSeeds, nullptr, false, true}};
-  return keys;
+TomlKeys linf_study_keys() {
+  return {{"points", "how many", kPoints, nullptr, false, true},
+          {"seeds", "of the points", kSeeds, nullptr, false, true}};
 }
 
 TomlKeys experiment_case_keys() {

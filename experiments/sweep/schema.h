@@ -1,20 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "io/cases/toml_keys.h"
+#include "io/cases/toml_reader.h"
+
+/// Keys that several tables of an experiment have.
 
 namespace delquad {
 
 /// The keys of an experiment file, and those of its tables that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
-const TomlKeys& peer_keys();
-const TomlKeys& peer_file_keys();
-const TomlKeys& metric_keys();
-const TomlKeys& ratio_keys();
-const TomlKeys& correlate_keys();
-const TomlKeys& linf_study_keys();
+TomlKeys peer_keys();
+TomlKeys peer_file_keys();
+TomlKeys metric_keys();
+TomlKeys ratio_keys();
+TomlKeys correlate_keys();
+TomlKeys linf_study_keys();
 
 /// Limits of what a metric by command may ask for: digits, and seconds (a week).
 inline constexpr int kMostDigits = 12, kMostSeconds = 604'800, kMostRepetitions = 1000;
@@ -22,5 +25,30 @@ inline constexpr int kMostDigits = 12, kMostSeconds = 604'800, kMostRepetitions 
 /// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
 /// with a newline.
 std::string experiment_schema();
+
+/// Integers, at least one, each from `least` to `most`. Throws InputError with file and line.
+std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most);
+
+/// A program and its arguments. Throws InputError with file and line when there is no program.
+std::vector<std::string> read_command(const TomlTable& table, const char* key);
+
+/// A whole number from `least` to `most`; throws InputError with file and line for another.
+int read_count(const TomlTable& table, const char* key, int least, int most, int absent);
+
+/// What stands in braces in the words of `command`: throws InputError with file and line for what is none of
+/// `known`, and where all of one of the groups of `needed` are missing. Words that are text of a program may
+/// have braces of their own.
+void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
+                        const std::vector<std::string>& known,
+                        const std::vector<std::vector<std::string>>& needed);
+
+/// Whether a word of the command holds `placeholder`, such as "{mesh}".
+bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder);
+
+/// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.
+/// Throws InputError with file and line for one that cannot, is that of a file of results, or one of
+/// `others`.
+void check_folder_name(const TomlTable& table, const std::string& name,
+                       const std::vector<std::string>& others);
 
 }  // namespace delquad

@@ -4,25 +4,207 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <sstream>
+#include <system_error>
 
+#include "base/located.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "experiments/sweep/cells.h"
+#include "experiments/sweep/experiment.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"
-#include "experiments/sweep/recorded_case.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/digest.h"
+#include "io/formats/msh.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
-#include "metrics/tables/json_problem.h"
 #include "metrics/tables/result_records.h"
+#include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
 
 namespace delquad {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Files of this name in a folder and in those inside it, in the order of their paths.
+std::vector<fs::path> files_named(const fs::path& name, const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().filename() == name && at->is_regular_file(error)) found.push_back(at->path());
+  std::ranges::sort(found);
+  return found;
+}
+
+fs::path find_model(const fs::path& file, const std::string& expected, const fs::path& data) {
+  std::string others;
+  std::error_code unknown;
+  std::vector<fs::path> places = files_named(file.filename(), data);
+  if (fs::is_regular_file(file, unknown)) places.insert(places.begin(), file);
+  for (const fs::path& place : places) {
+    const std::string found = mark_of(place).digest;
+    if (found == expected) return place;
+    others += fmt::format("; {} has the digest {}", place.string(), found);
+  }
+  refuse("{}: the model with the digest {} is neither here nor, by its name, below {} (--data){}",
+         file.string(), expected, data.string(), others);
+}
+
+/// The folder of the results that a cell's record belongs to.
+fs::path results_of(const fs::path& record_file) {
+  return fs::absolute(record_file).lexically_normal().parent_path().parent_path().parent_path();
+}
+
+/// The experiment that a record was made from, by its copy in the folder `results`. Throws InputError when it
+/// was changed or is not there.
+Experiment recorded_experiment(const Json& record, const fs::path& results, const fs::path& data) {
+  const fs::path file = record.at("experiment").get<std::string>();
+  if (const std::vector<std::string> wrong = check_copy(results, file); !wrong.empty())
+    throw InputError(wrong[0]);
+  Experiment experiment = Experiment::read(results / file, data);
+  if (record.contains("peer")) {
+    const auto name = record.at("pipeline").get<std::string>();
+    if (std::ranges::find(experiment.peers, name, &Peer::name) == experiment.peers.end())
+      experiment.add_peer_file((results / file).parent_path() / record.at("peer_file").get<std::string>());
+  }
+  experiment.max_elements = record.at("options").at("max_elements");
+  return experiment;
+}
+
+/// The variant of a case that a record is of. A model that is a file is that with the digest of the record:
+/// at its place, or anywhere below `data` by its name. Throws InputError, naming file and digest, when there
+/// is none, and when the experiment has no such variant.
+Case recorded_case(const Json& record, const Experiment& experiment, const fs::path& data) {
+  const auto name = record.at("case").get<std::string>();
+  std::vector<std::pair<std::string, std::string>> variant;
+  for (const auto& [title, value] : record.at("variant").items()) variant.emplace_back(title, value);
+  const auto place = experiment.find_variant(name, variant);
+  if (!place)
+    refuse("{}: has no case '{}' with {}", experiment.file.string(), name, record.at("variant").dump());
+  Case c = experiment.read_variant((*place)[0], (*place)[1]);
+  if (auto* file = std::get_if<ModelFile>(&c.model))
+    file->path = find_model(file->path, record.at("digests").at("model"), data);
+  return c;
+}
+
+using Json = nlohmann::ordered_json;
+
+/// Parts of a record that are no values: what determines them (compared apart), and what no two runs have in
+/// common.
+const std::vector<std::string> kNoValues = {"digest",      "key",
+                                            "mesh_bytes",  "metrics_status",
+                                            "case",        "pipeline",
+                                            "status",      "model",
+                                            "seed",        "variant",
+                                            "peer",        "peer_file",
+                                            "own_metrics", "experiment",
+                                            "digests",     "files",
+                                            "options",     "versions",
+                                            "machine",     "started",
+                                            "threads",     "peak_memory_bytes",
+                                            "warnings"};
+
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file.string() + ": cannot be read");
+  try {
+    Json json = Json::parse(in);
+    if (json.at("status") != "ok")
+      refuse("{}: is of a cell that was not done: {}", file.string(), json.at("reason").get<std::string>());
+    json.at("digests").at("mesh");
+    return json;
+  } catch (const Json::exception& error) {
+    throw InputError(json_problem(file, "is no record of an experiment's cell", error));
+  }
+}
+
+bool is_time(const std::string& key) { return key.starts_with("seconds") || key.ends_with("seconds"); }
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 80;
+  const std::string text =
+      value.is_null() ? "none" : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= kLongest ? text
+         : value.is_array()      ? fmt::format("{} values", value.size())
+                                 : text.substr(0, kLongest) + "...";
+}
+
+/// Entries of two objects that are not the same, times excepted.
+void compare_objects(const std::string& what, const Json& before, const Json& now,
+                     std::vector<std::string>& differences) {
+  const auto compare = [&](const std::string& key, const Json& value, const Json& other) {
+    if (is_time(key) || value == other) return;
+    if (value.is_object() && other.is_object())
+      return compare_objects(what + " " + key, value, other, differences);
+    differences.push_back(
+        fmt::format("{} {}: {} in the record, {} now", what, key, shown(value), shown(other)));
+  };
+  for (const auto& [key, value] : before.items()) compare(key, value, now.value(key, Json()));
+  for (const auto& [key, value] : now.items())
+    if (!before.contains(key)) compare(key, Json(), value);
+}
+
+std::vector<std::string> compare_causes(const Json& before, const Json& now) {
+  std::vector<std::string> differences;
+  compare_objects("option", before.at("options"), now.at("options"), differences);
+  compare_objects("version", before.at("versions"), now.at("versions"), differences);
+  compare_objects("peer", before.value("peer", Json::object()), now.value("peer", Json::object()),
+                  differences);
+  if (before.value("own_metrics", Json()) != now.value("own_metrics", Json()))
+    differences.push_back("the measures by command, or files of theirs");
+  const Json &old_digests = before.at("digests"), &digests = now.at("digests");
+  if (old_digests.at("model") != digests.at("model")) differences.push_back("the model");
+  if (old_digests.at("program") != digests.at("program")) differences.push_back("the program's bytes");
+  if (before.at("seed") != now.at("seed")) differences.push_back("the seed");
+  return differences;
+}
+
+std::vector<std::string> compare_values(Json before, Json now) {
+  for (const std::string& key : kNoValues) {
+    before.erase(key);
+    now.erase(key);
+  }
+  // Their reasons may hold times and folders.
+  for (Json* json : {&before, &now})
+    if (json->contains("failed_metrics"))
+      for (auto& [key, reason] : (*json)["failed_metrics"].items()) reason = true;
+  std::vector<std::string> differences;
+  compare_objects("value", before, now, differences);
+  return differences;
+}
+
+}  // namespace
+
+Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
+  const Json record = read_json(file);
+  Experiment experiment = recorded_experiment(record, results_of(file), data);
+  experiment.words = experiment.find_pipelines({record.at("pipeline").get<std::string>()});
+  const Word& word = experiment.words[0];
+  const Case c = recorded_case(record, experiment, data);
+  CellIdentity cell = identify(experiment, c, model_digest(c), word);
+
+  const ScratchFolder scratch;
+  const std::filesystem::path work = scratch.path() / "cell";
+  MeshResult result = mesh_cell(c, word, cell.peer, work);
+  measure_by_solvers(cell, result);
+  measure_by_commands(cell, c, word.text, work, result);
+  std::ostringstream mesh;
+  write_msh(mesh, result.mesh);
+  const Json now = Json::parse(run_record(c, word, result, &cell));
+  return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
+          compare_values(record, now)};
+}
+
 namespace {
 
 namespace fs = std::filesystem;

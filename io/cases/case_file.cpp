@@ -1,8 +1,9 @@
 #include "io/cases/case_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <variant>
@@ -10,25 +11,81 @@
 #include "base/length_unit.h"
 #include "base/located.h"
 #include "delquad/error.h"
-#include "delquad/model.h"
+#include "delquad/mesher.h"
 #include "fields/fields.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_keys.h"
-#include "io/cases/criteria_file.h"
 #include "io/cases/model_file.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
+
 namespace {
+
+void read_limits(const TomlTable& table, const std::string& on, Criteria& criteria) {
+  for (const Criterion& criterion : criterion_registry())
+    if (table.has(criterion.key))
+      criteria.set(criterion.key, table.expression(criterion.key), on, table.where(criterion.key));
+}
+
+const Criteria& preset_named(const std::string& name, const std::string& where) {
+  const auto at = std::ranges::find(criteria_presets(), name, &Criteria::name);
+  if (at != criteria_presets().end()) return *at;
+  std::vector<std::string> known;
+  for (const Criteria& preset : criteria_presets()) known.push_back(preset.name);
+  refuse("{}: unknown criteria '{}': expected {} or a .toml file{}", where, name, fmt::join(known, ", "),
+         suggestion(name, known));
+}
+
+Criteria read_table(const TomlTable& table) {
+  table.require_known(criteria_keys());
+  Criteria criteria;
+  if (table.has("preset")) criteria = preset_named(table.text("preset"), table.where("preset"));
+  criteria.name = table.text("name", criteria.name);
+  criteria.where = table.where();
+  read_limits(table, "", criteria);
+  for (const TomlTable& part : table.tables("on")) {
+    part.require_known(named_criteria_keys());
+    read_limits(part, part.text("name"), criteria);
+    part.finish(named_criteria_keys());
+  }
+  if (const auto material = table.optional_table("material")) {
+    material->require_known(material_keys());
+    criteria.material = Material{material->positive_number("young"), material->number("poisson"),
+                                 material->positive_number("density")};
+    material->finish(material_keys());
+  }
+  criteria.time_step_by = table.text("time_step_by", criteria.time_step_by);
+  criteria.strict = table.flag("strict", false);
+  table.finish(criteria_keys());
+  if (criteria.empty()) throw InputError(table.where() + ": no criteria: expected a preset or limits");
+  check_criteria(criteria);
+  return criteria;
+}
+
+Criteria read_text(const std::string& text, const std::filesystem::path& folder, const std::string& where) {
+  if (kind_of_file(text) != ".toml") return preset_named(text, where);
+  const std::filesystem::path file = folder / text;
+  Criteria criteria = read_table(TomlTable::read(file));
+  if (criteria.name.empty()) criteria.name = file.stem().string();
+  return criteria;
+}
+
+/// The key `criteria` of a table: a preset, a file from the folder of the table's file, or a table. Throws
+/// InputError with file and line.
+Criteria read_criteria_key(const TomlTable& table) {
+  if (table.kind("criteria") == TomlKind::kTable) return read_table(table.table("criteria"));
+  const std::string where = table.where("criteria");
+  return located(where, [&] { return read_text(table.text("criteria"), table.file().parent_path(), where); });
+}
 
 double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
   const double value = table.number(key, absent);
   if (table.has(key) && value < least)
-    throw InputError(
-        fmt::format("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least));
+    refuse("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least);
   return value;
 }
 
@@ -38,8 +95,7 @@ long long integer_between(const TomlTable& table, const std::string& key, long l
   if (!table.has(key)) return absent;
   const long long value = table.integer(key);
   if (value >= least && value <= most) return value;
-  throw InputError(
-      fmt::format("{}: '{}' is {}: expected {} to {}", table.where(key), key, value, least, most));
+  refuse("{}: '{}' is {}: expected {} to {}", table.where(key), key, value, least, most);
 }
 
 OptionValue read_value(const TomlTable& table, const OptionKey& key) {
@@ -227,7 +283,7 @@ void read_model_keys(const TomlTable& table, Case& target) {
   int models = (drawn || table.has("mesh")) ? 1 : 0;
   for (const char* key : {"model", "data", "example"})
     if (table.has(key) && ++models > 1)
-      throw InputError(fmt::format("{}: '{}' and another model exclude each other", table.where(key), key));
+      refuse("{}: '{}' and another model exclude each other", table.where(key), key);
   if (table.has("data")) {
     read_data(table, target);
   } else if (table.has("model")) {
@@ -251,8 +307,7 @@ void read_model_keys(const TomlTable& table, Case& target) {
 
 Vec3 read_vector(const TomlTable& table, const std::string& key) {
   const std::vector<double> v = table.numbers(key);
-  if (v.size() != 3)
-    throw InputError(fmt::format("{}: '{}' must be three numbers [x, y, z]", table.where(key), key));
+  if (v.size() != 3) refuse("{}: '{}' must be three numbers [x, y, z]", table.where(key), key);
   return {v[0], v[1], v[2]};
 }
 
@@ -300,6 +355,10 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
 }
 
 }  // namespace
+
+Criteria read_criteria(const std::string& preset_or_file) {
+  return read_text(preset_or_file, {}, "criteria");
+}
 
 const PlanarModel* planar_model(const MeshProblem& problem) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
@@ -364,8 +423,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
                      "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files());
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
-    throw InputError(table.where("case") +
-                     ": this is an experiment with cases of its own: run it with 'delquad run'");
+    refuse("{}: this is an experiment with cases of its own: run it with 'delquad run'", table.where("case"));
   table.require_known(case_keys());
   if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
@@ -380,7 +438,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
 Compounds parse_compounds(const std::string& text, const std::string& where) {
   if (text == "all") return Compounds::kAll;
   if (text == "tangent") return Compounds::kTangent;
-  throw InputError(fmt::format("{}: compound '{}': expected all or tangent", where, text));
+  refuse("{}: compound '{}': expected all or tangent", where, text);
 }
 
 }  // namespace delquad

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "delquad/model.h"
 #include "geometry/surface/surface_model.h"

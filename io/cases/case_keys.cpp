@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "delquad/options.h"
-
 #include "delquad/mesher.h"
 
 namespace delquad {
@@ -91,27 +89,23 @@ std::string type_of(const OptionKey& key) {
 
 }  // namespace
 
-const TomlKeys& circle_keys() {
-  static const TomlKeys keys = {{"centre", "[x, y]", kPoint, nullptr, false, true},
-                                {"radius", "a length", kPositive, nullptr, false, true}};
-  return keys;
+TomlKeys circle_keys() {
+  return {{"centre", "[x, y]", kPoint, nullptr, false, true},
+          {"radius", "a length", kPositive, nullptr, false, true}};
 }
 
-const TomlKeys& arc_keys() {
-  static const TomlKeys keys = {
-      {"centre", "[x, y]", kPoint, nullptr, false, true},
-      {"radius", "a length", kPositive, nullptr, false, true},
-      {"from", "degrees", kNumber, nullptr, false, true},
-      {"to", "degrees; counterclockwise where it is more", kNumber, nullptr, false, true}};
-  return keys;
+TomlKeys arc_keys() {
+  return {{"centre", "[x, y]", kPoint, nullptr, false, true},
+          {"radius", "a length", kPositive, nullptr, false, true},
+          {"from", "degrees", kNumber, nullptr, false, true},
+          {"to", "degrees; counterclockwise where it is more", kNumber, nullptr, false, true}};
 }
 
-const TomlKeys& expression_keys() {
-  static const TomlKeys keys = {{"x", "formula in t", kExpression, nullptr, false, true},
-                                {"y", "formula in t", kExpression, nullptr, false, true},
-                                {"from", "first t", kNumber, nullptr, false, true},
-                                {"to", "last t", kNumber, nullptr, false, true}};
-  return keys;
+TomlKeys expression_keys() {
+  return {{"x", "formula in t", kExpression, nullptr, false, true},
+          {"y", "formula in t", kExpression, nullptr, false, true},
+          {"from", "first t", kNumber, nullptr, false, true},
+          {"to", "last t", kNumber, nullptr, false, true}};
 }
 
 namespace {
@@ -129,142 +123,117 @@ TomlKeys with_shapes(TomlKeys keys) {
 
 }  // namespace
 
-const TomlKeys& curve_keys() {
-  static const TomlKeys keys = with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
-                                            {"boundary", "its name in all but loops; else 'name'", kText}});
-  return keys;
+TomlKeys curve_keys() {
+  return with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
+                      {"boundary", "its name in all but loops; else 'name'", kText}});
 }
 
-const TomlKeys& embed_keys() {
-  static const TomlKeys keys = [] {
-    TomlKeys all = with_shapes({{"name", "its physical group", kText},
-                                {"crack", "whether the mesh comes apart along it", kFlag},
-                                {"point", "a point that becomes a node", kSpacePoint}});
-    std::ranges::find(all, "polyline", &TomlKey::name)->type = points(2, kSpacePoint);
-    return all;
-  }();
-  return keys;
+TomlKeys embed_keys() {
+  TomlKeys all = with_shapes({{"name", "its physical group", kText},
+                              {"crack", "whether the mesh comes apart along it", kFlag},
+                              {"point", "a point that becomes a node", kSpacePoint}});
+  std::ranges::find(all, "polyline", &TomlKey::name)->type = points(2, kSpacePoint);
+  return all;
 }
 
-const TomlKeys& loop_keys() {
-  static const TomlKeys keys = [] {
-    TomlKeys all = closed_shapes();
-    all.push_back({"curves", "names of curves that close up", kTexts});
-    return all;
-  }();
-  return keys;
+TomlKeys loop_keys() {
+  TomlKeys all = closed_shapes();
+  all.push_back({"curves", "names of curves that close up", kTexts});
+  return all;
 }
 
-const TomlKeys& pattern_keys() {
-  static const TomlKeys keys = [] {
-    TomlKeys all = closed_shapes();
-    all.push_back({"count", "how many, [nx, ny]", kPoint, nullptr, false, true});
-    all.push_back({"step", "from one to the next, [dx, dy]", kPoint, nullptr, false, true});
-    return all;
-  }();
-  return keys;
+TomlKeys pattern_keys() {
+  TomlKeys all = closed_shapes();
+  all.push_back({"count", "how many, [nx, ny]", kPoint, nullptr, false, true});
+  all.push_back({"step", "from one to the next, [dx, dy]", kPoint, nullptr, false, true});
+  return all;
 }
 
-const TomlKeys& mirror_keys() {
-  static const TomlKeys keys = {
-      {"point", "of the plane, [x, y, z]", kVector, nullptr, false, true},
-      {"normal", "of the plane, [x, y, z]", kVector, nullptr, false, true},
-      {"tolerance", "how far from it shared edges are, in diagonals", between("number", 0, 0.1)},
-      {"join", "whether faces run on through the plane", kFlag}};
-  return keys;
+TomlKeys mirror_keys() {
+  return {{"point", "of the plane, [x, y, z]", kVector, nullptr, false, true},
+          {"normal", "of the plane, [x, y, z]", kVector, nullptr, false, true},
+          {"tolerance", "how far from it shared edges are, in diagonals", between("number", 0, 0.1)},
+          {"join", "whether faces run on through the plane", kFlag}};
 }
 
-const TomlKeys& surface_keys() {
-  static const TomlKeys keys = {
-      {"compound", "faces to mesh as one", kCompound},
-      {"merge_curves", "shorter curves become one with a neighbour", kPositive},
-      {"feature_angle", "degrees", above(0, 180)},
-      {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
-      {"mirror", "the model is one half", "", mirror_keys},
-      {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
-      {"glue", "whether bodies of CAD share what they touch at", kFlag},
-      {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
-  return keys;
+TomlKeys surface_keys() {
+  return {{"compound", "faces to mesh as one", kCompound},
+          {"merge_curves", "shorter curves become one with a neighbour", kPositive},
+          {"feature_angle", "degrees", above(0, 180)},
+          {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
+          {"mirror", "the model is one half", "", mirror_keys},
+          {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
+          {"glue", "whether bodies of CAD share what they touch at", kFlag},
+          {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
 }
 
-const TomlKeys& source_keys() {
-  static const TomlKeys keys = {{"at", "a point", kSpacePoint, nullptr, false, true},
-                                {"to", "the other end, of a segment", kSpacePoint},
-                                {"near", "size up to radius_near", kPositive, nullptr, false, true},
-                                {"far", "size beyond radius_far", kPositive, nullptr, false, true},
-                                {"radius_near", "a length; 0 if absent", at_least("number", 0)},
-                                {"radius_far", "a length", kPositive, nullptr, false, true}};
-  return keys;
+TomlKeys source_keys() {
+  return {{"at", "a point", kSpacePoint, nullptr, false, true},
+          {"to", "the other end, of a segment", kSpacePoint},
+          {"near", "size up to radius_near", kPositive, nullptr, false, true},
+          {"far", "size beyond radius_far", kPositive, nullptr, false, true},
+          {"radius_near", "a length; 0 if absent", at_least("number", 0)},
+          {"radius_far", "a length", kPositive, nullptr, false, true}};
 }
 
-const TomlKeys& division_keys() {
-  static const TomlKeys keys = {{"name", "of curves", kText, nullptr, false, true},
-                                {"edges", "of each of them", at_least("integer", 1), nullptr, false, true},
-                                {"progression", "length of each edge, of that before it", kPositive},
-                                {"bump", "length of edges at the ends, of those in the middle", kPositive}};
-  return keys;
+TomlKeys division_keys() {
+  return {{"name", "of curves", kText, nullptr, false, true},
+          {"edges", "of each of them", at_least("integer", 1), nullptr, false, true},
+          {"progression", "length of each edge, of that before it", kPositive},
+          {"bump", "length of edges at the ends, of those in the middle", kPositive}};
 }
 
-const TomlKeys& periodic_keys() {
-  static const TomlKeys keys = {{"from", "name of curves or faces", kText, nullptr, false, true},
-                                {"to", "name of their images", kText, nullptr, false, true},
-                                {"translate", "[x, y] or [x, y, z]", kSpacePoint},
-                                {"rotate", "degrees, counterclockwise", kNumber},
-                                {"centre", "of the rotation; the origin if absent", kSpacePoint},
-                                {"axis", "of the rotation; z if absent", kVector}};
-  return keys;
+TomlKeys periodic_keys() {
+  return {{"from", "name of curves or faces", kText, nullptr, false, true},
+          {"to", "name of their images", kText, nullptr, false, true},
+          {"translate", "[x, y] or [x, y, z]", kSpacePoint},
+          {"rotate", "degrees, counterclockwise", kNumber},
+          {"centre", "of the rotation; the origin if absent", kSpacePoint},
+          {"axis", "of the rotation; z if absent", kVector}};
 }
 
-const TomlKeys& mapped_keys() {
-  static const TomlKeys keys = {
-      {"name", "of a region or face", kText, nullptr, false, true},
-      {"corners", "three or four: names of points, or places", kTextsOrPoints, nullptr, false, true}};
-  return keys;
+TomlKeys mapped_keys() {
+  return {{"name", "of a region or face", kText, nullptr, false, true},
+          {"corners", "three or four: names of points, or places", kTextsOrPoints, nullptr, false, true}};
 }
 
-const TomlKeys& symmetry_keys() {
-  static const TomlKeys keys = {{"point", "of the plane", kSpacePoint, nullptr, false, true},
-                                {"normal", "of the plane", kSpacePoint, nullptr, false, true}};
-  return keys;
+TomlKeys symmetry_keys() {
+  return {{"point", "of the plane", kSpacePoint, nullptr, false, true},
+          {"normal", "of the plane", kSpacePoint, nullptr, false, true}};
 }
 
-const TomlKeys& named_size_keys() {
-  static const TomlKeys keys = {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
-                                {"size", "at most, on them and in them", kPositive},
-                                {"reach", "how far from them, too; 0 if absent", at_least("number", 0)},
-                                {"growth", "of sizes from there on, per length; 0.3 if absent", kPositive},
-                                {"curvature", "elements per full turn, of surfaces", at_least("number", 3)}};
-  return keys;
+TomlKeys named_size_keys() {
+  return {{"name", "of curves, points, regions or faces", kText, nullptr, false, true},
+          {"size", "at most, on them and in them", kPositive},
+          {"reach", "how far from them, too; 0 if absent", at_least("number", 0)},
+          {"growth", "of sizes from there on, per length; 0.3 if absent", kPositive},
+          {"curvature", "elements per full turn, of surfaces", at_least("number", 3)}};
 }
 
-const TomlKeys& size_keys() {
-  static const TomlKeys keys = {{"base", "a number, an expression, a file or \"boundary\"", kSize},
-                                {"source", "points and segments with sizes", "", source_keys, true},
-                                {"on", "sizes of what has a name", "", named_size_keys, true},
-                                {"gradation", "the most that sizes grow by per length", kPositive},
-                                {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
-                                {"min", "least size that curvature asks for", kPositive},
-                                {"max", "largest size", kPositive}};
-  return keys;
+TomlKeys size_keys() {
+  return {{"base", "a number, an expression, a file or \"boundary\"", kSize},
+          {"source", "points and segments with sizes", "", source_keys, true},
+          {"on", "sizes of what has a name", "", named_size_keys, true},
+          {"gradation", "the most that sizes grow by per length", kPositive},
+          {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
+          {"min", "least size that curvature asks for", kPositive},
+          {"max", "largest size", kPositive}};
 }
 
-const TomlKeys& layer_keys() {
-  static const TomlKeys keys = {
-      {"on", "names of curves that bound regions", kTextOrTexts, nullptr, false, true},
-      {"into", "names of the regions that get them; absent: on both sides of the curves", kTextOrTexts},
-      {"first", "height of the quads at the curve", kPositive, nullptr, false, true},
-      {"growth", "height of a quad by that of the one below", at_least("number", 1)},
-      {"number", "quads that stand on each other", between("integer", 1, 10000)},
-      {"thickness", "instead of the number: height of all of them", kPositive},
-      {"fan", "degrees by which corners with a fan turn away", above(0, 120)}};
-  return keys;
+TomlKeys layer_keys() {
+  return {{"on", "names of curves that bound regions", kTextOrTexts, nullptr, false, true},
+          {"into", "names of the regions that get them; absent: on both sides of the curves", kTextOrTexts},
+          {"first", "height of the quads at the curve", kPositive, nullptr, false, true},
+          {"growth", "height of a quad by that of the one below", at_least("number", 1)},
+          {"number", "quads that stand on each other", between("integer", 1, 10000)},
+          {"thickness", "instead of the number: height of all of them", kPositive},
+          {"fan", "degrees by which corners with a fan turn away", above(0, 120)}};
 }
 
-const TomlKeys& material_keys() {
-  static const TomlKeys keys = {{"young", "Young's modulus", kPositive, nullptr, false, true},
-                                {"poisson", "Poisson's ratio", between("number", 0, 1), nullptr, false, true},
-                                {"density", "mass per volume", kPositive, nullptr, false, true}};
-  return keys;
+TomlKeys material_keys() {
+  return {{"young", "Young's modulus", kPositive, nullptr, false, true},
+          {"poisson", "Poisson's ratio", between("number", 0, 1), nullptr, false, true},
+          {"density", "mass per volume", kPositive, nullptr, false, true}};
 }
 
 namespace {
@@ -278,20 +247,18 @@ TomlKeys with_criteria(TomlKeys keys) {
 
 }  // namespace
 
-const TomlKeys& named_criteria_keys() {
-  static const TomlKeys keys = with_criteria({{"name", "of curves or regions", kText, nullptr, false, true}});
-  return keys;
+TomlKeys named_criteria_keys() {
+  return with_criteria({{"name", "of curves or regions", kText, nullptr, false, true}});
 }
 
-const TomlKeys& criteria_keys() {
-  static const TomlKeys keys = with_criteria(
+TomlKeys criteria_keys() {
+  return with_criteria(
       {{"name", "for reports", kText},
        {"preset", "limits to begin with: batch, crash or static", one_of({"batch", "crash", "static"})},
        {"on", "limits of what has a name, in place of the others", "", named_criteria_keys, true},
        {"material", "for times", "", material_keys},
        {"time_step_by", "whose length times go by", one_of({"ls-dyna", "radioss", "abaqus"})},
        {"strict", "whether a mesh with elements that fail is not written", kFlag}});
-  return keys;
 }
 
 TomlKeys keys_of(const OptionGroup& group) {

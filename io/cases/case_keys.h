@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "delquad/options.h"
-#include "io/cases/toml_keys.h"
+#include "io/cases/toml_reader.h"
 
 namespace delquad {
 
@@ -12,26 +12,26 @@ namespace delquad {
 /// from outside have the name of another key.
 TomlKeys case_keys();
 /// Of the tables inside.
-const TomlKeys& curve_keys();
-const TomlKeys& embed_keys();
-const TomlKeys& loop_keys();
-const TomlKeys& pattern_keys();
-const TomlKeys& circle_keys();
-const TomlKeys& arc_keys();
-const TomlKeys& expression_keys();
-const TomlKeys& surface_keys();
-const TomlKeys& mirror_keys();
-const TomlKeys& named_size_keys();
-const TomlKeys& mapped_keys();
-const TomlKeys& symmetry_keys();
-const TomlKeys& periodic_keys();
-const TomlKeys& division_keys();
-const TomlKeys& size_keys();
-const TomlKeys& source_keys();
-const TomlKeys& layer_keys();
-const TomlKeys& criteria_keys();
-const TomlKeys& named_criteria_keys();
-const TomlKeys& material_keys();
+TomlKeys curve_keys();
+TomlKeys embed_keys();
+TomlKeys loop_keys();
+TomlKeys pattern_keys();
+TomlKeys circle_keys();
+TomlKeys arc_keys();
+TomlKeys expression_keys();
+TomlKeys surface_keys();
+TomlKeys mirror_keys();
+TomlKeys named_size_keys();
+TomlKeys mapped_keys();
+TomlKeys symmetry_keys();
+TomlKeys periodic_keys();
+TomlKeys division_keys();
+TomlKeys size_keys();
+TomlKeys source_keys();
+TomlKeys layer_keys();
+TomlKeys criteria_keys();
+TomlKeys named_criteria_keys();
+TomlKeys material_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 

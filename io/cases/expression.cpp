@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "delquad/error.h"
+#include "base/located.h"
 
 namespace delquad {
 
@@ -24,12 +24,12 @@ std::string excerpt(const std::string& text, std::size_t first) {
 }
 
 [[noreturn]] void fail(const std::string& text, const std::string& reason, int position) {
-  if (position < 0) throw InputError(fmt::format("expression '{}': {}", excerpt(text, 0), reason));
+  if (position < 0) refuse("expression '{}': {}", excerpt(text, 0), reason);
   // Of a long text, what stands around the position.
   constexpr std::size_t kBefore = Expression::kMostShown / 2;
   const std::size_t at = std::min(static_cast<std::size_t>(position), text.size());
   const std::size_t first = text.size() > Expression::kMostShown && at > kBefore ? at - kBefore : 0;
-  throw InputError(fmt::format("expression '{}', position {}: {}", excerpt(text, first), at + 1, reason));
+  refuse("expression '{}', position {}: {}", excerpt(text, first), at + 1, reason);
 }
 
 std::string join(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }

@@ -28,8 +28,7 @@ std::string only_key(const TomlTable& table, const std::vector<std::string>& cho
     list += (list.empty() ? "" : ", ") + key;
     if (!table.has(key)) continue;
     if (!found.empty())
-      throw InputError(table.where(key) + ": '" + found + "' and '" + key +
-                       "' exclude each other: expected one of " + list);
+      refuse("{}: '{}' and '{}' exclude each other: expected one of {}", table.where(key), found, key, list);
     found = key;
   }
   if (!found.empty()) return found;
@@ -95,8 +94,7 @@ struct Inside {
 Inside read_inside(const TomlTable& table) {
   const Inside inside{group_name(table, "region", table.text("region", "")), table.flag("hole", false)};
   if (inside.is_hole && !inside.region.empty())
-    throw InputError(table.where("hole") +
-                     ": 'hole' and 'region' exclude each other: a region fills its loop");
+    refuse("{}: 'hole' and 'region' exclude each other: a region fills its loop", table.where("hole"));
   return inside;
 }
 
@@ -105,20 +103,22 @@ class ModelReader {
   explicit ModelReader(std::string source) { model_.source = std::move(source); }
 
   void read_curve(const TomlTable& table) {
-    table.require_known(curve_keys());
+    static const TomlKeys keys = curve_keys();
+    table.require_known(keys);
     const std::string name = table.text("name");
     const std::string boundary_key = table.has("boundary") ? "boundary" : "name";
     const std::string boundary = group_name(table, boundary_key, table.text(boundary_key));
     if (!named_.emplace(name, model_.curves.size()).second)
       throw InputError(table.where("name") + ": a second curve '" + name + "'; names of curves must differ");
     const auto shape = located(table.where(), [&] { return read_shape(table); });
-    table.finish(curve_keys());
+    table.finish(keys);
     model_.curves.push_back({shape, boundary, table.where()});
     used_.push_back(false);
   }
 
   void read_embedded(const TomlTable& table) {
-    table.require_known(embed_keys());
+    static const TomlKeys keys = embed_keys();
+    table.require_known(keys);
     const std::string name = group_name(table, "name", table.text("name", ""));
     const bool is_crack = table.flag("crack", false);
     if (table.has("point")) {
@@ -129,11 +129,12 @@ class ModelReader {
       model_.curves.push_back({shape, name, table.where(), is_crack});
       used_.push_back(true);
     }
-    table.finish(embed_keys());
+    table.finish(keys);
   }
 
   void read_loop(const TomlTable& table) {
-    table.require_known(loop_keys());
+    static const TomlKeys keys = loop_keys();
+    table.require_known(keys);
     const std::string key = only_key(table, {"curves", "rectangle", "polygon", "circle"});
     const Inside inside = read_inside(table);
     if (key == "curves") {
@@ -146,7 +147,7 @@ class ModelReader {
       const auto shape = read_closed_shape(table, key);
       place(shape, read_boundary_names(table, shape.size()), inside, {0, 0}, table.where());
     }
-    table.finish(loop_keys());
+    table.finish(keys);
   }
 
   void read_pattern(const TomlTable& table) {
@@ -159,9 +160,8 @@ class ModelReader {
     table.finish(pattern_keys());
     const auto whole = [](double n) { return n >= 1 && n <= kMostPatternLoops && n == std::floor(n); };
     if (count.size() != 2 || !whole(count[0]) || !whole(count[1]) || count[0] * count[1] > kMostPatternLoops)
-      throw InputError(table.where("count") +
-                       ": 'count' must be [nx, ny], two integers >= 1 whose product is at most " +
-                       std::to_string(kMostPatternLoops));
+      refuse("{}: 'count' must be [nx, ny], two integers >= 1 whose product is at most {}",
+             table.where("count"), kMostPatternLoops);
     for (int j = 0; j < count[1]; ++j)
       for (int i = 0; i < count[0]; ++i) {
         const std::string where =
@@ -172,8 +172,7 @@ class ModelReader {
 
   PlanarModel finish() {
     for (const auto& [name, index] : named_)
-      if (!used_[index])
-        throw InputError(model_.curves[index].where + ": no loop uses the curve '" + name + "'");
+      if (!used_[index]) refuse("{}: no loop uses the curve '{}'", model_.curves[index].where, name);
     return std::move(model_);
   }
 

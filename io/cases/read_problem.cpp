@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -152,7 +151,7 @@ MeshProblem read_files(MeshProblem problem) {
 
 void check_case(const Case& c) {
   if (const auto file = model_path(c); !c.may_be_absent && !file.empty() && !std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: case '{}': there is no file '{}'", c.where, c.name, file.string()));
+    refuse("{}: case '{}': there is no file '{}'", c.where, c.name, file.string());
   MeshProblem fields;
   fields.size = c.size;
   fields.cross = c.cross;

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/located.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -97,9 +98,7 @@ struct TomlTable::Data {
   }
   const toml::node& need(const std::string& key, const std::string& what) {
     const toml::node* node = find(key);
-    if (!node)
-      throw InputError(file.string() + ":" + std::to_string(line()) + ": '" + name(key) +
-                       "' is missing: expected " + what);
+    if (!node) refuse("{}:{}: '{}' is missing: expected {}", file.string(), line(), name(key), what);
     return *node;
   }
   unsigned line() const { return std::max(1u, static_cast<unsigned>(table->source().begin.line)); }
@@ -141,15 +140,13 @@ TomlTable TomlTable::read(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, status))
     throw InputError(file.string() + ": is a folder; expected a TOML file");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw InputError(file.string() + ": cannot be read: " + std::generic_category().message(errno));
+  if (!stream) refuse("{}: cannot be read: {}", file.string(), std::generic_category().message(errno));
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(stream, file.string()));
     const toml::table* top = root.get();
     return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file, "", {}, nullptr, ""}));
   } catch (const toml::parse_error& error) {
-    throw InputError(file.string() + ":" + std::to_string(error.source().begin.line) +
-                     ": not TOML: " + std::string(error.description()));
+    refuse("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description());
   }
 }
 

@@ -2,9 +2,9 @@
 #include <cerrno>
 
 #include "geometry/mesh/element_nodes.h"
+#include "io/entity_names.h"
 #include "io/library_file.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 
 #ifdef DELQUAD_HAS_EXODUS

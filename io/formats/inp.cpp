@@ -1,24 +1,213 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "base/box.h"
+#include "base/sort_unique.h"
+#include "delquad/hexahedra.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
-#include "io/formats/inp_output.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
+#include "io/text_writer.h"
 
 namespace delquad {
 
 namespace {
 
+// What Abaqus input files have in common, whatever elements they hold.
+
+/// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
+constexpr std::size_t kLongestInpName = 60;
+constexpr std::ptrdiff_t kLongestInpNumber = 20;
+/// On one line of a set, which may have no more.
+constexpr std::size_t kInpNumbersPerLine = 16;
+
+/// In at most 20 characters: CalculiX cuts off what follows, perhaps within the exponent. "0" below
+/// `negligible`.
+std::string inp_number(double x, double negligible) {
+  if (std::abs(x) < negligible) return "0";
+  char digits[32];
+  char* end = std::to_chars(digits, digits + sizeof digits, x).ptr;
+  for (int n = 17; end - digits > kLongestInpNumber; --n)
+    end = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr;
+  return {digits, end};
+}
+
+/// `kinds`: what keys of labels are the names of.
+void write_inp_head(TextWriter& out, const char* title, const std::string& unit, const UniqueLabels& labels,
+                    std::span<const char* const> kinds) {
+  out << "*HEADING\n" << title << " by Delquad\n";
+  if (!unit.empty()) out << "** lengths in " << unit << '\n';
+  for (const auto& [key, label] : labels.renamed())
+    out << "** " << kinds[static_cast<std::size_t>(key.first)] << " \"" << one_line(key.second) << "\" is "
+        << label << '\n';
+}
+
+/// Those for which `is_written(i)` holds.
+template <class IsWritten>
+void write_inp_nodes(TextWriter& out, const std::vector<Vec3>& points, IsWritten is_written) {
+  // Of the model's diagonal: some hundred steps of a double there, what rotations and projections leave of
+  // zeros.
+  constexpr double kNegligible = 1e-13;
+  const double negligible = kNegligible * diagonal(points);
+  out << "*NODE\n";
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_written(i)) continue;
+    out << i + 1;
+    for (const double x : {points[i].x, points[i].y, points[i].z}) out << ", " << inp_number(x, negligible);
+    out << '\n';
+  }
+}
+
+/// "1, 4, 7, 9": the number of an element and those of its nodes, from 1.
+template <class Nodes>
+void write_inp_element(TextWriter& out, std::size_t number, const Nodes& nodes) {
+  out << number;
+  for (const int v : nodes) out << ", " << v + 1;
+  out << '\n';
+}
+
+/// Sorts them first, and leaves out what is there twice.
+void write_inp_numbers(TextWriter& out, std::vector<int>& numbers, std::size_t per_line) {
+  sort_unique(numbers);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool last = i + 1 == numbers.size() || (i + 1) % per_line == 0;
+    out << numbers[i] << (last ? "\n" : ", ");
+  }
+}
+
+/// Members of a set of nodes or elements by its label.
+using Sets = std::map<std::string, std::vector<int>>;
+
+void write_inp_sets(TextWriter& out, const char* keyword, Sets& sets) {
+  for (auto& [label, numbers] : sets) {
+    out << '*' << keyword << ", " << keyword << '=' << label << '\n';
+    write_inp_numbers(out, numbers, kInpNumbersPerLine);
+  }
+}
+
+/// What a label is the name of.
+enum HexNameKind { kHexCurve = 1, kHexFace, kHexVolume };
+constexpr const char* kHexKinds[] = {"", "curve", "face", "volume"};
+
+UniqueLabels make_hex_labels(const HexMesh& mesh) {
+  std::vector<UniqueLabels::Key> keys;
+  const auto add = [&](const std::vector<Entity>& entities, HexNameKind kind) {
+    for (const Entity& entity : entities)
+      for (const std::string& name : entity.names) keys.emplace_back(kind, name);
+  };
+  add(mesh.volumes, kHexVolume);
+  add(mesh.faces, kHexFace);
+  add(mesh.curves, kHexCurve);
+  return UniqueLabels(keys, {plain_label, true, kLongestInpName});
+}
+
+/// A side of a hexahedron by its four nodes in order.
+struct HexSide {
+  std::array<int, 4> nodes;
+  int hexahedron, side;
+};
+
+std::vector<HexSide> sorted_hex_sides(const HexMesh& mesh) {
+  // S1 to S6 of C3D8.
+  constexpr int kSides[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                                {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  std::vector<HexSide> sides;
+  sides.reserve(6 * mesh.hexahedra.size());
+  for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h)
+    for (int s = 0; s < 6; ++s) {
+      HexSide side{{}, static_cast<int>(h), s + 1};
+      for (int k = 0; k < 4; ++k) side.nodes[k] = mesh.hexahedra[h][kSides[s][k]];
+      std::sort(side.nodes.begin(), side.nodes.end());
+      sides.push_back(side);
+    }
+  std::ranges::stable_sort(sides, [](const HexSide& a, const HexSide& b) { return a.nodes < b.nodes; });
+  return sides;
+}
+
+class HexInpWriter {
+ public:
+  HexInpWriter(TextWriter& out, const HexMesh& mesh)
+      : out_(out), mesh_(mesh), labels_(make_hex_labels(mesh)) {}
+
+  void write() {
+    write_inp_head(out_, "Mesh of hexahedra", mesh_.unit, labels_, kHexKinds);
+    write_inp_nodes(out_, mesh_.points, [](std::size_t) { return true; });
+    out_ << "*ELEMENT, TYPE=C3D8\n";
+    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
+      write_inp_element(out_, i + 1, mesh_.hexahedra[i]);
+    collect();
+    write_inp_sets(out_, "ELSET", element_sets_);
+    write_inp_sets(out_, "NSET", node_sets_);
+    for (const auto& [label, sides] : sides_of_) {
+      out_ << "*SURFACE, NAME=" << label << ", TYPE=ELEMENT\n";
+      for (const int side : sides) out_ << side_set(label, side) << ", S" << side << '\n';
+    }
+  }
+
+ private:
+  static std::string side_set(const std::string& label, int side) {
+    return "_" + label + "_S" + std::to_string(side);
+  }
+
+  template <std::size_t N>
+  void collect_nodes(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
+                     const std::vector<Entity>& entities, HexNameKind kind) {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      for (const std::string& name : entities[entity_of[i]].names) {
+        std::vector<int>& nodes = node_sets_[labels_.of({kind, name})];
+        for (const int v : elements[i]) nodes.push_back(v + 1);
+      }
+  }
+
+  void collect() {
+    collect_nodes(mesh_.hexahedra, mesh_.hex_volume, mesh_.volumes, kHexVolume);
+    collect_nodes(mesh_.quads, mesh_.quad_face, mesh_.faces, kHexFace);
+    collect_nodes(mesh_.lines, mesh_.line_curve, mesh_.curves, kHexCurve);
+    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
+      for (const std::string& name : mesh_.volumes[mesh_.hex_volume[i]].names)
+        element_sets_[labels_.of({kHexVolume, name})].push_back(static_cast<int>(i) + 1);
+    const std::vector<HexSide> sides = sorted_hex_sides(mesh_);
+    for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
+      std::array<int, 4> nodes = mesh_.quads[i];
+      std::sort(nodes.begin(), nodes.end());
+      const auto at = std::ranges::equal_range(sides, nodes, {}, &HexSide::nodes);
+      if (at.size() != 1) continue;
+      for (const std::string& name : mesh_.faces[mesh_.quad_face[i]].names) {
+        const std::string label = labels_.of({kHexFace, name});
+        element_sets_[side_set(label, at[0].side)].push_back(at[0].hexahedron + 1);
+        sides_of_[label].insert(at[0].side);
+      }
+    }
+  }
+
+  TextWriter& out_;
+  const HexMesh& mesh_;
+  const UniqueLabels labels_;
+  Sets element_sets_, node_sets_;
+  std::map<std::string, std::set<int>> sides_of_;
+};
+
+/// C3D8. Every name of volumes is an ELSET and an NSET, of faces an NSET and, on the boundary, a SURFACE, of
+/// curves an NSET.
+void write_hex_inp(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+  write_text_file(path, [&](TextWriter& out) { HexInpWriter(out, mesh).write(); });
+}
+
 /// What a label is the name of.
 enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kPairs };
+constexpr const char* kInpKinds[] = {"", "", "", "point", "curve", "region", "set"};
 
 std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
   std::vector<UniqueLabels::Key> keys;
@@ -42,18 +231,14 @@ UniqueLabels make_labels(const Mesh& mesh) {
   for (const NamedPoint& named : mesh.named_points)
     for (auto& key : keys_of({named.entity}, 0)) keys.push_back(std::move(key));
   // Names that are tags keep them.
-  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
-    return a.first <= kRegionTag && b.first > kRegionTag;
-  });
+  std::ranges::stable_sort(
+      keys, [](const auto& a, const auto& b) { return a.first <= kRegionTag && b.first > kRegionTag; });
   for (const auto& [kind, count] :
        {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
     for (size_t i = 0; i < count; ++i)
       for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kPairs, name);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
-
-/// Members of a set by its label.
-using Sets = std::map<std::string, std::vector<int>>;
 
 class InpWriter {
  public:
@@ -62,9 +247,7 @@ class InpWriter {
   }
 
   void write() {
-    out_ << "*HEADING\nQuad mesh by Delquad\n";
-    if (!mesh_.unit.empty()) out_ << "** lengths in " << mesh_.unit << '\n';
-    write_renamed();
+    write_inp_head(out_, "Quad mesh", mesh_.unit, labels_, kInpKinds);
     write_nodes();
     int n = 0;
     write_elements(
@@ -91,25 +274,11 @@ class InpWriter {
   }
 
  private:
-  void write_renamed() {
-    for (const auto& [key, label] : labels_.renamed())
-      out_ << "** "
-           << (key.first == kPointName   ? "point"
-               : key.first == kCurveName ? "curve"
-               : key.first == kPairs     ? "set"
-                                         : "region")
-           << " \"" << one_line(key.second) << "\" is " << label << '\n';
-  }
-
   void write_nodes() {
-    const double negligible = kInpNegligible * diagonal(mesh_);
     std::vector<char> inside(mesh_.points.size(), 0);
     for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
       inside[nodes_of_quad(mesh_, q)[4]] = 1;
-    out_ << "*NODE\n";
-    for (size_t i = 0; i < mesh_.points.size(); ++i) {
-      if (!inside[i]) write_inp_node(out_, i + 1, mesh_.points[i], negligible);
-    }
+    write_inp_nodes(out_, mesh_.points, [&](size_t i) { return !inside[i]; });
   }
 
   template <class NodesOf>
@@ -245,8 +414,7 @@ MeshFormat inp_format() {
           .read = read_by<read_inp>,
           .write = write_by<write_inp>,
           .most_order = 2,
-          .write_hexahedra = [](const std::filesystem::path& path, const HexMesh& mesh,
-                                bool) { write_hex_inp(path, mesh); },
+          .write_hexahedra = write_hex_inp,
           .eight_nodes = EightNodes::kAlways};
 }
 

@@ -1,13 +1,14 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -102,9 +103,9 @@ class InpReader {
     n_nodes_ = nodes_of_type(type);
     if (n_nodes_ == 0)
       in_.fail(
-          fmt::format("element type {}: expected lines or triangles of first order or quads, such as S4, "
-                      "CPS4, S3, S8R",
-                      TextScanner::printable(type)));
+          "element type {}: expected lines or triangles of first order or quads, such as S4, "
+          "CPS4, S3, S8R",
+          TextScanner::printable(type));
   }
 
   void data(const std::vector<std::string_view>& fields) {
@@ -120,7 +121,7 @@ class InpReader {
     long long value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < 1)
-      in_.fail(fmt::format("expected {} (an integer > 0), found {}", what, TextScanner::printable(text)));
+      in_.fail("expected {} (an integer > 0), found {}", what, TextScanner::printable(text));
     return value;
   }
 
@@ -130,8 +131,7 @@ class InpReader {
     const std::string_view digits = text[0] == '+' ? text.substr(1) : text;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-      in_.fail(
-          fmt::format("expected a coordinate (a finite number), found {}", TextScanner::printable(text)));
+      in_.fail("expected a coordinate (a finite number), found {}", TextScanner::printable(text));
     return value;
   }
 
@@ -140,7 +140,7 @@ class InpReader {
     const long long number = integer(fields[0], "a node's number");
     const auto x = [&](size_t k) { return fields.size() > k ? real(fields[k]) : 0; };
     if (!node_of_.emplace(number, static_cast<int>(mesh_.points.size())).second)
-      in_.fail(fmt::format("node {} is there twice; files of several parts cannot be read", number));
+      in_.fail("node {} is there twice; files of several parts cannot be read", number);
     mesh_.points.push_back({x(1), x(2), x(3)});
   }
 
@@ -148,15 +148,15 @@ class InpReader {
     for (const std::string_view field : fields) pending_.push_back(integer(field, "a node's number"));
     if (pending_.size() < static_cast<size_t>(n_nodes_) + 1) return;
     if (pending_.size() > static_cast<size_t>(n_nodes_) + 1)
-      in_.fail(fmt::format("an element of {} nodes has {}", n_nodes_, pending_.size() - 1));
+      in_.fail("an element of {} nodes has {}", n_nodes_, pending_.size() - 1);
     InpElement e{{}, in_.line(), {}};
     for (size_t k = 1; k < pending_.size(); ++k) {
       const auto found = node_of_.find(pending_[k]);
-      if (found == node_of_.end()) in_.fail(fmt::format("there is no node {} yet", pending_[k]));
+      if (found == node_of_.end()) in_.fail("there is no node {} yet", pending_[k]);
       e.nodes.push_back(found->second);
     }
     if (!element_of_.emplace(pending_[0], static_cast<int>(elements_.size())).second)
-      in_.fail(fmt::format("element {} is there twice; files of several parts cannot be read", pending_[0]));
+      in_.fail("element {} is there twice; files of several parts cannot be read", pending_[0]);
     if (!set.empty()) sets_[set].push_back(static_cast<int>(elements_.size()));
     elements_.push_back(std::move(e));
     pending_.clear();
@@ -167,7 +167,7 @@ class InpReader {
     std::vector<int>& all = sets_[set];
     const auto add = [&](long long number) {
       const auto found = element_of_.find(number);
-      if (found == element_of_.end()) in_.fail(fmt::format("there is no element {} yet", number));
+      if (found == element_of_.end()) in_.fail("there is no element {} yet", number);
       all.push_back(found->second);
     };
     if (keyword_.parameters.contains("GENERATE")) {
@@ -189,23 +189,18 @@ class InpReader {
         const std::vector<int> copy = other->second;
         all.insert(all.end(), copy.begin(), copy.end());
         if (all.size() > elements_.size())
-          keep_once(all);  // sets that hold themselves would double each time
+          sort_unique(all);  // sets that hold themselves would double each time
       } else {
-        in_.fail(fmt::format("there is no element set {} yet", TextScanner::printable(field)));
+        in_.fail("there is no element set {} yet", TextScanner::printable(field));
       }
     }
-  }
-
-  static void keep_once(std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
 
   /// A set named by a leading underscore is a part of something else.
   void make_mesh() {
     for (auto& [name, members] : sets_) {
       if (name.empty() || name[0] == '_') continue;
-      keep_once(members);
+      sort_unique(members);
       for (const int e : members) elements_[e].sets.push_back(name);
     }
     std::map<std::pair<int, std::vector<std::string>>, int> index;
@@ -214,24 +209,17 @@ class InpReader {
       std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
       const auto [it, is_new] = index.emplace(std::pair{dim, e.sets}, static_cast<int>(entities.size()));
       if (is_new) entities.push_back({it->second + 1, e.sets});
-      add_element(e, it->second);
+      add(e, it->second);
     }
     add_surfaces();
   }
 
-  void add_element(const InpElement& e, int entity) {
+  void add(const InpElement& e, int entity) {
     const auto& v = e.nodes;
-    const int order = v.size() == 8 ? 2 : 1;
-    if (!takes_order(mesh_, order)) in_.fail(other_order(order, mesh_.order), e.line);
-    if (v.size() == 2) {
-      add_line(mesh_, v, entity);
-    } else if (v.size() == 3 || (v.size() == 4 && v[2] == v[3])) {  // some programs write triangles so
-      mesh_.triangles.push_back({v[0], v[1], v[2]});
-      mesh_.triangle_region.push_back(entity);
-    } else {
-      if (places_.empty()) places_ = gmsh_places(order);
-      add_quad(mesh_, v, places_, entity);
-    }
+    const bool is_triangle = v.size() == 4 && v[2] == v[3];  // some programs write them so
+    const int corners = is_triangle ? 3 : static_cast<int>(std::min<size_t>(v.size(), 4));
+    const std::string wrong = add_element(mesh_, corners, v, entity);
+    if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
   }
 
   struct Surface {
@@ -250,7 +238,7 @@ class InpReader {
       for (const int e : elements_named(s)) {
         const std::vector<int>& v = elements_[e].nodes;
         const size_t k = static_cast<size_t>(s.side[1] - '1'), n = std::min<size_t>(v.size(), 4);
-        if (k >= n || n < 3) in_.fail(fmt::format("an element has no side {}", s.side), s.line);
+        if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.side);
         std::vector<int> nodes = {v[k], v[(k + 1) % n]};
         if (v.size() == 8) nodes.push_back(v[4 + k]);
         std::vector<std::string>& names = names_of[nodes];
@@ -273,7 +261,7 @@ class InpReader {
     std::from_chars(text.data(), text.data() + text.size(), number);
     const auto element = element_of_.find(number);
     if (element == element_of_.end())
-      in_.fail(fmt::format("there is no element or set {}", TextScanner::printable(text)), surface.line);
+      in_.fail_at(surface.line, "there is no element or set {}", TextScanner::printable(text));
     return {element->second};
   }
 
@@ -284,7 +272,6 @@ class InpReader {
   std::vector<long long> pending_;  ///< of an element that goes on in the next line
   std::map<long long, int> node_of_, element_of_;
   std::vector<InpElement> elements_;
-  std::vector<int> places_;  ///< of the nodes of quads
   std::map<std::string, std::vector<int>> sets_;
   std::vector<Surface> surfaces_;
 };

@@ -1,7 +1,7 @@
 #include <charconv>
 
+#include "io/entity_names.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 

@@ -4,6 +4,7 @@
 
 #include "geometry/mesh/drop_unused_points.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -45,16 +46,16 @@ class MeditReader {
       dimension_ = in_.integer("the dimension", 2, 3);
     } else if (keyword == "Vertices") {
       for (long long n = count(keyword); n > 0; --n) vertex();
-    } else if (keyword == "Edges") {
-      elements(keyword, mesh_.lines, mesh_.line_curve, 1);
-    } else if (keyword == "Triangles") {
-      elements(keyword, mesh_.triangles, mesh_.triangle_region, 2);
-    } else if (keyword == "Quadrilaterals") {
-      elements(keyword, mesh_.quads, mesh_.quad_region, 2);
+    } else if (const int corners = keyword == "Edges"            ? 2
+                                   : keyword == "Triangles"      ? 3
+                                   : keyword == "Quadrilaterals" ? 4
+                                                                 : 0;
+               corners > 0) {
+      elements(keyword, corners);
     } else if (!(keyword[0] >= 'A' && keyword[0] <= 'Z')) {
-      in_.fail(fmt::format("expected a keyword{}, found {}", section_, TextScanner::printable(keyword)));
+      in_.fail("expected a keyword{}, found {}", section_, TextScanner::printable(keyword));
     } else if (keyword == "Tetrahedra" || keyword == "Hexahedra") {
-      in_.fail(fmt::format("{}: expected a mesh of lines, triangles and quadrilaterals", keyword));
+      in_.fail("{}: expected a mesh of lines, triangles and quadrilaterals", keyword);
     } else {
       skip_section();
     }
@@ -96,7 +97,7 @@ class MeditReader {
     const long long n = in_.integer("a count", 0, INT_MAX);
     section_ = fmt::format(" after the {} {} that are announced", n, keyword);
     if (n > static_cast<long long>(in_.bytes_left()))
-      in_.fail(fmt::format("{} items do not fit in the {} bytes that follow", n, in_.bytes_left()));
+      in_.fail("{} items do not fit in the {} bytes that follow", n, in_.bytes_left());
     return n;
   }
 
@@ -113,16 +114,13 @@ class MeditReader {
     return in_.integer("a reference", -kLargestNumber, kLargestNumber);
   }
 
-  template <size_t N>
-  void elements(const std::string& keyword, std::vector<std::array<int, N>>& all, std::vector<int>& entity_of,
-                int dim) {
+  void elements(const std::string& keyword, int corners) {
+    std::vector<int> v(static_cast<size_t>(corners));
     for (long long n = count(keyword); n > 0; --n) {
       skip_comments();
-      std::array<int, N> element;
-      for (int& v : element)
-        v = static_cast<int>(in_.integer("a vertex", 1, static_cast<long long>(mesh_.points.size()))) - 1;
-      all.push_back(element);
-      entity_of.push_back(entities_.index(dim, reference(), mesh_));
+      for (int& i : v)
+        i = static_cast<int>(in_.integer("a vertex", 1, static_cast<long long>(mesh_.points.size()))) - 1;
+      add_element(mesh_, corners, v, entities_.index(corners == 2 ? 1 : 2, reference(), mesh_));
     }
   }
 

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <climits>
@@ -10,9 +9,9 @@
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
@@ -134,8 +133,8 @@ class MfemReader {
     } else if (keyword == "nodes") {
       nodes();
     } else {
-      in_.fail(fmt::format("the section {}: expected dimension, elements, boundary, vertices or nodes",
-                           TextScanner::printable(keyword)));
+      in_.fail("the section {}: expected dimension, elements, boundary, vertices or nodes",
+               TextScanner::printable(keyword));
     }
   }
 
@@ -145,8 +144,8 @@ class MfemReader {
     e.geometry = static_cast<int>(integer("a type of geometry", 0, 7));
     const bool is_line = &all == &boundary_;
     if (is_line ? e.geometry != kMfemSegment : e.geometry != kMfemTriangle && e.geometry != kMfemSquare)
-      in_.fail(fmt::format("geometry {}: expected {}", e.geometry,
-                           is_line ? "segments (1) on the boundary" : "triangles (2) or squares (3)"));
+      in_.fail("geometry {}: expected {}", e.geometry,
+               is_line ? "segments (1) on the boundary" : "triangles (2) or squares (3)");
     e.line = in_.line();
     for (int k = 0; k <= e.geometry; ++k)  // a segment has two, and so on
       e.v.push_back(static_cast<int>(integer("a vertex", 0, INT_MAX)));
@@ -173,7 +172,7 @@ class MfemReader {
   /// What follows a title such as "VDim:".
   std::string_view entry(const char* title) {
     skip_comments();
-    if (in_.token(title) != title) in_.fail(fmt::format("expected {}", title));
+    if (in_.token(title) != title) in_.fail("expected {}", title);
     return in_.token(title);
   }
 
@@ -183,9 +182,8 @@ class MfemReader {
     const std::string_view name = entry("FiniteElementCollection:");
     const auto space = mfem_space(name);
     if (!space)
-      in_.fail(
-          fmt::format("nodes of {}: expected H1_2D_P1, L2_T1_2D_P1 or L2_T4_2D_P1, up to P{}, or Quadratic",
-                      TextScanner::printable(name), kMostOrder));
+      in_.fail("nodes of {}: expected H1_2D_P1, L2_T1_2D_P1 or L2_T4_2D_P1, up to P{}, or Quadratic",
+               TextScanner::printable(name), kMostOrder);
     space_ = *space;
     const std::string_view dim = entry("VDim:");
     if (dim != "2" && dim != "3") in_.fail("VDim: expected 2 or 3");
@@ -205,24 +203,16 @@ class MfemReader {
       for (const MfemElement& e : *all)
         for (const int v : e.v)
           if (v >= n_vertices_)
-            in_.fail(fmt::format("there is no vertex {}: there are {}, counted from 0", v, n_vertices_),
-                     e.line);
+            in_.fail_at(e.line, "there is no vertex {}: there are {}, counted from 0", v, n_vertices_);
   }
 
   void make_straight() {
     if (static_cast<long long>(mesh_.points.size()) != n_vertices_)
       in_.fail("vertices have no coordinates, and there are no nodes");
-    for (const MfemElement& e : elements_) {
-      const int entity = entities_.index(2, e.attribute, mesh_);
-      if (e.geometry == kMfemTriangle) {
-        mesh_.triangles.push_back({e.v[0], e.v[1], e.v[2]});
-        mesh_.triangle_region.push_back(entity);
-      } else {
-        mesh_.quads.push_back({e.v[0], e.v[1], e.v[2], e.v[3]});
-        mesh_.quad_region.push_back(entity);
-      }
-    }
-    for (const MfemElement& e : boundary_) add_line(mesh_, e.v, entities_.index(1, e.attribute, mesh_));
+    for (const auto* all : {&elements_, &boundary_})  // a segment has two corners, and so on
+      for (const MfemElement& e : *all)
+        add_element(mesh_, e.geometry + 1, e.v,
+                    entities_.index(e.geometry == kMfemSegment ? 1 : 2, e.attribute, mesh_));
   }
 
   /// The first node inside of the side from vertex a to b; the others follow it, from the lower vertex to the
@@ -251,7 +241,7 @@ class MfemReader {
     const int p = mesh_.order = space_.order, row = p + 1;
     int n_nodes = static_cast<int>(n_vertices_);
     for (const MfemElement& e : elements_) {
-      if (e.geometry != kMfemSquare) in_.fail("nodes of triangles: expected quads alone", e.line);
+      if (e.geometry != kMfemSquare) in_.fail_at(e.line, "nodes of triangles: expected quads alone");
       for (int k = 0; k < 4; ++k)
         if (int& first = first_on_side(e.v[k], e.v[(k + 1) % 4]); first < 0)
           first = n_nodes, n_nodes += p - 1;
@@ -260,7 +250,7 @@ class MfemReader {
     const long long in_file =
         space_.is_shared ? n_nodes + inside : static_cast<long long>(elements_.size()) * row * row;
     if (static_cast<long long>(values_.size()) != in_file * dim_)
-      in_.fail(fmt::format("{} numbers for {} nodes of {} coordinates", values_.size(), in_file, dim_));
+      in_.fail("{} numbers for {} nodes of {} coordinates", values_.size(), in_file, dim_);
     mesh_.points.resize(static_cast<size_t>(n_nodes + inside));
     is_placed_.assign(mesh_.points.size(), 0);
     int next = n_nodes;
@@ -292,10 +282,10 @@ class MfemReader {
     for (size_t k = 0; k < square.size(); ++k) {
       Vec3& point = mesh_.points[square[k]];
       if (is_placed_[square[k]] && !(norm(point - at[k]) <= kRounding * size))
-        in_.fail(fmt::format("element {} (from 0) has a node at {}, another element has it at "
-                             "{}: expected elements that hang together",
-                             element, show_point(at[k]), show_point(point)),
-                 elements_[element].line);
+        in_.fail_at(elements_[element].line,
+                    "element {} (from 0) has a node at {}, another element has it at "
+                    "{}: expected elements that hang together",
+                    element, show_point(at[k]), show_point(point));
       if (!is_placed_[square[k]]) point = at[k];
       is_placed_[square[k]] = 1;
     }
@@ -303,7 +293,7 @@ class MfemReader {
 
   void add_curved_line(const MfemElement& e) {
     const auto side = sides_.find(std::minmax(e.v[0], e.v[1]));
-    if (side == sides_.end()) in_.fail("a line on the boundary is no side of an element", e.line);
+    if (side == sides_.end()) in_.fail_at(e.line, "a line on the boundary is no side of an element");
     std::vector<int> nodes{e.v[0], e.v[1]};
     for (int k = 0; k < space_.order - 1; ++k)
       nodes.push_back(side->second + (e.v[0] < e.v[1] ? k : space_.order - 2 - k));

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -6,6 +5,7 @@
 #include <tuple>
 
 #include "geometry/mesh/element_nodes.h"
+#include "io/face_reader.h"
 #include "io/formats/msh.h"
 #include "io/formats/msh_raw.h"
 #include "io/mesh_io.h"
@@ -25,8 +25,7 @@ std::vector<std::vector<int>> groups_of_elements(const std::vector<Element>& ele
   const auto key = [&](int i) { return std::tie(keys[i].n_nodes, keys[i].entity, keys[i].nodes); };
   std::vector<int> order(elements.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
+  std::ranges::sort(order, [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
 
   std::vector<std::vector<int>> groups(elements.size());
   repeats.assign(elements.size(), 0);
@@ -93,11 +92,11 @@ void check_tags(const Contents& contents, const TextScanner& scanner) {
   for (size_t i = 1; i < contents.nodes.size(); ++i) {
     const Node &a = contents.nodes[i - 1], &b = contents.nodes[i];
     if (a.tag != b.tag) continue;
-    scanner.fail(fmt::format("node tag {} is used twice (first on line {})", a.tag, std::min(a.line, b.line)),
-                 std::max(a.line, b.line));
+    scanner.fail_at(std::max(a.line, b.line), "node tag {} is used twice (first on line {})", a.tag,
+                    std::min(a.line, b.line));
   }
   for (const Element& e : contents.elements) {
-    if (e.entity <= 0) scanner.fail(fmt::format("entity tag {}: expected a positive one", e.entity), e.line);
+    if (e.entity <= 0) scanner.fail_at(e.line, "entity tag {}: expected a positive one", e.entity);
   }
 }
 
@@ -106,7 +105,7 @@ std::vector<int> find_nodes(Contents& contents, const TextScanner& scanner) {
   std::vector<int> is_needed(contents.nodes.size(), -1);
   const auto find = [&](long long& tag, int line) {
     const int i = node_index(contents.nodes, tag);
-    if (i < 0) scanner.fail(fmt::format("there is no node with tag {}", tag), line);
+    if (i < 0) scanner.fail_at(line, "there is no node with tag {}", tag);
     tag = i;
     is_needed[i] = 0;
   };
@@ -122,29 +121,18 @@ std::vector<int> find_nodes(Contents& contents, const TextScanner& scanner) {
 void add_elements(const Contents& contents, const std::vector<int>& new_index, const TextScanner& scanner,
                   Mesh& mesh, MeshTags* tags) {
   EntityTable entities(contents, mesh);
-  std::vector<int> nodes, places;
+  std::vector<int> nodes;
   for (const Element& e : contents.elements) {
     nodes.clear();
     for (int k = 0; k < e.n_nodes; ++k) nodes.push_back(new_index[e.nodes[k]]);
     for (int k = 0; k < e.n_further; ++k)
       nodes.push_back(new_index[contents.further_nodes[e.first_further + static_cast<size_t>(k)]]);
-    const int order = e.n_nodes == 2   ? order_of_line(nodes.size())
-                      : e.n_nodes == 3 ? 1
-                                       : order_of_quad(nodes.size());
-    if (!takes_order(mesh, order)) scanner.fail(other_order(order, mesh.order), e.line);
-    if (tags && order > 1) scanner.fail(fmt::format("elements of order {}: expected order 1", order), e.line);
-    const int entity = entities.index(e.dim(), e.entity);
-    if (e.n_nodes == 2) {
-      add_line(mesh, nodes, entity);
-    } else if (e.n_nodes == 3) {
-      mesh.triangles.push_back({nodes[0], nodes[1], nodes[2]});
-      mesh.triangle_region.push_back(entity);
-      if (tags) tags->triangles.push_back(e.tag);
-    } else {
-      if (places.empty()) places = gmsh_places(order);
-      add_quad(mesh, nodes, places, entity);
-      if (tags) tags->quads.push_back(e.tag);
-    }
+    const std::string wrong = add_element(mesh, e.n_nodes, nodes, entities.index(e.dim(), e.entity));
+    if (!wrong.empty()) scanner.fail_at(e.line, "{}", wrong);
+    if (!tags) continue;
+    if (mesh.order > 1) scanner.fail_at(e.line, "elements of order {}: expected order 1", mesh.order);
+    if (e.n_nodes == 3) tags->triangles.push_back(e.tag);
+    if (e.n_nodes == 4) tags->quads.push_back(e.tag);
   }
 }
 
@@ -202,8 +190,7 @@ void settle_physicals(Contents& contents) {
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
   if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles or quads");
   if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
-  std::stable_sort(contents.nodes.begin(), contents.nodes.end(),
-                   [](const Node& a, const Node& b) { return a.tag < b.tag; });
+  std::ranges::stable_sort(contents.nodes, [](const Node& a, const Node& b) { return a.tag < b.tag; });
   check_tags(contents, scanner);
   // Programs list all points of a model: those without a group say nothing.
   std::erase_if(contents.points, [&](const Point& point) { return point_names(contents, point).empty(); });
@@ -217,14 +204,9 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
     mesh.points.push_back(contents.nodes[i].at);
     if (tags) tags->points.push_back(contents.nodes[i].tag);
   }
-  std::map<int, size_t> named;  // by node
-  for (const Point& point : contents.points) {
-    const int i = new_index[point.node];
-    const auto [at, is_new] = named.emplace(i, mesh.named_points.size());
-    if (is_new) mesh.named_points.push_back({i, {static_cast<int>(at->second) + 1, {}}});
-    auto& names = mesh.named_points[at->second].entity.names;
-    for (const std::string& name : point_names(contents, point)) names.push_back(name);
-  }
+  NamedPoints named;
+  for (const Point& point : contents.points)
+    for (const std::string& name : point_names(contents, point)) named.add(mesh, new_index[point.node], name);
   add_elements(contents, new_index, scanner, mesh, tags);
   return mesh;
 }

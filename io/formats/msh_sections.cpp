@@ -2,16 +2,86 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <set>
+#include <string_view>
 
 #include "base/utf8.h"
-#include "io/formats/msh_numbers.h"
 #include "io/formats/msh_raw.h"
 #include "io/mesh_io.h"
+#include "io/text_scanner.h"
 
 namespace delquad::msh {
 
 namespace {
+
+/// The numbers of an MSH file, which are text or bytes. All throw InputError as the scanner does.
+class NumberReader {
+ public:
+  explicit NumberReader(TextScanner& in) : in_(in) {}
+
+  /// From here on numbers are bytes. Reads the number 1, which tells the order of bytes.
+  void expect_bytes();
+  bool are_bytes() const { return are_bytes_; }
+  /// Four bytes or text.
+  long long integer(std::string_view what, long long low, long long high);
+  /// Eight bytes or text.
+  long long size(std::string_view what, long long low, long long high);
+  /// A finite number.
+  double real(std::string_view what);
+
+ private:
+  template <class T>
+  T raw(std::string_view what);
+  long long checked(long long value, std::string_view what, long long low, long long high) const;
+
+  TextScanner& in_;
+  bool are_bytes_ = false, other_order_ = false;
+};
+
+template <class T>
+T NumberReader::raw(std::string_view what) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, in_.bytes(sizeof bytes, what).data(), sizeof bytes);
+  if (other_order_) std::reverse(bytes, bytes + sizeof bytes);
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+void NumberReader::expect_bytes() {
+  constexpr std::int32_t kOneInOtherOrder = 1 << 24;
+  in_.rest_of_line();
+  in_.bytes(1, "the end of the line");
+  are_bytes_ = true;
+  const auto one = raw<std::int32_t>("the number 1");
+  other_order_ = one == kOneInOtherOrder;
+  if (one != 1 && !other_order_) in_.fail("expected the number 1 in four bytes, found {}", one);
+}
+
+long long NumberReader::checked(long long value, std::string_view what, long long low, long long high) const {
+  if (value < low || value > high) in_.fail("expected {} from {} to {}, found {}", what, low, high, value);
+  return value;
+}
+
+long long NumberReader::integer(std::string_view what, long long low, long long high) {
+  if (!are_bytes_) return in_.integer(what, low, high);
+  return checked(raw<std::int32_t>(what), what, low, high);
+}
+
+long long NumberReader::size(std::string_view what, long long low, long long high) {
+  if (!are_bytes_) return in_.integer(what, low, high);
+  return checked(static_cast<long long>(raw<std::uint64_t>(what)), what, low, high);
+}
+
+double NumberReader::real(std::string_view what) {
+  if (!are_bytes_) return in_.real(what);
+  const auto value = raw<double>(what);
+  if (!std::isfinite(value)) in_.fail("expected {} (a finite number), found {}", what, value);
+  return value;
+}
 
 constexpr long long kLargestTag = LLONG_MAX;      // of nodes and elements
 constexpr int kLargestEntityTag = 2'000'000'000;  // leaves room for new ones
@@ -46,9 +116,9 @@ NodeCount nodes_of_type(int type, const TextScanner& scanner) {
                                                    {39, "third-order quad without inner nodes"}};
   const auto name = names.find(type);
   scanner.fail(
-      fmt::format("element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2) or quads (3, "
-                  "10, 16, 36, 37)",
-                  type, name == names.end() ? "" : fmt::format(" ({})", name->second)));
+      "element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2) or quads (3, "
+      "10, 16, 36, 37)",
+      type, name == names.end() ? "" : fmt::format(" ({})", name->second));
 }
 
 class SectionReader {
@@ -61,14 +131,14 @@ class SectionReader {
     while (!in_.at_end()) {
       const std::string_view token = in_.token("a section");
       if (token.size() < 2 || token[0] != '$') {
-        in_.fail(version_ == Version::kUnknown ? "not an MSH file: expected $MeshFormat"
-                                               : "expected a section, which starts with $");
+        in_.fail("{}", version_ == Version::kUnknown ? "not an MSH file: expected $MeshFormat"
+                                                     : "expected a section, which starts with $");
       }
       section(std::string(token.substr(1)));
     }
     if (version_ == Version::kUnknown) in_.fail("not an MSH file: expected $MeshFormat");
     for (const char* needed : {"Nodes", "Elements"}) {
-      if (!seen_.contains(needed)) in_.fail(fmt::format("the file ends without a ${} section", needed));
+      if (!seen_.contains(needed)) in_.fail("the file ends without a ${} section", needed);
     }
     if (version_ == Version::k22) settle_physicals(contents_);
     return std::move(contents_);
@@ -90,9 +160,9 @@ class SectionReader {
     const auto reader = readers.find(name);
     contents_.has_periodic |= name == "Periodic";
     if (reader == readers.end()) return skip(name);
-    if (!seen_.insert(name).second) in_.fail(fmt::format("a second ${} section", name));
+    if (!seen_.insert(name).second) in_.fail("a second ${} section", name);
     if (version_ == Version::kUnknown && name != "MeshFormat") {
-      in_.fail(fmt::format("expected $MeshFormat before ${}", name));
+      in_.fail("expected $MeshFormat before ${}", name);
     }
     (this->*reader->second)();
     expect_end(name);
@@ -101,8 +171,7 @@ class SectionReader {
   void expect_end(const std::string& name) {
     const std::string end = "$End" + name;
     if (const std::string_view found = in_.token(end); found != end)
-      in_.fail(
-          fmt::format("expected {} after as many as are announced, found {}", end, in_.printable(found)));
+      in_.fail("expected {} after as many as are announced, found {}", end, in_.printable(found));
   }
 
   /// Titles, times and counts are text in binary files, too.
@@ -145,8 +214,7 @@ class SectionReader {
       if (in_.token(end) == end) return;
       in_.rest_of_line();
     }
-    in_.fail(fmt::format("section {} is not closed by {}", in_.printable("$" + name), in_.printable(end)),
-             first);
+    in_.fail_at(first, "section {} is not closed by {}", in_.printable("$" + name), in_.printable(end));
   }
 
   void mesh_format() {
@@ -156,13 +224,13 @@ class SectionReader {
     } else if (version == "4.1") {
       version_ = Version::k41;
     } else {
-      in_.fail(fmt::format("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
-                           in_.printable(version)));
+      in_.fail("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
+               in_.printable(version));
     }
     const bool binary = in_.integer("the file type", 0, 1) == 1;
     const long long bytes = in_.integer("the data size", 1, 64);
     if (!binary) return;
-    if (bytes != 8) in_.fail(fmt::format("binary MSH file with numbers of {} bytes: expected 8", bytes));
+    if (bytes != 8) in_.fail("binary MSH file with numbers of {} bytes: expected 8", bytes);
     numbers_.expect_bytes();
   }
 
@@ -194,8 +262,8 @@ class SectionReader {
     if (open == close) in_.fail("expected a physical name in double quotes");
     const std::string_view name = rest.substr(open + 1, close - open - 1);
     if (!fits_msh(name))
-      in_.fail(fmt::format("the physical name {} has a double quote or a character that is not text",
-                           in_.printable(name)));
+      in_.fail("the physical name {} has a double quote or a character that is not text",
+               in_.printable(name));
     return {{dim, std::abs(tag)}, as_utf8(name)};
   }
 
@@ -255,7 +323,7 @@ class SectionReader {
       if (dim == 2) contents_.surface_curves[tag] = std::move(bounding);
     }
     if (!contents_.entity_physicals.emplace(DimTag{dim, tag}, std::move(physicals)).second) {
-      in_.fail(fmt::format("a second entity of dimension {} with tag {}", dim, tag));
+      in_.fail("a second entity of dimension {} with tag {}", dim, tag);
     }
   }
 
@@ -283,7 +351,7 @@ class SectionReader {
     numbers_.size("the greatest node tag", 0, kLargestTag);
     for (long long b = 0; b < n_blocks; ++b) node_block(count);
     if (static_cast<long long>(contents_.nodes.size()) != count) {
-      in_.fail(fmt::format("the blocks hold {} nodes, but {} were announced", contents_.nodes.size(), count));
+      in_.fail("the blocks hold {} nodes, but {} were announced", contents_.nodes.size(), count);
     }
   }
 
@@ -294,7 +362,7 @@ class SectionReader {
     const size_t first = contents_.nodes.size();
     const long long count = numbers_.size("the number of nodes in the block", 0, INT_MAX);
     if (static_cast<long long>(first) + count > announced) {
-      in_.fail(fmt::format("more nodes than the {} announced", announced));
+      in_.fail("more nodes than the {} announced", announced);
     }
     for (long long i = 0; i < count; ++i) {
       const long long tag = node_tag();
@@ -317,7 +385,7 @@ class SectionReader {
     long long total = 0;
     for (long long b = 0; b < n_blocks; ++b) total += element_block(announced - total);
     if (total != announced) {
-      in_.fail(fmt::format("the blocks hold {} elements, but {} were announced", total, announced));
+      in_.fail("the blocks hold {} elements, but {} were announced", total, announced);
     }
   }
 
@@ -328,7 +396,7 @@ class SectionReader {
     const NodeCount nodes =
         nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
     if (dim != std::min(nodes.corners - 1, 2)) {
-      in_.fail(fmt::format("elements of {} corners in a block of dimension {}", nodes.corners, dim));
+      in_.fail("elements of {} corners in a block of dimension {}", nodes.corners, dim);
     }
     const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
     if (count > most) in_.fail("more elements than announced");

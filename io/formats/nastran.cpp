@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,9 +9,9 @@
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
@@ -140,11 +139,11 @@ class NastranReader {
     } else if (kind != kinds.end()) {
       element(kind->second[0], kind->second[1], kind->second[2]);
     } else if (card_.name == "GRDSET" && !field(1).empty() && field(1) != "0") {
-      in_.fail("GRDSET with a coordinate system: expected nodes in the basic one (0)", card_.line);
+      in_.fail_at(card_.line, "GRDSET with a coordinate system: expected nodes in the basic one (0)");
     } else {
       for (const char* other : {"CTRIA6", "CTETRA", "CHEXA", "CPENTA", "CPYRAM"})
         if (card_.name == other)
-          in_.fail(fmt::format("{}: expected a mesh of lines, CTRIA3, CQUAD4 and CQUAD8", other), card_.line);
+          in_.fail_at(card_.line, "{}: expected a mesh of lines, CTRIA3, CQUAD4 and CQUAD8", other);
     }
     card_ = {};
   }
@@ -158,9 +157,8 @@ class NastranReader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < 1 ||
         value > NumberedEntities::kMostNumber)
-      in_.fail(fmt::format("expected {} (an integer from 1 to {}), found {}", what,
-                           NumberedEntities::kMostNumber, TextScanner::printable(text)),
-               line);
+      in_.fail_at(line, "expected {} (an integer from 1 to {}), found {}", what,
+                  NumberedEntities::kMostNumber, TextScanner::printable(text));
     return value;
   }
 
@@ -176,19 +174,18 @@ class NastranReader {
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-      in_.fail(fmt::format("expected a coordinate (a finite number), found {}", TextScanner::printable(text)),
-               card_.line);
+      in_.fail_at(card_.line, "expected a coordinate (a finite number), found {}",
+                  TextScanner::printable(text));
     return value;
   }
 
   void grid() {
     const long long number = integer(field(0), "a node's number", card_.line);
     if (!field(1).empty() && field(1) != "0")
-      in_.fail(fmt::format("node {} in the coordinate system {}: expected the basic one (0)", number,
-                           TextScanner::printable(field(1))),
-               card_.line);
+      in_.fail_at(card_.line, "node {} in the coordinate system {}: expected the basic one (0)", number,
+                  TextScanner::printable(field(1)));
     if (!node_of_.emplace(number, static_cast<int>(mesh_.points.size())).second)
-      in_.fail(fmt::format("node {} is there twice", number), card_.line);
+      in_.fail_at(card_.line, "node {} is there twice", number);
     const double x = real(field(2)), y = real(field(3)), z = real(field(4));
     mesh_.points.push_back({x, y, z});
   }
@@ -207,37 +204,23 @@ class NastranReader {
 
   int node(long long number, int line) const {
     const auto found = node_of_.find(number);
-    if (found == node_of_.end()) in_.fail(fmt::format("there is no node {}", number), line);
+    if (found == node_of_.end()) in_.fail_at(line, "there is no node {}", number);
     return found->second;
   }
 
   /// Nodes may stand behind the elements that have them.
   void make_mesh() {
     if (elements_.empty()) in_.fail("the file holds no lines, triangles or quads, such as CQUAD4");
-    std::vector<int> nodes, places;
+    std::vector<int> nodes;
     for (const NastranElement& e : elements_) {
       nodes.clear();
       for (const long long number : e.nodes) nodes.push_back(node(number, e.line));
-      const int order = nodes.size() == 8 ? 2 : 1;
-      if (!takes_order(mesh_, order)) in_.fail(other_order(order, mesh_.order), e.line);
-      const int entity = entities_.index(e.dim, e.property, mesh_);
-      if (nodes.size() == 2) {
-        add_line(mesh_, nodes, entity);
-      } else if (nodes.size() == 3) {
-        mesh_.triangles.push_back({nodes[0], nodes[1], nodes[2]});
-        mesh_.triangle_region.push_back(entity);
-      } else {
-        if (places.empty()) places = gmsh_places(order);
-        add_quad(mesh_, nodes, places, entity);
-      }
+      const std::string wrong = add_element(mesh_, static_cast<int>(std::min<size_t>(nodes.size(), 4)), nodes,
+                                            entities_.index(e.dim, e.property, mesh_));
+      if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
     }
-    std::map<int, size_t> named;
-    for (const PointName& point : point_names_) {
-      const int i = node(point.number, point.line);
-      const auto [at, is_new] = named.emplace(i, mesh_.named_points.size());
-      if (is_new) mesh_.named_points.push_back({i, {static_cast<int>(at->second) + 1, {}}});
-      mesh_.named_points[at->second].entity.names.push_back(point.name);
-    }
+    NamedPoints named;
+    for (const PointName& point : point_names_) named.add(mesh_, node(point.number, point.line), point.name);
     drop_unused_points(mesh_);
   }
 

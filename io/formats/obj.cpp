@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <map>
 
@@ -50,8 +49,7 @@ class ObjReader : FaceReader {
     const bool is_planar = ends();
     if (mesh_.points.empty()) is_planar_ = is_planar;
     if (is_planar != is_planar_)
-      in_.fail(
-          fmt::format("expected {} coordinates, as the points before have", is_planar_ ? "two" : "three"));
+      in_.fail("expected {} coordinates, as the points before have", is_planar_ ? "two" : "three");
     const double z = is_planar ? 0 : coordinate();
     add_point({x, y, z});
   }
@@ -67,7 +65,7 @@ class ObjReader : FaceReader {
       const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), v);
       const bool is_number = error == std::errc() && (end == token.data() + token.size() || *end == '/');
       if (!is_number || v == 0 || v > n || v < -n) {
-        in_.fail(fmt::format("expected a vertex from 1 to {}, found {}", n, TextScanner::printable(token)));
+        in_.fail("expected a vertex from 1 to {}, found {}", n, TextScanner::printable(token));
       }
       result.push_back(static_cast<int>(v > 0 ? v - 1 : n + v));
     }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <bit>
 #include <climits>
@@ -26,24 +25,22 @@ class OffReader : FaceReader {
     constexpr long long kLeastPoint = 6,
                         kLeastFace = 8;  // bytes of "0 0 0" and "3 0 0 0" with their line ends
     if (n_points * kLeastPoint + n_faces * kLeastFace > static_cast<long long>(in_.bytes_left()) + 1) {
-      in_.fail(fmt::format("{} vertices and {} faces do not fit in the {} bytes that follow", n_points,
-                           n_faces, in_.bytes_left()));
+      in_.fail("{} vertices and {} faces do not fit in the {} bytes that follow", n_points, n_faces,
+               in_.bytes_left());
     }
     for (long long i = 0; i < n_points; ++i) read_point();
     for (long long i = 0; i < n_faces; ++i) {
       in_.skip_comments();
       if (in_.at_end())
-        in_.fail(
-            fmt::format("the header announces {} vertices and {} faces, but {} faces follow the vertices",
-                        n_points, n_faces, i));
+        in_.fail("the header announces {} vertices and {} faces, but {} faces follow the vertices", n_points,
+                 n_faces, i);
       read_face();
     }
     in_.skip_comments();
     if (!in_.at_end()) {
       const std::string_view found = in_.token("the end");
-      in_.fail(fmt::format(
-          "expected the end of the file after {} vertices and {} faces, as the header says, found {}",
-          n_points, n_faces, TextScanner::printable(found)));
+      in_.fail("expected the end of the file after {} vertices and {} faces, as the header says, found {}",
+               n_points, n_faces, TextScanner::printable(found));
     }
     return whole(notes);
   }
@@ -63,8 +60,7 @@ class OffReader : FaceReader {
     const bool known = word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" ||
                        word == "STOFF" || word == "STCOFF" || word == "STNOFF" || word == "STCNOFF";
     if (!known) {
-      in_.fail(fmt::format("expected 'OFF' (points of three coordinates), found {}",
-                           TextScanner::printable(word)));
+      in_.fail("expected 'OFF' (points of three coordinates), found {}", TextScanner::printable(word));
     }
     for (const auto& [letter, numbers] : {std::pair{"ST", 2}, {"C", 4}, {"N", 3}})
       if (word.find(letter) < word.find("OFF")) numbers_beside_ += numbers;
@@ -84,7 +80,7 @@ class OffReader : FaceReader {
   std::uint32_t count(std::string_view what, std::size_t bytes_each) {
     const std::uint32_t n = word32(what);
     if (n > in_.bytes_left() / bytes_each)
-      in_.fail(fmt::format("{}: {} do not fit in the {} bytes that follow", what, n, in_.bytes_left()));
+      in_.fail("{}: {} do not fit in the {} bytes that follow", what, n, in_.bytes_left());
     return n;
   }
 
@@ -109,15 +105,15 @@ class OffReader : FaceReader {
       std::vector<int> v(count("the number of a face's vertices", 4));
       for (int& vertex : v) {
         const std::uint32_t index = word32("a vertex");
-        if (index >= n_points) in_.fail(fmt::format("expected a vertex below {}, found {}", n_points, index));
+        if (index >= n_points) in_.fail("expected a vertex below {}, found {}", n_points, index);
         vertex = static_cast<int>(index);
       }
       add_face(v, 0);
       in_.bytes(4 * std::size_t{count("the number of a colour's parts", 4)}, "a colour");
     }
     if (in_.bytes_left() > 0)
-      in_.fail(fmt::format("{} bytes follow the {} vertices and {} faces that the header announces",
-                           in_.bytes_left(), n_points, n_faces));
+      in_.fail("{} bytes follow the {} vertices and {} faces that the header announces", in_.bytes_left(),
+               n_points, n_faces);
     return whole(notes);
   }
 
@@ -138,9 +134,9 @@ class OffReader : FaceReader {
     const long long last = static_cast<long long>(mesh_.points.size()) - 1;
     if (n < 3)
       in_.fail(
-          fmt::format("face of {} vertices: expected three or more; is the number of vertices in the header "
-                      "right ({})?",
-                      n, last + 1));
+          "face of {} vertices: expected three or more; is the number of vertices in the header "
+          "right ({})?",
+          n, last + 1);
     std::vector<int> v;
     for (long long k = 0; k < n; ++k) v.push_back(static_cast<int>(in_.integer("a vertex", 0, last)));
     add_face(v, 0);

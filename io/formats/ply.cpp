@@ -65,8 +65,8 @@ class PlyReader : FaceReader {
       const bool fits = element.number <= static_cast<long long>(in_.bytes_left() + 1) /
                                               std::max(1LL, element.least_bytes(coding_));
       if (!fits)
-        in_.fail(fmt::format("{} elements {} do not fit in the {} bytes that follow", element.number,
-                             TextScanner::printable(element.name), in_.bytes_left()));
+        in_.fail("{} elements {} do not fit in the {} bytes that follow", element.number,
+                 TextScanner::printable(element.name), in_.bytes_left());
       for (long long i = 0; i < element.number; ++i) read_element(element, i);
     }
     check_end();
@@ -93,8 +93,7 @@ class PlyReader : FaceReader {
       } else if (keyword == "end_header") {
         break;
       } else if (keyword != "comment" && keyword != "obj_info" && !keyword.starts_with('#')) {
-        in_.fail(fmt::format("expected 'element', 'property' or 'end_header', found {}",
-                             TextScanner::printable(keyword)));
+        in_.fail("expected 'element', 'property' or 'end_header', found {}", TextScanner::printable(keyword));
       }
       in_.rest_of_line();
     }
@@ -114,8 +113,8 @@ class PlyReader : FaceReader {
     else if (format == "binary_big_endian")
       coding_ = Coding::kBig;
     else
-      in_.fail(fmt::format("expected 'ascii', 'binary_little_endian' or 'binary_big_endian', found {}",
-                           TextScanner::printable(format)));
+      in_.fail("expected 'ascii', 'binary_little_endian' or 'binary_big_endian', found {}",
+               TextScanner::printable(format));
   }
 
   const Scalar* read_type() {
@@ -123,8 +122,7 @@ class PlyReader : FaceReader {
     const auto at =
         std::ranges::find_if(kScalars, [&](const Scalar& s) { return name == s.name || name == s.old_name; });
     if (at == kScalars.end())
-      in_.fail(
-          fmt::format("expected a type such as 'float' or 'int', found {}", TextScanner::printable(name)));
+      in_.fail("expected a type such as 'float' or 'int', found {}", TextScanner::printable(name));
     return &*at;
   }
 
@@ -148,7 +146,7 @@ class PlyReader : FaceReader {
     if (vertex == elements_.end()) in_.fail("the header has no element 'vertex'");
     for (const char* name : {"x", "y", "z"})
       if (std::ranges::find(vertex->properties, name, &Property::name) == vertex->properties.end())
-        in_.fail(fmt::format("the vertices have no property '{}'", name));
+        in_.fail("the vertices have no property '{}'", name);
     n_vertices_ = vertex->number;
     if (std::ranges::find(elements_, "tristrips", &Element::name) != elements_.end())
       in_.fail("triangle strips: expected an element 'face'");
@@ -182,12 +180,12 @@ class PlyReader : FaceReader {
     const double count = scalar(property, *property.count);
     property_counts_ = corners != nullptr;
     if (!(count >= 0 && count <= static_cast<double>(in_.bytes_left())))
-      in_.fail(fmt::format("{} lists {} values, which do not follow", property.shown, count));
+      in_.fail("{} lists {} values, which do not follow", property.shown, count);
     for (long long k = 0; k < static_cast<long long>(count); ++k) {
       const double v = scalar(property, *property.type);
       if (corners == nullptr) continue;
       if (!(v >= 0 && v < static_cast<double>(n_vertices_)))
-        in_.fail(fmt::format("expected a vertex from 0 to {}, found {}", n_vertices_ - 1, v));
+        in_.fail("expected a vertex from 0 to {}, found {}", n_vertices_ - 1, v);
       corners->push_back(static_cast<int>(v));
     }
   }
@@ -205,20 +203,19 @@ class PlyReader : FaceReader {
     if (coding_ == Coding::kText) in_.skip_comments();
     const std::string_view rest = in_.text().substr(in_.text().size() - in_.bytes_left());
     if (rest.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
-      in_.fail(fmt::format(
+      in_.fail(
           "expected the end of the file after the elements that the header announces ({}): {} bytes follow",
-          announced(), rest.size()));
+          announced(), rest.size());
   }
 
   /// Texts have one element on each line: else their number in the header is wrong.
   void check_line(const Element& element, long long i, int line) {
     if (coding_ != Coding::kText) return;
     if (in_.line() != line || !(in_.at_end_of_line() || in_.next_is('#')))
-      in_.fail(fmt::format(
-                   "element {} of {} {}: expected its values, and no others, on a line; are the numbers of "
-                   "elements in the header right ({})?",
-                   i + 1, element.number, TextScanner::printable(element.name), announced()),
-               line);
+      in_.fail_at(line,
+                  "element {} of {} {}: expected its values, and no others, on a line; are the numbers of "
+                  "elements in the header right ({})?",
+                  i + 1, element.number, TextScanner::printable(element.name), announced());
     in_.rest_of_line();
   }
 
@@ -228,8 +225,8 @@ class PlyReader : FaceReader {
     if (coding_ == Coding::kText) {
       in_.skip_comments();
       if (in_.at_end())
-        in_.fail(fmt::format("the header announces {} elements {}, but {} follow", element.number,
-                             TextScanner::printable(element.name), i));
+        in_.fail("the header announces {} elements {}, but {} follow", element.number,
+                 TextScanner::printable(element.name), i);
     }
     const int line = in_.line();
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";

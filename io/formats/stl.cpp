@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
@@ -63,16 +64,15 @@ size_t byte_of(size_t facet, size_t number) {
 Mesh read_binary(const TextScanner& in, const std::string& path, std::uint32_t n, Strays strays) {
   const std::string_view bytes = in.text();
   if (bytes.size() < kFirstFacet) {
-    throw InputError(
-        fmt::format("{}: {} bytes: expected an STL file, which begins with \"solid\" or has {} bytes before "
-                    "its triangles",
-                    path, bytes.size(), kFirstFacet));
+    refuse(
+        "{}: {} bytes: expected an STL file, which begins with \"solid\" or has {} bytes before "
+        "its triangles",
+        path, bytes.size(), kFirstFacet);
   }
   const size_t expected = kFirstFacet + n * kFacet;
   if (bytes.size() != expected) {
-    throw InputError(
-        fmt::format("{}: {} bytes, but its {} triangles (byte {}) take {}: expected a whole STL file", path,
-                    bytes.size(), n, kHeader, expected));
+    refuse("{}: {} bytes, but its {} triangles (byte {}) take {}: expected a whole STL file", path,
+           bytes.size(), n, kHeader, expected);
   }
   Mesh mesh;
   mesh.regions = {{1, {}}};
@@ -82,8 +82,7 @@ Mesh read_binary(const TextScanner& in, const std::string& path, std::uint32_t n
       const size_t byte = byte_of(facet, k);
       const float value = std::bit_cast<float>(little_endian(bytes, byte));
       if (strays == Strays::kRefused && !std::isfinite(value)) {
-        throw InputError(
-            fmt::format("{}: byte {}: coordinate {}: expected a finite number", path, byte, value));
+        refuse("{}: byte {}: coordinate {}: expected a finite number", path, byte, value);
       }
       return in.finite(double{value}, strays);
     };
@@ -125,7 +124,7 @@ class TextReader {
   void expect(std::string_view word) {
     const std::string found = next_word(fmt::format("'{}'", word));
     if (!same_word(found, word)) {
-      in_.fail(fmt::format("expected '{}', found {}", word, TextScanner::printable(found)));
+      in_.fail("expected '{}', found {}", word, TextScanner::printable(found));
     }
   }
 
@@ -136,7 +135,7 @@ class TextReader {
     const std::string word = next_word("'facet' or 'endsolid'");
     if (same_word(word, "endsolid")) return false;
     if (!same_word(word, "facet")) {
-      in_.fail(fmt::format("expected 'facet' or 'endsolid', found {}", TextScanner::printable(word)));
+      in_.fail("expected 'facet' or 'endsolid', found {}", TextScanner::printable(word));
     }
     expect("normal");
     for (int k = 0; k < 3; ++k) in_.token("a normal");  // some programs write nan; it is not needed

@@ -1,6 +1,6 @@
-#include "delquad/error.h"
+#include "base/located.h"
+#include "io/entity_names.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 
@@ -10,8 +10,7 @@ namespace {
 /// SU2's own format, of planar meshes: a marker for each name of the boundary.
 void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   if (!is_planar(mesh))
-    throw InputError(path.string() +
-                     ": SU2 computes in planar meshes or in volumes: this is a surface in space");
+    refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   constexpr int kLine = 3, kTriangle = 5, kQuad = 9;

@@ -117,7 +117,7 @@ class Archive {
 
  private:
   [[noreturn]] void fail(const std::string& name, const char* reason) const {
-    throw InputError(fmt::format("{}: {} cannot be unpacked: {}", path_, name, reason));
+    refuse("{}: {} cannot be unpacked: {}", path_, name, reason);
   }
 
   std::string path_;
@@ -199,7 +199,7 @@ class ModelParser {
 
   static std::string_view text_of(const Attributes& attributes, std::string_view key) {
     const auto at = attributes.find(key);
-    if (at == attributes.end()) throw InputError(fmt::format("expected an attribute '{}'", key));
+    if (at == attributes.end()) refuse("expected an attribute '{}'", key);
     return at->second;
   }
 
@@ -211,7 +211,7 @@ class ModelParser {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() ||
         !std::isfinite(static_cast<double>(value)))
-      throw InputError(fmt::format("{}: expected a number, found {}", what, TextScanner::printable(text)));
+      refuse("{}: expected a number, found {}", what, TextScanner::printable(text));
     return value;
   }
 
@@ -235,8 +235,7 @@ class ModelParser {
         std::ranges::find_if(attributes, [](const auto& a) { return a.first.ends_with(":path"); });
     const std::string part = path == attributes.end() ? part_ : read_part(path->second);
     if (objects.find({part, id}) == objects.end())
-      throw InputError(fmt::format("objectid {}: there is no such object {}", id,
-                                   part == part_ ? "before it" : "in " + part));
+      refuse("objectid {}: there is no such object {}", id, part == part_ ? "before it" : "in " + part);
     return {{part, id}, transform_of(attributes)};
   }
 
@@ -245,11 +244,10 @@ class ModelParser {
     std::string part(path.substr(path.starts_with('/') ? 1 : 0));
     if (part == part_) return part;
     if (main_ != nullptr)
-      throw InputError(fmt::format("an object in {}: expected objects in other files in the main model alone",
-                                   TextScanner::printable(path)));
+      refuse("an object in {}: expected objects in other files in the main model alone",
+             TextScanner::printable(path));
     if (!parts_.insert(part).second) return part;
-    if (!archive_.text_of(part))
-      throw InputError(fmt::format("there is no file {} in the archive", TextScanner::printable(path)));
+    if (!archive_.text_of(part)) refuse("there is no file {} in the archive", TextScanner::printable(path));
     ModelParser(archive_, part, objects, this).parse();
     return part;
   }
@@ -284,11 +282,9 @@ class ModelParser {
     const auto given = attributes.find("unit");
     if (given == attributes.end()) return;
     const auto at = kUnits.find(given->second);
-    if (at == kUnits.end())
-      throw InputError(fmt::format("unknown unit {}", TextScanner::printable(given->second)));
+    if (at == kUnits.end()) refuse("unknown unit {}", TextScanner::printable(given->second));
     if (main_ != nullptr && unit != at->second)
-      throw InputError(fmt::format("lengths in {}, but those of the main model are in {}: expected one unit",
-                                   at->second, unit));
+      refuse("lengths in {}, but those of the main model are in {}: expected one unit", at->second, unit);
     unit = at->second;
   }
 
@@ -312,7 +308,7 @@ class ModelParser {
   void begin_object(const Attributes& attributes) {
     const int id = number<int>(text_of(attributes, "id"), "id");
     const auto [at, is_new] = objects.try_emplace({part_, id});
-    if (!is_new) throw InputError(fmt::format("a second object {}", id));
+    if (!is_new) refuse("a second object {}", id);
     object_ = &at->second;
     if (const auto name = attributes.find("name"); name != attributes.end()) object_->name = name->second;
     const auto pid = attributes.find("pid"), index = attributes.find("pindex");
@@ -326,8 +322,7 @@ class ModelParser {
       constexpr std::array<const char*, 3> kNames = {"v1", "v2", "v3"};
       const int v = number<int>(text_of(attributes, kNames[k]), kNames[k]);
       if (v < 0 || v >= static_cast<int>(object_->points.size()))
-        throw InputError(
-            fmt::format("{}: expected a vertex below {}, found {}", kNames[k], object_->points.size(), v));
+        refuse("{}: expected a vertex below {}, found {}", kNames[k], object_->points.size(), v);
       triangle.v[k] = v;
     }
     triangle.colour = colour_of(attributes, "pid", "p1");
@@ -339,8 +334,7 @@ class ModelParser {
     constexpr int kDeepest = 64;
     if (&objects.at(component.object) == object_) throw InputError("an object that holds itself");
     object_->depth = std::max(object_->depth, objects.at(component.object).depth + 1);
-    if (object_->depth > kDeepest)
-      throw InputError(fmt::format("objects within objects to more than {} levels", kDeepest));
+    if (object_->depth > kDeepest) refuse("objects within objects to more than {} levels", kDeepest);
     object_->components.push_back(component);
     object_->size += objects.at(component.object).size;
   }
@@ -412,8 +406,7 @@ Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes, Strays strays
   double size = 0;
   for (const Component& item : model.build) size += model.objects.at(item.object).size;
   if (size > kMost)
-    throw InputError(
-        fmt::format("{}: its objects have more than {:.0e} points and triangles", path.string(), kMost));
+    refuse("{}: its objects have more than {:.0e} points and triangles", path.string(), kMost);
   Assembly assembly(model);
   for (const Component& item : model.build) located(path.string(), [&] { assembly.add(item, {}, ""); });
   Mesh mesh = std::move(assembly.mesh);

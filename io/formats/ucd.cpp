@@ -5,9 +5,9 @@
 
 #include "geometry/mesh/drop_unused_points.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "io/text_writer.h"
@@ -32,9 +32,8 @@ class UcdReader {
     // Values follow, where they are announced, which are no part of the mesh.
     skip_comments();
     if (n_values == 0 && !in_.at_end())
-      in_.fail(fmt::format(
-          "expected the end of the file after {} nodes and {} cells, as the header says, found {}", n_points,
-          n_cells, TextScanner::printable(in_.token("the end"))));
+      in_.fail("expected the end of the file after {} nodes and {} cells, as the header says, found {}",
+               n_points, n_cells, TextScanner::printable(in_.token("the end")));
     drop_unused_points(mesh_);
     return std::move(mesh_);
   }
@@ -52,44 +51,29 @@ class UcdReader {
   void node() {
     const long long number = in_.integer("a node's number", 0, LLONG_MAX);
     if (!node_of_.emplace(number, static_cast<int>(mesh_.points.size())).second)
-      in_.fail(fmt::format("node {} is there twice", number));
+      in_.fail("node {} is there twice", number);
     const double x = in_.real("a coordinate"), y = in_.real("a coordinate"), z = in_.real("a coordinate");
     mesh_.points.push_back({x, y, z});
-  }
-
-  template <size_t N>
-  std::array<int, N> nodes() {
-    std::array<int, N> v;
-    for (int& i : v) {
-      const long long number = in_.integer("a node's number", 0, LLONG_MAX);
-      const auto found = node_of_.find(number);
-      if (found == node_of_.end()) in_.fail(fmt::format("there is no node {}", number));
-      i = found->second;
-    }
-    return v;
   }
 
   void cell() {
     constexpr long long kLargestNumber = NumberedEntities::kMostNumber;
     in_.integer("a cell's number", 0, LLONG_MAX);
     const long long material = in_.integer("a material", -kLargestNumber, kLargestNumber);
-    const std::string type(in_.token("a type of cell"));
-    const auto entity = [&](int dim) { return entities_.index(dim, material, mesh_); };
-    if (type == "pt") {
-      nodes<1>();
-    } else if (type == "line") {
-      mesh_.lines.push_back(nodes<2>());
-      mesh_.line_curve.push_back(entity(1));
-    } else if (type == "tri") {
-      mesh_.triangles.push_back(nodes<3>());
-      mesh_.triangle_region.push_back(entity(2));
-    } else if (type == "quad") {
-      mesh_.quads.push_back(nodes<4>());
-      mesh_.quad_region.push_back(entity(2));
-    } else {
-      in_.fail(
-          fmt::format("a cell of type {}: expected pt, line, tri or quad", TextScanner::printable(type)));
+    const std::string_view type = in_.token("a type of cell");
+    static const std::map<std::string_view, int> corners = {{"pt", 1}, {"line", 2}, {"tri", 3}, {"quad", 4}};
+    const auto known = corners.find(type);
+    if (known == corners.end())
+      in_.fail("a cell of type {}: expected pt, line, tri or quad", TextScanner::printable(type));
+    std::vector<int> v;
+    for (int k = 0; k < known->second; ++k) {
+      const long long number = in_.integer("a node's number", 0, LLONG_MAX);
+      const auto found = node_of_.find(number);
+      if (found == node_of_.end()) in_.fail("there is no node {}", number);
+      v.push_back(found->second);
     }
+    const int n = known->second;
+    if (n > 1) add_element(mesh_, n, v, entities_.index(n == 2 ? 1 : 2, material, mesh_));
   }
 
   TextScanner in_;

@@ -12,7 +12,6 @@
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "io/xml.h"
 #include "metrics/metrics.h"

@@ -15,9 +15,11 @@
 #include <optional>
 #include <sstream>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/face_reader.h"
 #include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "io/nodal_values.h"
@@ -82,21 +84,20 @@ class VtuReader {
     parse();
     const Tree& file = child(tree_, "VTKFile");
     if (attribute(file, "type") != "UnstructuredGrid")
-      fail("a VTK file of type " + shown(attribute(file, "type")) + ": expected an UnstructuredGrid");
+      fail("a VTK file of type {}: expected an UnstructuredGrid", shown(attribute(file, "type")));
     swapped_ = attribute(file, "byte_order", "LittleEndian") !=
                (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
     wide_header_ = attribute(file, "header_type", "UInt32") == "UInt64";
     const std::string compressor = attribute(file, "compressor", "");
     packed_ = compressor == "vtkZLibDataCompressor";
     if (!compressor.empty() && !packed_)
-      fail("compressed by " + shown(compressor) + ": expected vtkZLibDataCompressor or none");
+      fail("compressed by {}: expected vtkZLibDataCompressor or none", shown(compressor));
     const Tree& grid = child(file, "UnstructuredGrid");
     for (const auto& [name, piece] : grid)
       if (name == "Piece") read_piece(piece);
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
       fail("the file holds no lines, triangles or quads");
-    if (field_ && mesh_.order > 1)
-      fail(fmt::format("a field on elements of order {}: expected order 1", mesh_.order));
+    if (field_ && mesh_.order > 1) fail("a field on elements of order {}: expected order 1", mesh_.order);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
     if (!field_) drop_unused_points(mesh_);
@@ -114,7 +115,10 @@ class VtuReader {
 
  private:
   static std::string shown(const std::string& text) { return TextScanner::printable(text); }
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(path_ + ": " + message); }
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
+    refuse("{}: {}", path_, fmt::format(text, std::forward<Args>(args)...));
+  }
 
   /// Raw appended data is no XML and is cut out before.
   void parse() {
@@ -128,13 +132,12 @@ class VtuReader {
       has_appended_ = true;
     }
     if (depth_of(text) > kDeepest)
-      fail(fmt::format("elements within elements to more than {} levels: expected a VTU file", kDeepest));
+      fail("elements within elements to more than {} levels: expected a VTU file", kDeepest);
     std::istringstream stream(std::move(text));
     try {
       read_xml(stream, tree_);
     } catch (const boost::property_tree::xml_parser_error& error) {
-      throw InputError(
-          fmt::format("{}:{}: {}: expected a VTU file, which is XML", path_, error.line(), error.message()));
+      refuse("{}:{}: {}: expected a VTU file, which is XML", path_, error.line(), error.message());
     }
     if (!has_appended_) return;
     const std::string encoding = attribute(child(child(tree_, "VTKFile"), "AppendedData"), "encoding", "raw");
@@ -143,7 +146,7 @@ class VtuReader {
 
   const Tree& child(const Tree& tree, const std::string& name) const {
     const auto found = tree.find(name);
-    if (found == tree.not_found()) fail("expected an element <" + name + ">");
+    if (found == tree.not_found()) fail("expected an element <{}>", name);
     return found->second;
   }
 
@@ -159,7 +162,7 @@ class VtuReader {
 
   const Tree& needed_array(const Tree& parent, const std::string& name) const {
     const Tree* array = array_named(parent, name);
-    if (!array) fail("expected a data array '" + name + "'");
+    if (!array) fail("expected a data array '{}'", name);
     return *array;
   }
 
@@ -189,8 +192,7 @@ class VtuReader {
       const std::uint64_t n = header_number(bytes, 0);
       // Some programs encode the number apart from the data.
       if (!is_raw && bytes.size() == width) bytes += from_base64(text.substr(used));
-      if (bytes.size() - width < n)
-        fail(fmt::format("a data array of {} bytes has only {}", n, bytes.size() - width));
+      if (bytes.size() - width < n) fail("a data array of {} bytes has only {}", n, bytes.size() - width);
       return bytes.substr(width, n);
     }
     size_t used = 0;
@@ -240,7 +242,7 @@ class VtuReader {
     std::string bytes;
     if (format == "appended") {
       const auto offset = array.get<std::uint64_t>("<xmlattr>.offset", appended_.size() + 1);
-      if (offset > appended_.size()) fail("data array " + shown(name) + " lies behind the appended data");
+      if (offset > appended_.size()) fail("data array {} lies behind the appended data", shown(name));
       bytes = payload(std::string_view(appended_).substr(offset), raw_);
     } else {
       bytes = payload(array.data(), false);
@@ -255,7 +257,7 @@ class VtuReader {
     if (type == "UInt16") return values<std::uint16_t>(bytes);
     if (type == "Int8") return values<std::int8_t>(bytes);
     if (type == "UInt8") return values<std::uint8_t>(bytes);
-    fail("data array " + shown(name) + " of type " + shown(type) + ": expected numbers");
+    fail("data array {} of type {}: expected numbers", shown(name), shown(type));
   }
 
   std::vector<double> read_text(const std::string& text, const std::string& name) const {
@@ -266,7 +268,7 @@ class VtuReader {
       if (at == end) return result;
       double value = 0;
       const auto [stop, error] = std::from_chars(at, end, value);
-      if (error != std::errc()) fail("data array " + shown(name) + ": expected numbers");
+      if (error != std::errc()) fail("data array {}: expected numbers", shown(name));
       result.push_back(value);
       at = stop;
     }
@@ -274,7 +276,7 @@ class VtuReader {
 
   void check_number(const Tree& piece, const std::string& name, size_t n) const {
     const auto announced = piece.get_optional<size_t>("<xmlattr>." + name);
-    if (announced && *announced != n) fail(fmt::format("{} is {}, but there are {}", name, *announced, n));
+    if (announced && *announced != n) fail("{} is {}, but there are {}", name, *announced, n);
   }
 
   void read_piece(const Tree& piece) {
@@ -284,7 +286,7 @@ class VtuReader {
     const size_t first = mesh_.points.size();
     for (size_t i = 0; i + 2 < xyz.size(); i += 3) {
       for (size_t k = 0; k < 3; ++k)
-        if (!std::isfinite(xyz[i + k])) fail(fmt::format("point {}: expected finite coordinates", i / 3));
+        if (!std::isfinite(xyz[i + k])) fail("point {}: expected finite coordinates", i / 3);
       mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
     }
     const size_t n_points = mesh_.points.size() - first;
@@ -294,7 +296,7 @@ class VtuReader {
                               offsets = read_array(needed_array(cells, "offsets")),
                               types = read_array(needed_array(cells, "types"));
     if (types.size() != offsets.size())
-      fail(fmt::format("{} types of cells and {} offsets", types.size(), offsets.size()));
+      fail("{} types of cells and {} offsets", types.size(), offsets.size());
     check_number(piece, "NumberOfCells", types.size());
     const std::vector<double> curve = tags(piece, "curve", types.size()),
                               region = tags(piece, "region", types.size());
@@ -303,11 +305,11 @@ class VtuReader {
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
-        fail(fmt::format("cell {} lies outside of the connectivity", c));
+        fail("cell {} lies outside of the connectivity", c);
       std::vector<int> v;
       for (auto k = static_cast<size_t>(begin); k < static_cast<size_t>(offsets[c]); ++k) {
         if (!(corners[k] >= 0 && corners[k] < static_cast<double>(n_points)))
-          fail(fmt::format("cell {}: there is no point {}", c, corners[k]));
+          fail("cell {}: there is no point {}", c, corners[k]);
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
       add_cell(as_int(types[c]), v, curve[c], region[c]);
@@ -339,8 +341,8 @@ class VtuReader {
     std::vector<double> all = read_array(*arrays[chosen]);
     const size_t n = is_of_points_ ? n_points : n_cells;
     if (all.size() != n)
-      fail(fmt::format("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
-                       is_of_points_ ? "points" : "cells"));
+      fail("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
+           is_of_points_ ? "points" : "cells");
     return all;
   }
 
@@ -349,10 +351,10 @@ class VtuReader {
     const Tree* array = data == piece.not_found() ? nullptr : array_named(data->second, name);
     if (!array) return std::vector<double>(n, 0);
     std::vector<double> all = read_array(*array);
-    if (all.size() != n) fail(fmt::format("data array '{}': {} values for {} cells", name, all.size(), n));
+    if (all.size() != n) fail("data array '{}': {} values for {} cells", name, all.size(), n);
     for (const double tag : all)
       if (!(tag >= 0 && tag < INT_MAX && tag == std::floor(tag)))
-        fail(fmt::format("data array '{}': {}: expected whole numbers", name, tag));
+        fail("data array '{}': {}: expected whole numbers", name, tag);
     return all;
   }
 
@@ -366,19 +368,17 @@ class VtuReader {
     return type == kTriangle ? 3 : 0;
   }
 
-  /// The order of a cell.
-  int order_of_cell(int type, int corners, size_t n_points) const {
+  void check_cell(int type, int corners, size_t n_points) const {
     constexpr int kLagrangeLine = 68;
     static const std::map<int, size_t> points = {{3, 2}, {5, 3}, {9, 4}, {21, 3}, {23, 8}, {28, 9}};
-    const int order = corners == 3 ? 1 : corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
+    const int order = corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
     const auto given = points.find(type);
     if (given != points.end() && n_points != given->second)
-      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points, given->second));
+      fail("a cell of type {} has {} points: expected {}", type, n_points, given->second);
     constexpr size_t kEight = 8;
     if (given == points.end() && (order == 0 || n_points == kEight))
-      fail(fmt::format("a cell of type {} has {} points: expected {}", type, n_points,
-                       type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25"));
-    return order;
+      fail("a cell of type {} has {} points: expected {}", type, n_points,
+           type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25");
   }
 
   void add_cell(int type, const std::vector<int>& v, double curve, double region) {
@@ -386,19 +386,11 @@ class VtuReader {
     if (type == kVertex || type == kPolyVertex) return;
     const int corners = corners_of_type(type);
     if (corners == 0)
-      fail(fmt::format(
-          "a cell of type {}: expected lines (3, 21, 68), triangles (5) and quads (9, 23, 28, 70)", type));
-    const int order = order_of_cell(type, corners, v.size());
-    if (!takes_order(mesh_, order)) fail(other_order(order, mesh_.order));
-    if (corners == 2) {
-      add_line(mesh_, v, entity(mesh_.curves, 1, curve));
-    } else if (corners == 3) {
-      mesh_.triangles.push_back({v[0], v[1], v[2]});
-      mesh_.triangle_region.push_back(entity(mesh_.regions, 2, region));
-    } else {
-      if (places_.empty()) places_ = vtk_places(order);
-      add_quad(mesh_, v, places_, entity(mesh_.regions, 2, region));
-    }
+      fail("a cell of type {}: expected lines (3, 21, 68), triangles (5) and quads (9, 23, 28, 70)", type);
+    check_cell(type, corners, v.size());
+    const int cell = corners == 2 ? entity(mesh_.curves, 1, curve) : entity(mesh_.regions, 2, region);
+    if (const auto wrong = add_element(mesh_, corners, v, cell, vtk_places); !wrong.empty())
+      fail("{}", wrong);
   }
 
   /// 0, where a file has no tags, is entity 1.
@@ -430,12 +422,9 @@ class VtuReader {
 
   void name_point(double number, const std::string& name) {
     if (!(number >= 0 && number < static_cast<double>(mesh_.points.size()) && number == std::floor(number)))
-      fail(fmt::format("the name {} is that of point {}: there are {}, counted from 0", shown(name), number,
-                       mesh_.points.size()));
-    const int point = static_cast<int>(number), next = static_cast<int>(mesh_.named_points.size());
-    const auto [it, is_new] = index_.emplace(std::pair{0, point}, next);
-    if (is_new) mesh_.named_points.push_back({point, {next + 1, {}}});
-    mesh_.named_points[it->second].entity.names.push_back(name);
+      fail("the name {} is that of point {}: there are {}, counted from 0", shown(name), number,
+           mesh_.points.size());
+    point_names_.add(mesh_, static_cast<int>(number), name);
   }
 
   std::string path_;
@@ -444,9 +433,9 @@ class VtuReader {
   std::string appended_;
   bool has_appended_ = false, raw_ = true, swapped_ = false, wide_header_ = false, packed_ = false;
   Mesh mesh_;
-  std::vector<int> places_;                   // of nodes of quads
-  std::map<std::pair<int, int>, int> index_;  // by dimension and tag; of points: number
-  std::optional<std::string> field_;          // the name of the field that is asked for
+  std::map<std::pair<int, int>, int> index_;  // by dimension and tag
+  NamedPoints point_names_;
+  std::optional<std::string> field_;  // the name of the field that is asked for
   bool is_of_points_ = false;
   std::vector<double> values_, triangle_values_, quad_values_;
 };

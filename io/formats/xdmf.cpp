@@ -1,9 +1,9 @@
 #include <utility>
 
 #include "geometry/mesh/element_nodes.h"
+#include "io/entity_names.h"
 #include "io/library_file.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_groups.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
 #include "io/xml.h"

@@ -35,9 +35,8 @@ void check_pairs(const Criteria& criteria, const std::string& on) {
   for (const auto& [low, high] : kPairs) {
     const CriterionLimit *least = find_limit(criteria, low, on), *most = find_limit(criteria, high, on);
     if (least && most && least->in_sizes == most->in_sizes && least->value > most->value)
-      throw InputError(fmt::format("{}: '{}' is {}, but '{}' {} ({}): no element is within both",
-                                   least->where, least->key, text_of(*least), most->key, text_of(*most),
-                                   most->where));
+      refuse("{}: '{}' is {}, but '{}' {} ({}): no element is within both", least->where, least->key,
+             text_of(*least), most->key, text_of(*most), most->where);
   }
 }
 
@@ -85,15 +84,15 @@ CriterionKind criterion_kind(const std::string& key) {
   for (const Criterion& criterion : criterion_registry()) known.push_back(criterion.key);
   const auto at = std::ranges::find(known, key);
   if (at == known.end())
-    throw InputError(fmt::format("unknown criterion '{}': expected one of {}{}", key, fmt::join(known, ", "),
-                                 suggestion(key, known)));
+    refuse("unknown criterion '{}': expected one of {}{}", key, fmt::join(known, ", "),
+           suggestion(key, known));
   return static_cast<CriterionKind>(at - known.begin());
 }
 
 StepLength step_length_named(const std::string& name) {
   const auto* at = std::ranges::find(kStepLengths, name);
   if (at == std::end(kStepLengths))
-    throw InputError(fmt::format("time_step_by is '{}': expected {}", name, fmt::join(kStepLengths, ", ")));
+    refuse("time_step_by is '{}': expected {}", name, fmt::join(kStepLengths, ", "));
   return static_cast<StepLength>(at - kStepLengths);
 }
 
@@ -118,16 +117,14 @@ Criteria& Criteria::set(const std::string& key, const std::string& value, const 
     const auto read = as_number(number);
     const bool above_zero = criterion.least == 0 && (criterion.is_most || criterion.most == kMost);
     if (!read || !(*read >= criterion.least) || !(*read <= criterion.most) || (above_zero && *read == 0))
-      throw InputError(fmt::format(
-          "'{}' is '{}': expected a number {} {}{}{}", key, value, above_zero ? "above" : "from",
-          criterion.least,
-          criterion.most < kMost
-              ? fmt::format("{} {}{}", above_zero ? ", at most" : " to", criterion.most, criterion.unit)
-              : "",
-          criterion.of_length ? ", or parts of the size such as \"0.33 size\"" : ""));
+      refuse("'{}' is '{}': expected a number {} {}{}{}", key, value, above_zero ? "above" : "from",
+             criterion.least,
+             criterion.most < kMost
+                 ? fmt::format("{} {}{}", above_zero ? ", at most" : " to", criterion.most, criterion.unit)
+                 : "",
+             criterion.of_length ? ", or parts of the size such as \"0.33 size\"" : "");
     if (in_sizes && (criterion.is_most ? *read < 1 : *read > 1))
-      throw InputError(fmt::format("'{}' is {} size: {} the wanted size itself", key, *read,
-                                   criterion.is_most ? "below" : "above"));
+      refuse("'{}' is {} size: {} the wanted size itself", key, *read, criterion.is_most ? "below" : "above");
     std::erase_if(limits, [&](const CriterionLimit& old) { return old.key == key && old.on == on; });
     limits.push_back({key, *read, in_sizes, on, set_where});
   });
@@ -173,8 +170,7 @@ const std::vector<Criteria>& criteria_presets() {
 
 void check_criteria(const Criteria& criteria) {
   if (criteria.limits.size() > kMostLimits)
-    throw InputError(fmt::format("{}: {} limits: expected at most {}", criteria.where, criteria.limits.size(),
-                                 kMostLimits));
+    refuse("{}: {} limits: expected at most {}", criteria.where, criteria.limits.size(), kMostLimits);
   std::set<std::string> names = {""};
   for (const CriterionLimit& limit : criteria.limits) {
     names.insert(limit.on);
@@ -190,10 +186,10 @@ void check_criteria(const Criteria& criteria) {
     const auto& [young, poisson, density] = *criteria.material;
     if (!(young > 0) || !(density > 0) || !(poisson >= 0 && poisson <= 0.5) ||
         !std::isfinite(young / density))
-      throw InputError(fmt::format(
+      refuse(
           "the material has young {}, poisson {} and density {}: expected 'young' and 'density' above 0, "
           "'poisson' from 0 to 0.5",
-          young, poisson, density));
+          young, poisson, density);
   });
 }
 
@@ -208,17 +204,16 @@ void check_criteria(const Criteria& criteria, const Mesh& mesh, const SizeField&
   }
   for (const CriterionLimit& limit : criteria.limits) {
     if (!limit.on.empty() && std::ranges::find(known, limit.on) == known.end())
-      throw InputError(fmt::format("{}: no curve and no region is called '{}'{}", limit.where, limit.on,
-                                   suggestion_or_all(limit.on, known)));
+      refuse("{}: no curve and no region is called '{}'{}", limit.where, limit.on,
+             suggestion_or_all(limit.on, known));
     const CriterionKind kind = criterion_kind(limit.key);
     const Criterion& criterion = criterion_registry()[kind];
     if ((!criterion.of_length && kind != kMinTimeStep) || limit.in_sizes) continue;
     const double length = kind == kMinTimeStep ? limit.value * speed_of_sound(criteria) : limit.value;
     if (criterion.is_most ? length < least : length > most)
-      throw InputError(fmt::format(
-          "{}: '{}' is {}{}, but the wanted size is {:.6g} {}", limit.where, limit.key, limit.value,
-          kind == kMinTimeStep ? fmt::format(", over a length of {:.6g}", length) : "",
-          criterion.is_most ? least : most, criterion.is_most ? "and more" : "at most"));
+      refuse("{}: '{}' is {}{}, but the wanted size is {:.6g} {}", limit.where, limit.key, limit.value,
+             kind == kMinTimeStep ? fmt::format(", over a length of {:.6g}", length) : "",
+             criterion.is_most ? least : most, criterion.is_most ? "and more" : "at most");
   }
 }
 

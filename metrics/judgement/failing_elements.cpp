@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "base/box.h"

@@ -16,7 +16,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "metrics/judgement/failing_elements.h"
 #include "metrics/judgement/soundness.h"
-#include "metrics/solve/critical_step.h"
+#include "metrics/solve/solve.h"
 
 namespace delquad {
 namespace {

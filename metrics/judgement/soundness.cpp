@@ -12,7 +12,6 @@
 #include "base/text.h"
 #include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
-#include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"
 
 namespace delquad {

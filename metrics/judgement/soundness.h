@@ -1,9 +1,7 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"

@@ -1,16 +1,19 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "delquad/fields.h"
+#include "delquad/mesh.h"
 #include "delquad/metrics.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {
+
+/// See SurfaceReport::near_cuts. `is_cut`: of each curve of the mesh, whether it is no curve of the model.
+void measure_near_cuts(const Mesh& mesh, const std::vector<char>& is_cut, QuadShare& near, QuadShare& off);
 
 Topology topology_of(const Mesh& mesh);
 /// `sides`: of sorted_half_edges().

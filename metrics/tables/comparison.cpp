@@ -7,14 +7,13 @@
 #include <cmath>
 #include <map>
 
+#include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
-#include "delquad/error.h"
 #include "metrics/metrics.h"
-#include "metrics/tables/cell_text.h"
-#include "metrics/tables/pairs.h"
+#include "metrics/tables/inference.h"
 #include "metrics/tables/samples.h"
-#include "metrics/tables/statistics.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {
@@ -34,8 +33,8 @@ int direction(const std::string& key, const std::vector<Metric>& own) {
   for (const Metric& m : metrics)
     if (m.better != Better::kNeither) known.push_back(m.key);
   known.emplace_back(kTimeColumn);
-  throw InputError(fmt::format("metric '{}' cannot be compared: expected some of {}{}", key,
-                               fmt::join(known, ", "), suggestion(key, known)));
+  refuse("metric '{}' cannot be compared: expected some of {}{}", key, fmt::join(known, ", "),
+         suggestion(key, known));
 }
 
 std::string name(const CellRecord& r) { return r.group + " " + r.pipeline; }

@@ -9,7 +9,6 @@
 
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/samples.h"
-#include "metrics/tables/statistics.h"
 
 namespace delquad {
 namespace {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ostream>
 #include <set>
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/samples.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {
@@ -24,11 +24,6 @@ constexpr double kLeastCost = 1e-6;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 const std::vector<const char*> kNames = {"time_quality", "irregular_tau", "profile_eta", "profile_tau",
                                          "profile_time"};
-
-double value_of(const CellRecord& record, const char* key) {
-  const auto at = record.values.find(key);
-  return at == record.values.end() ? std::nan("") : at->second;
-}
 
 bool is_sound(const CellRecord& record) {
   return record.reason.empty() && record.unsound.empty() && value_of(record, "n_quads") > 0;

@@ -1,12 +1,215 @@
 #include "metrics/tables/inference.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "metrics/metrics.h"
 
 namespace delquad {
+
+namespace {
+
+bool competes(const Samples& row, const std::string& key) {
+  const auto is_rival = [&](const CellRecord* record) {
+    return record->unsound.empty() && makes_quads(*record) &&
+           !(is_of_quads(key) && leaves_triangles(*record));
+  };
+  return !row.done.empty() && std::ranges::all_of(row.done, is_rival);
+}
+
+}  // namespace
+
+Marking::Marking(const std::vector<Samples>& samples, const std::vector<TestedMeasure>& measures,
+                 ClaimFamily& family)
+    : samples_(samples) {
+  for (std::size_t first = 0, last; first < samples.size(); first = last) {
+    last = first;
+    while (last < samples.size() && samples[last].group == samples[first].group) ++last;
+    for (const TestedMeasure& measure : measures)
+      if (measure.metric.better != Better::kNeither) add_group(first, last, measure, family);
+  }
+}
+
+void Marking::add_group(std::size_t first, std::size_t last, const TestedMeasure& measure,
+                        ClaimFamily& family) {
+  const std::string& key = measure.metric.key;
+  Contest contest{key, measure.metric.better == Better::kHigher ? 1.0 : -1.0, {}, {}, {}};
+  for (std::size_t i = first; i < last; ++i) {
+    const bool is_time = measure.kind == ValueKind::kRepeatedTime;
+    const std::vector<double> values = is_time ? samples_[i].times(key) : samples_[i].of(key);
+    if (values.empty() || !competes(samples_[i], key)) continue;
+    contest.rivals.push_back(i);
+    contest.values.push_back(is_time ? median(values) : mean(values));
+  }
+  if (contest.rivals.size() < 2) return;
+  for (const std::size_t b : contest.rivals)
+    for (const std::size_t a : contest.rivals)
+      if (a < b) contest.duels.push_back({a, b, family.add(test(measure, a, b))});
+  contests_.push_back(std::move(contest));
+}
+
+RankTest Marking::test(const TestedMeasure& measure, std::size_t first, std::size_t second) const {
+  const std::string& key = measure.metric.key;
+  if (measure.kind == ValueKind::kRepeatedTime)
+    return mann_whitney(samples_[first].times(key), samples_[second].times(key));
+  return wilcoxon(pair_by_run(samples_[first].done, samples_[second].done, key));
+}
+
+bool Marking::can_prove(const ClaimFamily& family, const Contest& contest) {
+  return std::ranges::any_of(contest.duels,
+                             [&](const Duel& d) { return family.finding(d.test) != Finding::kTooFew; });
+}
+
+bool Marking::can_prove(const ClaimFamily& family) const {
+  return std::ranges::any_of(contests_, [&](const Contest& c) { return can_prove(family, c); });
+}
+
+void Marking::mark(const ClaimFamily& family, std::span<TableRow> rows) const {
+  for (const Contest& contest : contests_) {
+    if (!can_prove(family, contest)) continue;
+    const auto [low, high] = std::ranges::minmax_element(contest.values);
+    if (*low == *high) continue;
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < contest.values.size(); ++k)
+      if (contest.sign * (contest.values[k] - contest.values[best]) > 0) best = k;
+    const std::size_t winner = contest.rivals[best];
+    std::vector<std::size_t> as_good;
+    for (const Duel& duel : contest.duels) {
+      if (duel.first != winner && duel.second != winner) continue;
+      const double lean = contest.sign * family.test(duel.test).lean * (duel.first == winner ? 1 : -1);
+      if (family.finding(duel.test) != Finding::kProven || lean <= 0)
+        as_good.push_back(duel.first == winner ? duel.second : duel.first);
+    }
+    rows[winner].marks[contest.key] = as_good.empty() ? Mark::kBest : Mark::kAsGoodAsBest;
+    for (const std::size_t row : as_good) rows[row].marks[contest.key] = Mark::kAsGoodAsBest;
+  }
+}
+
+std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<const TableRow> rows) const {
+  if (contests_.empty()) return {};
+  bool best = false, as_good = false, single = true;
+  for (const TableRow& row : rows)
+    for (const auto& [key, mark] : row.marks) (mark == Mark::kBest ? best : as_good) = true;
+  const bool too_few =
+      std::ranges::any_of(contests_, [&](const Contest& c) { return !can_prove(family, c); });
+  for (const Samples& row : samples_) single = single && row.done.size() < 2;
+  std::vector<std::string> notes;
+  if (best) notes.push_back("Bold: proven to be the best of its group, at 5 %.");
+  if (as_good) notes.push_back("~: the best of its group, or not proven to be worse than it.");
+  if (single && !best && !as_good)
+    notes.push_back(
+        "Single runs: a value that is better here need not be better on the same domain, turned a "
+        "little. Nothing is marked as the best; that takes several seeds.");
+  else if (too_few)
+    notes.push_back("Where nothing is marked, all are alike or there are too few seeds to tell.");
+  return notes;
+}
+
+namespace {
+
+using Runs = std::vector<const CellRecord*>;
+
+bool all_quads(const Runs& runs) {
+  return std::ranges::none_of(runs, [](const CellRecord* r) { return leaves_triangles(*r); });
+}
+
+/// Whether the first is proven to be better; not where the mean and most of the ranks disagree.
+std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family) {
+  const double effect = mean(pair.domains.means());
+  const double lean = family.test(pair.test).lean;
+  if (family.finding(pair.test) != Finding::kProven || effect * lean <= 0) return std::nullopt;
+  return (effect > 0) == (pair.metric.better == Better::kHigher);
+}
+
+std::string in_words(const PairComparison& pair, const ClaimFamily& family) {
+  if (pair.domains.names.size() < kFewestDomains || family.finding(pair.test) == Finding::kTooFew)
+    return "too few domains";
+  const auto better = first_is_better(pair, family);
+  return !better ? "not proven" : *better ? "better" : "worse";
+}
+
+TableRow row_of(const PairComparison& pair, const ClaimFamily& family) {
+  const std::vector<double> means = pair.domains.means();
+  const double sign = pair.metric.better == Better::kHigher ? 1 : -1, effect = mean(means);
+  const auto count = [&](double side) {
+    return static_cast<double>(std::ranges::count_if(means, [&](double d) { return side * sign * d > 0; }));
+  };
+  TableRow row{pair.first + " - " + pair.second, pair.metric.title, {}, {}, "", ""};
+  row.values = {{"domains", static_cast<double>(means.size())},
+                {"runs", static_cast<double>(pair.domains.runs)},
+                {"better", count(1)},
+                {"worse", count(-1)},
+                {"effect", effect},
+                {"p", family.test(pair.test).p},
+                {"p_corrected", family.adjusted_p(pair.test)}};
+  const auto interval = bootstrap_interval(pair.domains.differences);
+  if (interval) {
+    row.values["low"] = interval->low;
+    row.values["high"] = interval->high;
+    row.texts["effect"] = interval_text(effect, *interval, pair.metric.digits);
+  }
+  for (const char* key : {"p", "p_corrected"})
+    if (!std::isnan(row.values[key])) row.texts[key] = p_text(row.values[key]);
+  row.texts["first_is"] = in_words(pair, family);
+  if (first_is_better(pair, family)) row.marks["effect"] = Mark::kBest;
+  return row;
+}
+
+}  // namespace
+
+std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records,
+                                          const std::vector<std::string>& pipelines,
+                                          const std::vector<TestedMeasure>& measures, ClaimFamily& family) {
+  std::map<std::string, Runs> by_word;
+  for (const CellRecord& record : records)
+    if (record.reason.empty() && makes_quads(record)) by_word[record.pipeline].push_back(&record);
+  std::vector<PairComparison> pairs;
+  for (std::size_t i = 0; i < pipelines.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Runs &a = by_word[pipelines[i]], &b = by_word[pipelines[j]];
+      for (const auto& [metric, kind] : measures) {
+        if (is_of_quads(metric.key) && !(all_quads(a) && all_quads(b))) continue;
+        PairedDomains domains = pair_by_domain(a, b, metric.key, kind);
+        if (domains.names.size() < 2) continue;
+        const std::size_t test = family.add(wilcoxon(domains.means()));
+        pairs.push_back({pipelines[i], pipelines[j], metric, std::move(domains), test});
+      }
+    }
+  return pairs;
+}
+
+Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
+                  const ClaimFamily& family) {
+  Table table{title + ": pairs of pipelines", "pipelines", "measure", {}, {}, {}};
+  table.columns = {{"domains", "domains", 0},
+                   {"runs", "runs", 0},
+                   {"better", "better", 0},
+                   {"worse", "worse", 0},
+                   {"effect", "difference", 4},
+                   {"low", "low", 4},
+                   {"high", "high", 4},
+                   {"p", "p", 4},
+                   {"p_corrected", "p corrected", 4},
+                   {"first_is", "first is", 0}};
+  table.shown = {"domains", "runs", "better", "worse", "effect", "p", "p_corrected", "first_is"};
+  const auto has_few = [](const PairComparison& pair) { return pair.domains.names.size() < kFewestDomains; };
+  for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family));
+  if (pairs.empty()) return table;
+  table.notes = {
+      "First minus second, averaged over the seeds and variants of each domain (case); domains are the "
+      "sample. Better, worse: on how many of them the first is. Difference: the mean of the domains, "
+      "with its 95 % bootstrap interval (percentiles of 2000 resamples of domains, then seeds).",
+      "p: Wilcoxon's signed-rank test over the domains, two-sided." +
+          (std::ranges::all_of(pairs, has_few) ? "" : " " + family.note())};
+  if (std::ranges::any_of(pairs, has_few))
+    table.notes.push_back(fmt::format("With fewer than {} domains nothing can be proven.", kFewestDomains));
+  return table;
+}
+
 namespace {
 
 constexpr const char* kSeconds = "seconds";

@@ -1,12 +1,90 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "metrics/tables/marks.h"
-#include "metrics/tables/pairs.h"
+#include "delquad/metrics.h"
+#include "metrics/tables/samples.h"
+#include "metrics/tables/statistics.h"
 #include "metrics/tables/study_file.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
+
+/// A measure of tables that is better one way, and how it is tested.
+struct TestedMeasure {
+  Metric metric;
+  ValueKind kind = ValueKind::kMeasure;
+};
+
+/// Which values of each group (a variant of a case) are proven to be the best.
+///
+/// Rivals are rows of sound meshes of quads; for measures of quads alone only those without triangles. Every
+/// two of a group are tested against each other, by Wilcoxon's signed-rank test over the seeds that both
+/// have, and times by the Mann-Whitney U test over repeated runs: whoever turns out to be the best, that test
+/// is among them.
+class Marking {
+ public:
+  /// Adds its tests to the family. `samples` has to outlive it.
+  Marking(const std::vector<Samples>& samples, const std::vector<TestedMeasure>& measures,
+          ClaimFamily& family);
+
+  /// `rows`: of the samples, in the same order. The best value is marked as such where it is proven to be
+  /// better than every rival; else it and what is not proven to be worse are marked as good; nothing is
+  /// marked where there were too few runs to tell anything.
+  void mark(const ClaimFamily& family, std::span<TableRow> rows) const;
+  /// Whether any of its tests could prove a difference.
+  bool can_prove(const ClaimFamily& family) const;
+  /// For people: what the marks of these rows mean, and why there are none.
+  std::vector<std::string> notes(const ClaimFamily& family, std::span<const TableRow> rows) const;
+
+ private:
+  struct Duel {
+    std::size_t first, second;  ///< rows
+    std::size_t test;           ///< of the family
+  };
+  /// A measure in a group.
+  struct Contest {
+    std::string key;
+    double sign;                      ///< 1 where more is better, -1 where less is
+    std::vector<std::size_t> rivals;  ///< rows
+    std::vector<double> values;       ///< of the rivals
+    std::vector<Duel> duels;
+  };
+
+  static bool can_prove(const ClaimFamily& family, const Contest& contest);
+  void add_group(std::size_t first, std::size_t last, const TestedMeasure& measure, ClaimFamily& family);
+  RankTest test(const TestedMeasure& measure, std::size_t first, std::size_t second) const;
+
+  const std::vector<Samples>& samples_;
+  std::vector<Contest> contests_;
+};
+
+/// With fewer domains Wilcoxon's test can prove nothing at 5 %.
+inline constexpr std::size_t kFewestDomains = 6;
+
+/// Two pipelines in one measure, over the domains on which both have a value. The sample is the domain (the
+/// case): the differences of its seeds are averaged, then those of its variants, since neither are
+/// independent of each other.
+struct PairComparison {
+  std::string first, second;
+  Metric metric;
+  PairedDomains domains;  ///< first minus second
+  std::size_t test;       ///< of the family: Wilcoxon's over the means of the domains
+};
+
+/// Every two pipelines that share two domains or more, in every measure; of quads alone only where both leave
+/// no triangles on them. Unsound meshes count as they are. Adds a test to the family for each.
+std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records,
+                                          const std::vector<std::string>& pipelines,
+                                          const std::vector<TestedMeasure>& measures, ClaimFamily& family);
+
+/// A row for each: domains and runs, on how many domains the first is better and worse, the mean of the
+/// domains' means with its 95 % bootstrap interval, p-values, and what is proven, in words.
+Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
+                  const ClaimFamily& family);
 
 /// Everything that the tables of a study may claim: one family of tests, of the marks in its table and of the
 /// pairs of its pipelines. See docs/statistics.md.

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "metrics/tables/statistics.h"
-
 namespace delquad {
 namespace {
 

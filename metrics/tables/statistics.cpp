@@ -6,12 +6,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/binomial.hpp>
-#include <cassert>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace delquad {
 namespace {

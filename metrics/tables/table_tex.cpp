@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <cctype>
 #include <string_view>
 
@@ -23,17 +24,10 @@ constexpr std::size_t kMostRows = 40;      ///< that fit on a page, with head an
 
 /// The next character of UTF-8 and its bytes; U+FFFD for what is none.
 std::pair<char32_t, std::size_t> decode(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  if (first < 0x80) return {first, 1};
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {0xFFFD, 1};
-  char32_t code = first & (0x7Fu >> length);
-  for (std::size_t k = 1; k < length; ++k) {
-    const auto next = static_cast<unsigned char>(text[k]);
-    if ((next & 0xC0) != 0x80) return {0xFFFD, 1};
-    code = code << 6 | (next & 0x3Fu);
-  }
-  return {code, length};
+  auto at = text.begin();
+  const auto code = boost::locale::utf::utf_traits<char>::decode(at, text.end());
+  if (!boost::locale::utf::is_valid_codepoint(code)) return {0xFFFD, 1};
+  return {code, static_cast<std::size_t>(at - text.begin())};
 }
 
 /// Letters of western Europe that every LaTeX has in its first fonts; others would end its run.

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ostream>
 #include <set>
 
+#include "base/located.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "metrics/tables/cell_text.h"
 #include "metrics/tables/inference.h"
 #include "metrics/tables/notes.h"
 #include "metrics/tables/statistics.h"
-#include "metrics/tables/times.h"
 
 namespace delquad {
 namespace {
@@ -245,8 +243,7 @@ StudyResults read_results(const fs::path& folder) {
   results.records = read_records(folder);
   std::optional<StudyFile> study = read_study(folder);
   if (!study)
-    throw InputError((folder / "study.json").string() +
-                     ": is missing: expected the folder of 'delquad run -o'");
+    refuse("{}: is missing: expected the folder of 'delquad run -o'", (folder / "study.json").string());
   results.study = *std::move(study);
   results.time_problems = attach_times(results.records);
   results.left_out = std::erase_if(results.records, [&](const CellRecord& r) {

@@ -1,11 +1,9 @@
 #include "smoothing/cvt/lp_energy.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
-#include "delquad/error.h"
+#include "base/located.h"
 #include "smoothing/cvt/blocks.h"
 #include "smoothing/cvt/cell_walk.h"
 #include "smoothing/cvt/simplex_energy.h"
@@ -189,8 +187,7 @@ void evaluate_cells(const MovingDelaunay& delaunay, const Arrays& a) {
 }  // namespace
 
 void check_norm(int p) {
-  if (p < 2 || p > 16 || p % 2 != 0)
-    throw InputError(fmt::format("p is {}: expected an even number from 2 to 16", p));
+  if (p < 2 || p > 16 || p % 2 != 0) refuse("p is {}: expected an even number from 2 to 16", p);
 }
 
 LpEnergy::LpEnergy(int p) : p_(p) { check_norm(p); }

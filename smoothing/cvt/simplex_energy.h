@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 
 #include "delquad/mesh.h"
@@ -69,6 +70,15 @@ SimplexEnergy simplex_energy(Vec2 first, Vec2 second) {
 }
 
 /// Integral of x^m over the triangle (0, first, second), negative when it is clockwise; m >= 0.
-double simplex_moment(int m, Vec2 first, Vec2 second);
+inline double simplex_moment(int m, Vec2 first, Vec2 second) {
+  assert(m >= 0);
+  // Horner: the sum over k of x1^k x2^(m-k).
+  double sum = 1, power = 1;
+  for (int k = 1; k <= m; ++k) {
+    power *= first.x;
+    sum = sum * second.x + power;
+  }
+  return cross(first, second) / ((m + 1) * (m + 2)) * sum;
+}
 
 }  // namespace delquad

@@ -1,13 +1,11 @@
 #include "smoothing/cvt/smooth_points.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "base/located.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
-#include "delquad/error.h"
-#include "smoothing/cvt/spatial_order.h"
+#include "smoothing/cvt/moving_delaunay.h"
 
 namespace delquad {
 namespace {
@@ -63,7 +61,7 @@ void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& 
 }
 
 void check_at_least(const char* name, double value, double least) {
-  if (!(value >= least)) throw InputError(fmt::format("{} is {}: expected at least {}", name, value, least));
+  if (!(value >= least)) refuse("{} is {}: expected at least {}", name, value, least);
 }
 
 }  // namespace

@@ -2,19 +2,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "base/cancel.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
 #include "geometry/mesh/element_blocks.h"
 #include "geometry/mesh/quad_corners.h"
-#include "smoothing/optimisation/block_tracks.h"
 #include "smoothing/optimisation/quad_energy.h"
 #include "smoothing/relocation/element_quality.h"
 
 namespace delquad {
+
+namespace {
+
+/// The tracks of one block's vertices; those of other blocks, too, stay.
+template <class Vec>
+class BlockTracks final : public VertexTracks<Vec> {
+ public:
+  BlockTracks(VertexTracks<Vec>& whole, const std::vector<std::array<int, 4>>& quads,
+              const ElementBlocks& blocks, std::size_t block)
+      : whole_(whole), own_quads_(blocks[block]) {
+    // Sorted, so that each has a number.
+    for (const int q : own_quads_) vertices_.insert(vertices_.end(), quads[q].begin(), quads[q].end());
+    sort_unique(vertices_);
+    for (const int v : vertices_)
+      moves_.push_back(blocks.owner(v) == static_cast<int>(block) && blocks.is_near(v));
+    for (const int q : own_quads_) {
+      auto& quad = quads_.emplace_back(quads[q]);
+      for (int& v : quad) v = static_cast<int>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
+    }
+  }
+
+  const std::vector<std::array<int, 4>>& quads() const { return quads_; }
+  std::vector<Vec> points(const std::vector<Vec>& all) const {
+    std::vector<Vec> own;
+    for (const int v : vertices_) own.push_back(all[v]);
+    return own;
+  }
+  void store(const std::vector<Vec>& own, std::vector<Vec>& all) const {
+    for (std::size_t v = 0; v < own.size(); ++v)
+      if (moves_[v]) all[vertices_[v]] = own[v];
+  }
+
+  Vec2 position(int v) const override { return whole_.position(vertices_[v]); }
+  Vec put(int v, Vec2 position) override { return whole_.put(vertices_[v], position); }
+  std::array<Vec, 2> axes(int v) const override {
+    return moves_[v] ? whole_.axes(vertices_[v]) : std::array<Vec, 2>{};
+  }
+  double delta(const Vec& place, TrackHint& hint) const override { return whole_.delta(place, hint); }
+  Vec arm(int quad, int side, TrackHint& hint) const override {
+    return whole_.arm(own_quads_[quad], side, hint);
+  }
+
+ private:
+  VertexTracks<Vec>& whole_;
+  std::span<const int> own_quads_;
+  std::vector<int> vertices_;  ///< of the whole mesh, sorted
+  std::vector<char> moves_;
+  std::vector<std::array<int, 4>> quads_;
+};
+
+const OptionTable<OptimisationOptions>& table() {
+  static const auto all =
+      OptionTable<OptimisationOptions>("optimisation", "options of O")
+          .add({.name = "passes", .help = "how often, at most", .least = 0, .most = 1000},
+               &OptimisationOptions::passes)
+          .add({.name = "iterations", .help = "of L-BFGS in each", .least = 1, .most = 1e5},
+               &OptimisationOptions::iterations)
+          .add({.name = "size", .help = "weight of the edges' lengths", .least = 0},
+               &OptimisationOptions::size)
+          .add({.name = "alignment", .help = "weight of the edges' directions", .least = 0},
+               &OptimisationOptions::alignment);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup optimisation_group() { return table().group(); }
+OptimisationOptions optimisation_options(const Options& options) { return table().read(options); }
 
 namespace {
 

@@ -1,10 +1,7 @@
 #include "smoothing/relocation/element_quality.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
-
-#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "io/mesh_groups.h"
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 #include "tests/support/curved_grid.h"
 #include "tests/support/expect_input_error.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrics/solve/critical_step.h"
+#include "metrics/solve/solve.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad {

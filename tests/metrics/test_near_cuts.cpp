@@ -1,4 +1,4 @@
-#include "metrics/surface/near_cuts.h"
+#include "metrics/surface/surface_report.h"
 
 #include <gtest/gtest.h>
 

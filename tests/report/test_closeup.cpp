@@ -3,7 +3,7 @@
 #include <set>
 
 #include "metrics/metrics.h"
-#include "report/closeup.h"
+#include "report/page_json.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad {

@@ -1,4 +1,4 @@
-#include "smoothing/cvt/spatial_order.h"
+#include "smoothing/cvt/moving_delaunay.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delquad/error.h"
-#include "experiments/suite/ranking.h"
+#include "experiments/suite/submission.h"
 #include "experiments/suite/suite_list.h"
 #include "metrics/tables/study_file.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/calibration.h"
-#include "experiments/sweep/peer_reference.h"
+#include "experiments/sweep/peer.h"
 #include "mesher/prepare.h"
 #include "metrics/tables/notes.h"
 #include "tests/support/temporary_folder.h"

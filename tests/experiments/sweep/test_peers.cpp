@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "experiments/sweep/rerun.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/run_program.h"
+#include "experiments/sweep/verify.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"

@@ -10,8 +10,8 @@
 
 #include "delquad/error.h"
 #include "delquad/extend.h"
-#include "experiments/sweep/rerun.h"
 #include "experiments/sweep/run_experiment.h"
+#include "experiments/sweep/verify.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"

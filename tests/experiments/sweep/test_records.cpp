@@ -7,7 +7,6 @@
 
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/merge.h"
-#include "experiments/sweep/rerun.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/verify.h"
 #include "io/digest.h"

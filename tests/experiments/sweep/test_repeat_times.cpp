@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "metrics/tables/times.h"
+#include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
 

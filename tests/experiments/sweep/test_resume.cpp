@@ -11,8 +11,8 @@
 #include <random>
 #include <thread>
 
-#include "experiments/sweep/rerun.h"
 #include "experiments/sweep/run_experiment.h"
+#include "experiments/sweep/verify.h"
 #include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"

@@ -19,7 +19,7 @@
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "smoothing/optimisation/optimisation_options.h"
+#include "smoothing/optimisation/track_optimisation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"

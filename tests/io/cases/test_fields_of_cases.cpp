@@ -9,7 +9,7 @@
 #include "io/cases/case_file.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
-#include "smoothing/optimisation/optimisation_options.h"
+#include "smoothing/optimisation/track_optimisation.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/prepare_case.h"
 #include "tests/support/temporary_folder.h"

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "metrics/tables/cell_text.h"
 #include "metrics/tables/statistics.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/sweep/run_experiment.h"
+#include "io/cases/case.h"
+#include "program/commands.h"
+
+namespace delquad {
+
+/// Of commands that run experiments.
+struct SweepArguments {
+  std::filesystem::path folder, data = kDataFolder;
+  int threads = 0;  ///< of each process; 0: the cores, shared out among the processes
+  SweepOptions options;
+};
+void add_sweep(CLI::App& command, SweepArguments& arguments);
+int threads_of(const SweepArguments& arguments);
+
+/// Runs the experiment, and prints its tables.
+Outcome run_and_print(const SweepArguments& arguments, const Experiment& experiment);
+int exit_code(const Outcome& outcome, bool allow_triangles);
+
+}  // namespace delquad
