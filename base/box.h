@@ -38,6 +38,15 @@ struct Box {
   /// Makes it larger where the point lies outside.
   void add(const V& p) { low = lower(low, p), high = upper(high, p); }
   V size() const { return high - low; }
+  /// Larger by this length on all sides.
+  Box grown(double by) const {
+    V more;
+    if constexpr (kAxes == 2)
+      more = {by, by};
+    else
+      more = {by, by, by};
+    return {low - more, high + more};
+  }
   /// Whether both share a point.
   bool overlaps(const Box& other) const {
     for (int k = 0; k < kAxes; ++k)

@@ -66,6 +66,13 @@ class BoxTree {
         limit2, [&](const Node& node) { return node.box.distance2(x); }, visit);
   }
 
+  /// Calls visit(item) for the items of all leaves whose boxes share a point with this one.
+  template <class Visit>
+  void overlapping(const Box<V>& box, Visit visit) const {
+    search(
+        0.0, [&](const Node& node) { return node.box.overlaps(box) ? 0.0 : 1.0; }, visit);
+  }
+
  private:
   static constexpr int kLeafSize = 4;
   /// Halving leaves less than 32 levels, each with one node that waits.

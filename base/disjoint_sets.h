@@ -41,6 +41,18 @@ class DisjointSets {
     return all;
   }
 
+  /// Of each number the place of its set among all, which are in the order of their first members.
+  std::vector<int> places() {
+    std::vector<int> place(parent_.size(), -1);
+    int n = 0;
+    for (int i = 0; i < static_cast<int>(place.size()); ++i) {
+      int& of_set = place[root(i)];
+      if (of_set < 0) of_set = n++;
+      place[i] = of_set;
+    }
+    return place;
+  }
+
  private:
   std::vector<int> parent_;
 };

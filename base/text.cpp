@@ -1,7 +1,9 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
@@ -17,6 +19,12 @@ std::string show_point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.
 
 std::string counted(long long n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+std::string first_of(const std::vector<std::string>& texts, std::size_t most, std::string_view between) {
+  const auto end = texts.begin() + static_cast<std::ptrdiff_t>(std::min(texts.size(), most));
+  return fmt::format("{}{}", fmt::join(texts.begin(), end, between),
+                     texts.size() > most ? fmt::format("{}...", between) : "");
 }
 
 std::string_view trimmed(std::string_view text) {

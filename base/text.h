@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "delquad/mesh.h"
 
@@ -15,6 +17,9 @@ std::string show_point(Vec2 p);
 std::string show_point(const Vec3& p);
 /// "1 triangle", "2 triangles"
 std::string counted(long long n, std::string_view what);
+/// "a, b, c, ...": the first of some texts.
+std::string first_of(const std::vector<std::string>& texts, std::size_t most,
+                     std::string_view between = ", ");
 /// Without blanks, tabs and line breaks around it.
 std::string_view trimmed(std::string_view text);
 /// With capitals for a to z.

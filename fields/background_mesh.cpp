@@ -1,27 +1,26 @@
 #include "fields/background_mesh.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_criteria_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/predicates.h"
+#include "base/segment.h"
 #include "delquad/error.h"
 #include "delquad/mesh.h"
-#include "fields/triangle_tree.h"
+#include "geometry/mesh/patch_cdt.h"
 
 namespace delquad {
 
@@ -34,16 +33,10 @@ constexpr double kShape = 0.125;
 // half, and what is left is still a triangulation, only with worse angles.
 constexpr std::size_t kMostGrowth = 8, kMostExtra = 1000;
 
-struct VertexIndex {
-  int value = -1;  ///< -1: made by refinement
-};
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexInfo = CGAL::Triangulation_vertex_base_with_info_2<VertexIndex, Kernel>;
-using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel, VertexInfo>;
-using FaceInfo = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using Kernel = patch_cdt::Kernel;
+using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel, patch_cdt::VertexBase>;
 using FaceConstraint = CGAL::Constrained_Delaunay_triangulation_face_base_2<
-    Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfo>>;
+    Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel, patch_cdt::FaceBase>>;
 using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel, FaceConstraint>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Cdt =
@@ -111,66 +104,6 @@ class Refiner {
   CGAL::Mesh_2::Refine_edges_visitor_from_faces<Faces> visitor_;
 };
 
-std::vector<Cdt::Vertex_handle> insert_boundary(Cdt& cdt, const PatchBoundary& patch) {
-  std::vector<std::pair<Kernel::Point_2, VertexIndex>> tagged;
-  for (const Vec2 p : patch.points) tagged.push_back({{p.x, p.y}, {static_cast<int>(tagged.size())}});
-  cdt.insert(tagged.begin(), tagged.end());
-  std::vector<Cdt::Vertex_handle> handle(patch.points.size());
-  for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) handle[v->info().value] = v;
-  for (std::size_t i = 0; i < handle.size(); ++i) {
-    if (handle[i] != nullptr) continue;
-    throw InputError(
-        fmt::format("two boundary points coincide at ({}, {})", patch.points[i].x, patch.points[i].y));
-  }
-  for (const auto& [i, j] : patch.edges) {
-    const Vec2 a = patch.points[i], b = patch.points[j];
-    const auto bad_edge = [a, b] {
-      return InputError(fmt::format("the boundary edge ({}, {}) - ({}, {}) meets another edge or point", a.x,
-                                    a.y, b.x, b.y));
-    };
-    try {
-      cdt.insert_constraint(handle[i], handle[j]);
-    } catch (const Cdt::Intersection_of_constraints_exception&) {
-      throw bad_edge();
-    }
-    if (!cdt.is_edge(handle[i], handle[j])) throw bad_edge();
-  }
-  return handle;
-}
-
-/// Marks the faces of the patch: those to the left of its edges and all that can be reached from there.
-/// Throws InputError where that is so for both sides of an edge, or for none.
-void mark_domain(Cdt& cdt, const PatchBoundary& patch, const std::vector<Cdt::Vertex_handle>& handle) {
-  std::vector<Cdt::Face_handle> stack;
-  const auto enter = [&](Cdt::Face_handle f) {
-    if (cdt.is_infinite(f) || f->is_in_domain()) return;
-    f->set_in_domain(true);
-    stack.push_back(f);
-  };
-  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
-  const auto face_beside = [&](int a, int b) {
-    Cdt::Face_handle f;
-    int side = 0;
-    cdt.is_edge(handle[a], handle[b], f, side);
-    return f->vertex(Cdt::ccw(side)) == handle[a] ? f : f->neighbor(side);
-  };
-  for (const auto& [a, b] : patch.edges) enter(face_beside(a, b));
-  while (!stack.empty()) {
-    const Cdt::Face_handle f = stack.back();
-    stack.pop_back();
-    for (int k = 0; k < 3; ++k) {
-      if (!f->is_constrained(k)) enter(f->neighbor(k));
-    }
-  }
-  for (const auto& [a, b] : patch.edges) {
-    if (face_beside(a, b)->is_in_domain() && !face_beside(b, a)->is_in_domain()) continue;
-    const Vec2 p = patch.points[a], q = patch.points[b];
-    throw InputError(fmt::format(
-        "the boundary edge ({}, {}) - ({}, {}) runs the wrong way round: expected the patch on its left only",
-        p.x, p.y, q.x, q.y));
-  }
-}
-
 /// Numbers the faces of the patch so that most are near the one before.
 std::vector<Cdt::Face_handle> number_faces(Cdt& cdt) {
   std::vector<Cdt::Face_handle> order, stack;
@@ -221,8 +154,9 @@ template <class Test>
 std::optional<TriPatch> refined(const PatchBoundary& patch,
                                 int most_in_vain = std::numeric_limits<int>::max()) {
   Cdt cdt;
-  const auto handle = insert_boundary(cdt, patch);
-  mark_domain(cdt, patch, handle);
+  const auto vertex = patch_cdt::insert(cdt, patch, patch.points);
+  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
+  for (const auto f : patch_cdt::number_inside(cdt, patch, vertex)) f->set_in_domain(true);
   Refiner<Test> refiner(cdt);
   const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
   int in_vain = 0;
@@ -282,6 +216,54 @@ void append(TriPatch& all, const TriPatch& part) {
 
 }  // namespace
 
+/// Finds triangles by place, whatever their grading.
+class TriangleTree {
+ public:
+  explicit TriangleTree(const TriPatch& tri) {
+    std::vector<Box<Vec2>> boxes;
+    boxes.reserve(tri.triangles.size());
+    for (const auto& [a, b, c] : tri.triangles)
+      boxes.push_back(Box<Vec2>::around({tri.points[a], tri.points[b], tri.points[c]}));
+    tree_ = BoxTree<Vec2>(boxes);
+  }
+
+  /// First of the triangles that contain u, sides included (exact); -1: none.
+  int containing(const TriPatch& tri, Vec2 u) const {
+    int found = -1;
+    tree_.nearest(u, 0.0, [&](int t) {
+      if ((found < 0 || t < found) && contains(tri, t, u)) found = t;
+    });
+    return found;
+  }
+
+  /// The nearest triangle, the first of several, and its point.
+  std::pair<int, Vec2> nearest(const TriPatch& tri, Vec2 u) const {
+    std::pair<int, Vec2> best{-1, u};
+    double best2 = std::numeric_limits<double>::infinity();
+    tree_.nearest(u, best2, [&](int t) {
+      const bool inside = contains(tri, t, u);
+      for (int k = 0; k < 3; ++k) {
+        const auto& v = tri.triangles[t];
+        const Vec2 p = inside ? u : nearest_on_segment(u, tri.points[v[k]], tri.points[v[(k + 1) % 3]]);
+        const double d2 = dot(p - u, p - u);
+        if (best.first >= 0 && d2 >= best2 && (d2 != best2 || t >= best.first)) continue;
+        best = {t, p};
+        best2 = d2;
+      }
+    });
+    return best;
+  }
+
+ private:
+  static bool contains(const TriPatch& tri, int t, Vec2 u) {
+    const auto& [i, j, k] = tri.triangles[t];
+    const Vec2 a = tri.points[i], b = tri.points[j], c = tri.points[k];
+    return orient2d(a, b, u) >= 0 && orient2d(b, c, u) >= 0 && orient2d(c, a, u) >= 0;
+  }
+
+  BoxTree<Vec2> tree_;
+};
+
 BackgroundMesh::BackgroundMesh(std::span<const PatchBoundary> patches) {
   if (patches.empty()) throw InputError("the domain has no patch: there is nothing to mesh");
   for (std::size_t p = 0; p < patches.size(); ++p) {
@@ -310,20 +292,14 @@ BackgroundMesh::BackgroundMesh(TriPatch triangulation) : tri_(std::move(triangul
 
 void BackgroundMesh::set_up_search() {
   tree_ = std::make_shared<const TriangleTree>(tri_);
-  low_ = high_ = tri_.points.at(0);
-  for (const Vec2 p : tri_.points) {
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-  }
-  const double reach = norm(high_ - low_);
-  low_ += Vec2{-reach, -reach};
-  high_ += Vec2{reach, reach};
+  const auto box = Box<Vec2>::around(std::span<const Vec2>(tri_.points));
+  reach_ = box.grown(norm(box.size()));
 }
 
 /// NaNs become the lower ends.
 Vec2 BackgroundMesh::within_reach(Vec2 u) const {
   const auto clamped = [](double x, double low, double high) { return !(x > low) ? low : std::min(x, high); };
-  return {clamped(u.x, low_.x, high_.x), clamped(u.y, low_.y, high_.y)};
+  return {clamped(u.x, reach_.low.x, reach_.high.x), clamped(u.y, reach_.low.y, reach_.high.y)};
 }
 
 /// The first triangle that contains u, or -1 where the walk cannot tell: u outside or on the boundary, a
@@ -357,11 +333,7 @@ BackgroundMesh::Location BackgroundMesh::locate(Vec2 u, int& hint) const {
   u = within_reach(u);
   int t = walk(u, hint);
   if (t < 0) t = tree_->containing(tri_, u);
-  if (t < 0) {
-    const auto nearest = tree_->nearest(tri_, u);
-    t = nearest.triangle;
-    u = nearest.point;
-  }
+  if (t < 0) std::tie(t, u) = tree_->nearest(tri_, u);
   hint = t;
 
   const auto& v = tri_.triangles[t];

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "delquad/mesh.h"
 
 namespace delquad {
@@ -55,7 +56,7 @@ class BackgroundMesh {
   std::vector<int> patch_;
   std::vector<BoundaryPoint> boundary_;
   std::shared_ptr<const TriangleTree> tree_;
-  Vec2 low_, high_;  ///< of the reach of locate()
+  Box<Vec2> reach_;  ///< of locate()
 };
 
 }  // namespace delquad

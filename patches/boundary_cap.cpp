@@ -4,27 +4,15 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/box_tree.h"
 #include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/triangle_measures.h"
+#include "geometry/planar/check_lines.h"
 
 namespace delquad {
-
-std::vector<BoundaryLoop> take_loops(const PatchBoundary& boundary) {
-  std::vector<BoundaryLoop> loops;
-  std::vector<int> next(boundary.points.size()), edge(boundary.points.size());
-  for (size_t e = 0; e < boundary.edges.size(); ++e)
-    next[boundary.edges[e][0]] = boundary.edges[e][1], edge[boundary.edges[e][0]] = static_cast<int>(e);
-  std::vector<char> seen(boundary.points.size(), 0);
-  for (size_t first = 0; first < seen.size(); ++first) {
-    if (seen[first]) continue;
-    loops.emplace_back();
-    for (int v = static_cast<int>(first); !std::exchange(seen[v], 1); v = next[v])
-      loops.back().push_back({boundary.points[v], boundary.point_node[v], boundary.edge_curve[edge[v]]});
-  }
-  return loops;
-}
 
 PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops) {
   PatchBoundary boundary;
@@ -40,6 +28,21 @@ PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops) {
   return boundary;
 }
 
+namespace {
+
+std::vector<BoundaryLoop> take_loops(const PatchBoundary& boundary) {
+  std::vector<BoundaryLoop> loops;
+  for (const std::vector<int>& edges : loops_of_edges(boundary)) {
+    loops.emplace_back();
+    for (const int e : edges) {
+      const int v = boundary.edges[e][0];
+      loops.back().push_back({boundary.points[v], boundary.point_node[v], boundary.edge_curve[e]});
+    }
+  }
+  return loops;
+}
+
+/// Puts other points in the place of the tip and of those fewer than k beside it.
 void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<const LoopPoint> fresh) {
   BoundaryLoop rest;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -52,17 +55,41 @@ void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<c
   loop = std::move(rest);
 }
 
-namespace {
+/// Caps what make(loops, loop, point) caps, which changes the loop.
+template <class Make>
+std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
+  std::vector<BoundaryCap> caps;
+  std::vector<BoundaryLoop> loops = take_loops(boundary);
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    for (std::size_t i = 0; i < loops[l].size(); ++i)
+      if (std::optional<BoundaryCap> cap = make(loops, l, i)) {
+        caps.push_back(std::move(*cap));
+        i = static_cast<std::size_t>(-1);  // the loop has changed
+      }
+  if (!caps.empty()) boundary = make_boundary(loops);
+  return caps;
+}
 
 /// Corners below this angle take two quads at most; a cap ends where this many edges go around the cone.
 constexpr double kTwoQuads = 200 * std::numbers::pi / 180, kAround = 5.5;
 /// The largest angle of a cap's quads opposite to the tip.
 constexpr double kFarAngle = 120 * std::numbers::pi / 180;
 
-class Cap {
+/// The points of a loop on both sides of one of them.
+class LoopTip {
+ protected:
+  LoopTip(BoundaryLoop& loop, size_t tip) : loop_(loop), tip_(tip) {}
+  const LoopPoint& after(size_t i) const { return loop_[(tip_ + i) % loop_.size()]; }
+  const LoopPoint& before(size_t i) const { return loop_[(tip_ + loop_.size() - i) % loop_.size()]; }
+
+  BoundaryLoop& loop_;
+  size_t tip_;
+};
+
+class Cap : LoopTip {
  public:
   Cap(BoundaryLoop& loop, size_t tip, const std::function<int(Vec2)>& add_node)
-      : loop_(loop), tip_(tip), add_node_(add_node) {}
+      : LoopTip(loop, tip), add_node_(add_node) {}
 
   std::optional<BoundaryCap> make() {
     const size_t n = loop_.size();
@@ -80,9 +107,6 @@ class Cap {
   }
 
  private:
-  const LoopPoint& after(size_t i) const { return loop_[(tip_ + i) % loop_.size()]; }
-  const LoopPoint& before(size_t i) const { return loop_[(tip_ + loop_.size() - i) % loop_.size()]; }
-
   /// Inside the patch; radians.
   double angle() const {
     const Vec2 out = after(1).point - loop_[tip_].point, in = before(1).point - loop_[tip_].point;
@@ -110,8 +134,6 @@ class Cap {
     cut_off_tip(loop_, tip_, k, fresh);
   }
 
-  BoundaryLoop& loop_;
-  size_t tip_;
   const std::function<int(Vec2)>& add_node_;
 };
 
@@ -132,10 +154,10 @@ constexpr double kLeastSine = 0.588;
 /// tan 30 degrees: the quad in the corner has three angles of about 120 degrees.
 constexpr double kBeyond = 0.57735;
 
-class CornerCap {
+class CornerCap : LoopTip {
  public:
   CornerCap(std::vector<BoundaryLoop>& loops, size_t loop, size_t tip, const CapNodes& nodes)
-      : loops_(loops), loop_(loops[loop]), tip_(tip), nodes_(nodes) {}
+      : LoopTip(loops[loop], tip), loops_(loops), nodes_(nodes) {}
 
   std::optional<BoundaryCap> make() {
     if (!nodes_.may_be_cut(loop_[tip_].node) || !is_sharp()) return std::nullopt;
@@ -157,15 +179,13 @@ class CornerCap {
   }
 
  private:
-  const LoopPoint& after(size_t i) const { return loop_[(tip_ + i) % loop_.size()]; }
-  const LoopPoint& before(size_t i) const { return loop_[(tip_ + loop_.size() - i) % loop_.size()]; }
   Vec3 place(const LoopPoint& p) const { return nodes_.place(p.node); }
 
   bool is_sharp() const {
     const Vec2 out = after(1).point - loop_[tip_].point, in = before(1).point - loop_[tip_].point;
     if (!(cross(out, in) > 0 && dot(out, in) > 0)) return false;
-    const Vec3 at = place(loop_[tip_]), a = place(after(1)) - at, b = place(before(1)) - at;
-    return std::atan2(norm(cross(a, b)), dot(a, b)) < kLeastSharedAngle;
+    const Vec3 at = place(loop_[tip_]);
+    return angle_between(place(after(1)) - at, place(before(1)) - at) < kLeastSharedAngle;
   }
 
   /// The place halfway between the next two opposite nodes; none where the cap ends.
@@ -233,8 +253,6 @@ class CornerCap {
   }
 
   const std::vector<BoundaryLoop>& loops_;
-  BoundaryLoop& loop_;
-  size_t tip_;
   const CapNodes& nodes_;
   Vec3 normal_;
 };

@@ -1,11 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <functional>
-#include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -27,24 +23,7 @@ struct LoopPoint {
   int node, curve;  ///< of the edge that begins here
 };
 using BoundaryLoop = std::vector<LoopPoint>;
-std::vector<BoundaryLoop> take_loops(const PatchBoundary& boundary);
 PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops);
-/// Puts other points in the place of the tip and of those fewer than k beside it.
-void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<const LoopPoint> fresh);
-/// Caps what make(loops, loop, point) caps, which changes the loop.
-template <class Make>
-std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
-  std::vector<BoundaryCap> caps;
-  std::vector<BoundaryLoop> loops = take_loops(boundary);
-  for (std::size_t l = 0; l < loops.size(); ++l)
-    for (std::size_t i = 0; i < loops[l].size(); ++i)
-      if (std::optional<BoundaryCap> cap = make(loops, l, i)) {
-        caps.push_back(std::move(*cap));
-        i = static_cast<std::size_t>(-1);  // the loop has changed
-      }
-  if (!caps.empty()) boundary = make_boundary(loops);
-  return caps;
-}
 
 /// A cone is laid flat by a cut to its tip. Where it is pointed, the corner there takes one quad, but both of
 /// its sides are the same, and that quad would meet itself. Such corners are cut off the boundary, at the

@@ -99,23 +99,13 @@ SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const Size
   return table;
 }
 
-double SizeIntegral::s_at(double part) const {
+double SizeIntegral::interpolated(double at, double Entry::*from, double Entry::*to) const {
   assert(entries.size() >= 2);
-  const double target = part * total();
-  const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, target,
-                                      [](double x, const Entry& e) { return x < e.integral; });
-  const Entry& before = *(after - 1);
-  const double t = std::clamp((target - before.integral) / (after->integral - before.integral), 0.0, 1.0);
-  return before.s + t * (after->s - before.s);
-}
-
-double SizeIntegral::part_at(double s) const {
-  assert(entries.size() >= 2);
-  const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, s,
-                                      [](double x, const Entry& e) { return x < e.s; });
-  const Entry& before = *(after - 1);
-  const double t = std::clamp((s - before.s) / (after->s - before.s), 0.0, 1.0);
-  return (before.integral + t * (after->integral - before.integral)) / total();
+  const auto after = std::upper_bound(entries.begin() + 1, entries.end() - 1, at,
+                                      [from](double x, const Entry& e) { return x < e.*from; });
+  const Entry &low = *(after - 1), &high = *after;
+  const double t = std::clamp((at - low.*from) / (high.*from - low.*from), 0.0, 1.0);
+  return low.*to + t * (high.*to - low.*to);
 }
 
 CurvePlaces equal_places(const std::vector<int>& counts) {

@@ -60,8 +60,11 @@ struct SizeIntegral {
   std::vector<Entry> entries;
   double total() const { return entries.back().integral; }
   /// Where the integral reaches this part of the total, and the other way round.
-  double s_at(double part) const;
-  double part_at(double s) const;
+  double s_at(double part) const { return interpolated(part * total(), &Entry::integral, &Entry::s); }
+  double part_at(double s) const { return interpolated(s, &Entry::s, &Entry::integral) / total(); }
+
+ private:
+  double interpolated(double at, double Entry::*from, double Entry::*to) const;
 };
 
 /// The size at x = (1 - t) a + t b of two fine points that are neighbours on a curve.

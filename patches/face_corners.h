@@ -1,19 +1,16 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "delquad/metrics.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "patches/patch_outline.h"
 
 namespace delquad {
 
 /// Corners of a smaller angle than this take one quad only, with its fourth vertex inside (radians).
 inline constexpr double kOneQuadAngle = 40 * std::numbers::pi / 180;
-
-/// Radians, in [0, pi].
-inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 /// A corner of a patch: where one of its curves ends and the next one begins.
 struct FaceCorner {

@@ -63,9 +63,8 @@ class Facing {
   double size_at(size_t c, double s, int& hint) const {
     const auto& points = chains_[c].points;
     const size_t line = std::min(static_cast<size_t>(s), points.size() - 2);
-    const Vec3 a = fine_.points[points[line]], b = fine_.points[points[line + 1]];
-    const double t = s - static_cast<double>(line);
-    return size_(points[line], points[line + 1], t, a + t * (b - a), hint);
+    return size_(points[line], points[line + 1], s - static_cast<double>(line),
+                 fine_point_at(fine_, chains_[c], s), hint);
   }
 
   void look_all() {

@@ -9,6 +9,7 @@
 
 #include "base/disjoint_sets.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/planar/check_lines.h"
 #include "patches/face_corners.h"
 
 namespace delquad {
@@ -92,12 +93,12 @@ class NarrowSeeds {
  public:
   explicit NarrowSeeds(PatchBoundary& boundary) : boundary_(boundary) {
     const size_t n = boundary.points.size();
-    next_.resize(n), previous_.resize(n), loop_.assign(n, -1), place_.resize(n);
+    next_.resize(n), previous_.resize(n), loop_.resize(n), place_.resize(n);
     for (const auto& [a, b] : boundary.edges) next_[a] = b, previous_[b] = a;
-    for (size_t first = 0; first < n; ++first) {
-      if (loop_[first] >= 0) continue;
+    for (const auto& edges : loops_of_edges(boundary)) {
       auto& points = loops_.emplace_back();
-      for (int v = static_cast<int>(first); loop_[v] < 0; v = next_[v]) {
+      for (const int e : edges) {
+        const int v = boundary.edges[e][0];
         loop_[v] = static_cast<int>(loops_.size()) - 1;
         place_[v] = static_cast<int>(points.size());
         points.push_back(v);

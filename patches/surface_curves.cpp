@@ -90,8 +90,7 @@ class TubePatch {
     for (const auto& t : map_.flat.triangles)
       for (int k = 0; k < 3; ++k) {
         if (t[k] != v) continue;
-        const Vec3 a = space(t[(k + 1) % 3]) - space(v), b = space(t[(k + 2) % 3]) - space(v);
-        sum += std::atan2(norm(cross(a, b)), dot(a, b));
+        sum += angle_between(space(t[(k + 1) % 3]) - space(v), space(t[(k + 2) % 3]) - space(v));
       }
     return sum;
   }

@@ -1,20 +1,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh/triangle_measures.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
+
+namespace {
+
+std::array<int, 3> nodes_of(const SurfacePatch& patch, const std::array<int, 3>& v) {
+  const std::vector<int>& node = patch.map.fine_node;
+  return {node[v[0]], node[v[1]], node[v[2]]};
+}
+
+}  // namespace
 
 SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size)
     : patch_(patch), fine_(fine), size_(size) {
   const TriPatch& flat = patch.map.flat;
   std::vector<double> flat_area(flat.points.size(), 0), area(flat.points.size(), 0);
   for (const auto& v : flat.triangles) {
-    const Vec3 a = fine.points[patch.map.fine_node[v[0]]], b = fine.points[patch.map.fine_node[v[1]]],
-               c = fine.points[patch.map.fine_node[v[2]]];
-    const double in_plane =
-        cross(flat.points[v[1]] - flat.points[v[0]], flat.points[v[2]] - flat.points[v[0]]);
-    const double in_space = norm(cross(b - a, c - a));
+    const double in_plane = area_vector(flat.points, v);
+    const double in_space = norm(area_vector(fine.points, nodes_of(patch, v)));
     for (const int i : v) flat_area[i] += in_plane, area[i] += in_space;
   }
   for (size_t i = 0; i < area.size(); ++i)
@@ -54,10 +61,7 @@ Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint)
       for (const int t : flat.neighbours[around[i]])
         if (t >= 0 && std::ranges::find(around, t) == around.end()) around.push_back(t);
   Vec3 sum;
-  for (const int t : around) {
-    const auto x = [&](int k) { return fine.points[patch.map.fine_node[flat.triangles[t][k]]]; };
-    sum = sum + cross(x(1) - x(0), x(2) - x(0));
-  }
+  for (const int t : around) sum = sum + area_vector(fine.points, nodes_of(patch, flat.triangles[t]));
   return sum;
 }
 

@@ -131,7 +131,7 @@ void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> 
     warnings.push_back(fmt::format(
         "{}: {} lines are left out: they are no edges of elements, or are there twice", given.source, gone));
   mesh.periodic.clear();
-  if (const int unused = drop_unused_points(mesh); unused > 0)
+  if (const auto unused = std::ranges::count(drop_unused_points(mesh), -1); unused > 0)
     warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
 }
 

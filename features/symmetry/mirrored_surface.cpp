@@ -13,6 +13,7 @@
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/surface/curve_chains.h"
 
 namespace delquad {
 namespace {
@@ -37,13 +38,6 @@ void drop_loose_seams(SurfaceModel& model, const std::vector<MirrorMatch>& match
     return std::ranges::none_of(
         matches, [&](const MirrorMatch& m) { return m.is_loose_seam[mesh.line_curve[l]] != 0; });
   });
-}
-
-std::vector<double> lengths_of_curves(const Mesh& mesh) {
-  std::vector<double> lengths(mesh.curves.size(), 0);
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    lengths[mesh.line_curve[l]] += norm(mesh.points[mesh.lines[l][1]] - mesh.points[mesh.lines[l][0]]);
-  return lengths;
 }
 
 /// The divisions of a curve of the whole, as those of its pieces.

@@ -10,6 +10,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "geometry/surface/curve_chains.h"
 #include "geometry/surface/improve_triangulation.h"
 
 namespace delquad {
@@ -211,18 +212,12 @@ std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField&
   if (fine.points.empty() || varies(fine, base)) return {};
   int hint = -1;
   const double size = base.at(fine.points[0], hint);
-  std::vector<double> length(fine.curves.size(), 0);
-  std::vector<int> first(fine.curves.size(), -1), last(fine.curves.size(), -1);
-  for (std::size_t l = 0; l < fine.lines.size(); ++l) {
-    const auto [a, b] = fine.lines[l];
-    const int c = fine.line_curve[l];
-    length[c] += norm(fine.points[b] - fine.points[a]);
-    if (first[c] < 0) first[c] = a;
-    last[c] = b;
-  }
+  const std::vector<double> length = lengths_of_curves(fine);
+  const std::vector<std::vector<int>> points = points_of_curves(fine);
   std::vector<double> limit;
   for (std::size_t c = 0; c < length.size(); ++c) {
-    const double edge = length[c] / (first[c] == last[c] ? kLoopEdges : 1);
+    const bool is_closed = points[c].empty() || points[c].front() == points[c].back();
+    const double edge = length[c] / (is_closed ? kLoopEdges : 1);
     limit.push_back(std::max(kBesideShort * edge, kLeastBeside * size));
   }
   const bool asks = std::ranges::any_of(limit, [&](double x) { return x < size; });

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <BRep_Builder.hxx>
 #include <NCollection_DataMap.hxx>
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Pnt.hxx>
 
 #include <algorithm>
 #include <string>
@@ -16,6 +19,16 @@
 
 namespace delquad::cad {
 
+/// A shape as all its instances know it, wherever they are placed.
+inline TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
+
+inline Vec3 vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+
+/// Whether an edge bounds the face that has it: others stand in it, or belong to it by name only.
+inline bool is_boundary(const TopoDS_Shape& edge) {
+  return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+}
+
 /// Names of faces and edges; all instances of one, wherever they are placed, share them.
 class PartNames {
  public:
@@ -24,29 +37,36 @@ class PartNames {
     if (names == nullptr) names = map_.Bound(unplaced(part), {});
     if (std::ranges::find(*names, name) == names->end()) names->push_back(name);
   }
+  void add(const TopoDS_Shape& part, const std::vector<std::string>& names) {
+    for (const std::string& name : names) add(part, name);
+  }
   std::vector<std::string> of(const TopoDS_Shape& part) const {
     const std::vector<std::string>* names = map_.Seek(unplaced(part));
     return names == nullptr ? std::vector<std::string>{} : *names;
   }
 
  private:
-  static TopoDS_Shape unplaced(const TopoDS_Shape& part) { return part.Located(TopLoc_Location()); }
-
   NCollection_DataMap<TopoDS_Shape, std::vector<std::string>, TopTools_ShapeMapHasher> map_;
 };
 
 /// What a CAD file holds.
 struct CadShape {
   TopoDS_Shape shape;
-  PartNames names;
-  double diagonal = 0;  ///< of the bounding box
-  std::string unit;     ///< of lengths; empty: unknown
-  std::vector<Warning> warnings;
-  std::vector<std::string> missing;  ///< parts of the file that cannot be read, and are left out
-  std::vector<int> late_faces;       ///< numbers of the faces for which the kernel takes too long, ascending
-  std::vector<LooseLine> loose;      ///< edges and vertices of the file that are no part of a face's boundary
-  std::vector<std::string> why_not;  ///< of each face, why it has no triangulation; mostly empty texts
+  PartNames names = {};
+  double diagonal = 0;    ///< of the bounding box
+  std::string unit = {};  ///< of lengths; empty: unknown
+  std::vector<Warning> warnings = {};
+  std::vector<std::string> missing = {};  ///< parts of the file that cannot be read, and are left out
+  std::vector<int> late_faces = {};   ///< numbers of the faces for which the kernel takes too long, ascending
+  std::vector<LooseLine> loose = {};  ///< edges and vertices of the file that bound no face
+  std::vector<std::string> why_not = {};  ///< of each face, why it has no triangulation; mostly empty texts
 };
+
+inline TopoDS_Compound empty_compound() {
+  TopoDS_Compound compound;
+  BRep_Builder().MakeCompound(compound);
+  return compound;
+}
 
 /// The faces, edges, vertices or solids of a shape, each once, in the kernel's order.
 inline TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {

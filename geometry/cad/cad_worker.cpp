@@ -1,5 +1,6 @@
 #include "geometry/cad/cad_worker.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -16,13 +17,17 @@
 #include <OSD_Parallel.hxx>
 #include <OSD_ThreadPool.hxx>
 #include <Precision.hxx>
+#include <Standard.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_Version.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <numeric>
+#include <system_error>
 #include <thread>
 
 #include "base/activity.h"
@@ -242,6 +247,18 @@ void answer(const CadRequest& request, int socket) {
 }
 
 }  // namespace
+
+/// By the name of the library's file, "libTKernel.so.7.6.3": it need not be the one that was compiled for.
+std::string kernel_version() {
+  Dl_info here = {};
+  std::error_code unknown;
+  std::string file;
+  if (dladdr(reinterpret_cast<void*>(&Standard::Purge), &here) != 0 && here.dli_fname != nullptr)
+    file = std::filesystem::canonical(here.dli_fname, unknown).filename().string();
+  const std::string before = ".so.";
+  const auto at = file.find(before);
+  return at == std::string::npos ? OCC_VERSION_COMPLETE : file.substr(at + before.size());
+}
 
 void work_for(int socket, int parent) {
   end_with(parent, socket);

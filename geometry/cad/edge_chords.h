@@ -8,9 +8,6 @@
 
 namespace delquad::cad {
 
-/// A shape as all its instances know it, wherever they are placed.
-inline TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
-
 /// The parameters at which edges are cut into chords: those of the triangulations that faces have; else by
 /// `deflection` (a length) and `angle` (radians). All faces of an edge, and all instances, share them.
 class EdgeChords {

@@ -24,12 +24,6 @@ namespace delquad::cad {
 
 namespace {
 
-Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
-bool is_boundary(const TopoDS_Edge& edge) {
-  return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
-}
-
 /// An end of a passage. The face's boundary arrives at it or leaves it.
 struct End {
   int point;
@@ -66,8 +60,8 @@ class OutlineBuilder {
       passage.points.push_back(static_cast<int>(outline_.uv.size()));
       const gp_Pnt2d uv = flat->Value(parameter_on(t, first, last, parameters));
       outline_.uv.push_back({uv.X(), uv.Y()});
-      outline_.points.push_back(curve.IsNull() ? to_vec(surface_->Value(uv.X(), uv.Y()))
-                                               : to_vec(curve->Value(t)));
+      outline_.points.push_back(curve.IsNull() ? vec_of(surface_->Value(uv.X(), uv.Y()))
+                                               : vec_of(curve->Value(t)));
     }
     const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
     const bool is_reversed = edge.Orientation() == TopAbs_REVERSED;
@@ -98,10 +92,10 @@ class OutlineBuilder {
     return b > a ? first + (t - a) * ((last - first) / (b - a)) : t;
   }
 
-  void add_end(const TopoDS_Vertex& vertex, int point, bool is_boundary, bool arrives) {
+  void add_end(const TopoDS_Vertex& vertex, int point, bool bounds, bool arrives) {
     if (vertex.IsNull()) throw InputError("an edge of its boundary has an open end");
-    outline_.points[point] = to_vec(BRep_Tool::Pnt(vertex));
-    if (is_boundary) ends_[vertices_.Add(vertex)].push_back({point, arrives});
+    outline_.points[point] = vec_of(BRep_Tool::Pnt(vertex));
+    if (bounds) ends_[vertices_.Add(vertex)].push_back({point, arrives});
   }
 
   /// Of the ends at a vertex pairs become one, nearest first: one that arrives and one that leaves.

@@ -16,6 +16,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/tessellate.h"
@@ -30,11 +31,13 @@ std::string why(const BOPAlgo_Builder& builder) {
   return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
 }
 
-/// What has become of a face or an edge: itself, its parts, or nothing.
-TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
-  TopTools_ListOfShape images = builder.Modified(part);
-  if (images.IsEmpty() && !builder.IsDeleted(part)) images.Append(part);
-  return images;
+/// What has become of a face or an edge: itself, its parts, or nothing, in a compound.
+TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
+  TopoDS_Compound image = empty_compound();
+  const TopTools_ListOfShape& modified = builder.Modified(part);
+  for (const TopoDS_Shape& each : modified) BRep_Builder().Add(image, each);
+  if (modified.IsEmpty() && !builder.IsDeleted(part)) BRep_Builder().Add(image, part);
+  return image;
 }
 
 /// What is glued: solids and closed shells, of open ones the faces, which may touch each other, too.
@@ -54,10 +57,9 @@ TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
 TopTools_ListOfShape images_of_bodies(BOPAlgo_Builder& builder, const TopTools_ListOfShape& bodies) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies) {
-    TopoDS_Compound images;
-    BRep_Builder().MakeCompound(images);
+    TopoDS_Compound images = empty_compound();
     for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next())
-      for (const TopoDS_Shape& image : images_of(builder, face.Current())) BRep_Builder().Add(images, image);
+      BRep_Builder().Add(images, image_of(builder, face.Current()));
     all.Append(images);
   }
   return all;
@@ -95,32 +97,13 @@ int count_parts(const TopoDS_Shape& shape) {
   return n;
 }
 
-std::string join_titles(const std::vector<std::string>& titles) {
-  constexpr std::size_t kMostNamed = 20;
-  if (titles.size() <= kMostNamed) return fmt::format("{}", fmt::join(titles, ", "));
-  return fmt::format("{}, ...", fmt::join(titles.begin(), titles.begin() + kMostNamed, ", "));
-}
-
-/// Hands names on to what faces and edges have become; returns "face 3 (lid) into 2" for those that were cut.
-std::vector<std::string> follow_faces(BOPAlgo_Builder& builder, CadShape& cad) {
+/// "face 3 (lid) into 2" for the faces that were cut.
+std::vector<std::string> cut_faces(BOPAlgo_Builder& builder, const CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
-  PartNames names;
   std::vector<std::string> cut;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const std::vector<std::string> own = cad.names.of(faces(f));
-    const TopTools_ListOfShape images = images_of(builder, faces(f));
-    for (const TopoDS_Shape& image : images)
-      for (const std::string& name : own) names.add(image, name);
-    if (images.Extent() > 1) cut.push_back(fmt::format("{} into {}", face_title(f, own), images.Extent()));
-  }
-  const TopTools_IndexedMapOfShape edges = parts(cad.shape, TopAbs_EDGE);
-  for (int e = 1; e <= edges.Extent(); ++e) {
-    const std::vector<std::string> own = cad.names.of(edges(e));
-    if (own.empty()) continue;
-    for (const TopoDS_Shape& image : images_of(builder, edges(e)))
-      for (const std::string& name : own) names.add(image, name);
-  }
-  cad.names = names;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    if (const int n = parts(image_of(builder, faces(f)), TopAbs_FACE).Extent(); n > 1)
+      cut.push_back(fmt::format("{} into {}", face_title(f, cad.names.of(faces(f))), n));
   return cut;
 }
 
@@ -137,6 +120,7 @@ TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape) {
 }
 
 void glue_shape(CadShape& cad, double tolerance) {
+  constexpr std::size_t kMostNamed = 20;
   const TopTools_ListOfShape bodies = glued_parts(cad.shape);
   if (bodies.Extent() < 2) {
     cad.warnings.push_back("nothing to glue: the model is one body");
@@ -155,8 +139,8 @@ void glue_shape(CadShape& cad, double tolerance) {
   if (n_after < n_before)
     throw InputError(
         fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
-  const std::vector<std::string> cut = follow_faces(builder, cad);
-  cad.shape = glued;
+  const std::vector<std::string> cut = cut_faces(builder, cad);
+  replace_shape(cad, glued, [&](const TopoDS_Shape& part) { return image_of(builder, part); });
   const auto count = [&, before = images_of_bodies(builder, bodies), after = glued_parts(glued)](
                          TopAbs_ShapeEnum kind) { return count_common(before, after, kind); };
   const int n_parts = count_parts(glued);
@@ -166,7 +150,7 @@ void glue_shape(CadShape& cad, double tolerance) {
                   n_parts > 1 ? fmt::format("; {} parts hang apart, without a common edge", n_parts) : ""));
   if (!cut.empty())
     cad.warnings.push_back(fmt::format(
-        "glued: faces cut where others lie on them, by their numbers before: {}", join_titles(cut)));
+        "glued: faces cut where others lie on them, by their numbers before: {}", first_of(cut, kMostNamed)));
   if (n_after > n_before)
     cad.warnings.push_back(fmt::format(
         "glued: solids overlap or touch themselves: {} solids became {} that do not", n_before, n_after));

@@ -48,24 +48,6 @@ int count_free_edges(const TopoDS_Shape& shape) {
   return n;
 }
 
-/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge.
-template <class Image>
-void replace(CadShape& cad, const TopoDS_Shape& shape, Image image) {
-  PartNames names;
-  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
-    const TopTools_IndexedMapOfShape all = parts(cad.shape, kind);
-    for (int p = 1; p <= all.Extent(); ++p) {
-      const std::vector<std::string> own = cad.names.of(all(p));
-      if (own.empty()) continue;
-      const TopTools_IndexedMapOfShape images = parts(image(all(p)), kind);
-      for (const std::string& name : own)
-        for (int i = 1; i <= images.Extent(); ++i) names.add(images(i), name);
-    }
-  }
-  cad.shape = shape;
-  cad.names = names;
-}
-
 /// How often each face (by number in `faces`) runs along an edge, of each edge once all that coincide are
 /// one.
 std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
@@ -137,10 +119,8 @@ void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, const st
 /// nothing.
 TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
   TopTools_IndexedMapOfShape faces;
-  TopoDS_Compound all, open;
   const BRep_Builder builder;
-  builder.MakeCompound(all);
-  builder.MakeCompound(open);
+  TopoDS_Compound all = empty_compound(), open = empty_compound();
   for (const TopoDS_Shape& shape : bodies_of(cad.shape)) {
     const bool is_open = count_free_edges(shape) > 0;
     builder.Add(is_open ? open : all, shape);
@@ -172,7 +152,7 @@ TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
     sewing->Perform();
     builder.Add(all, sewing->SewedShape());
   }
-  replace(cad, all, [&](const TopoDS_Shape& shape) {
+  replace_shape(cad, all, [&](const TopoDS_Shape& shape) {
     for (const auto& [first, sewing] : sewings)
       if (sewing->IsModifiedSubShape(shape)) return sewing->ModifiedSubShape(shape);
     return shape;
@@ -193,13 +173,12 @@ void fix(CadShape& cad) {
   fixer.Perform();
   const TopoDS_Shape fixed = fixer.Shape();
   const BRepCheck_Analyzer check = check_shape(fixed);
-  replace(cad, fixed, [&](const TopoDS_Shape& part) { return fixer.Context()->Apply(part); });
+  replace_shape(cad, fixed, [&](const TopoDS_Shape& part) { return fixer.Context()->Apply(part); });
   if (check.IsValid()) {
     cad.warnings.push_back("the shape was invalid and has been healed");
     return;
   }
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(fixed, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = parts(fixed, TopAbs_FACE);
   std::string invalid;
   for (int f = 1; f <= faces.Extent(); ++f)
     if (!check.IsValid(faces(f))) invalid += fmt::format("{}{}", invalid.empty() ? ": faces " : ", ", f);
@@ -212,10 +191,8 @@ bool keeps_faces(const TopoDS_Shape& sewn, const TopoDS_Shape& before) {
 }
 
 bool sew_branches(CadShape& cad, double tolerance) {
-  TopoDS_Compound open, all;
   const BRep_Builder builder;
-  builder.MakeCompound(open);
-  builder.MakeCompound(all);
+  TopoDS_Compound open = empty_compound(), all = empty_compound();
   for (const TopoDS_Shape& body : bodies_of(cad.shape)) {
     const bool is_closed =
         body.ShapeType() == TopAbs_SOLID || (body.ShapeType() == TopAbs_SHELL && BRep_Tool::IsClosed(body));
@@ -229,7 +206,7 @@ bool sew_branches(CadShape& cad, double tolerance) {
   if (!keeps_faces(sewn, open) || parts(sewn, TopAbs_EDGE).Extent() >= parts(open, TopAbs_EDGE).Extent())
     return false;
   builder.Add(all, sewn);
-  replace(cad, all, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
+  replace_shape(cad, all, [&](const TopoDS_Shape& part) { return sewing.ModifiedSubShape(part); });
   return true;
 }
 
@@ -244,7 +221,7 @@ void sew(CadShape& cad, double tolerance) {
   bool any = false;
   if (const TopoDS_Shape sewn = in_pairs.SewedShape();
       keeps_faces(sewn, cad.shape) && count_free_edges(sewn) < before) {
-    replace(cad, sewn, [&](const TopoDS_Shape& part) { return in_pairs.ModifiedSubShape(part); });
+    replace_shape(cad, sewn, [&](const TopoDS_Shape& part) { return in_pairs.ModifiedSubShape(part); });
     any = true;
   }
   any = sew_branches(cad, tolerance) || any;
@@ -297,6 +274,22 @@ std::optional<double> strip_width(const TopoDS_Face& face) {
 
 }  // namespace
 
+void replace_shape(CadShape& cad, const TopoDS_Shape& shape,
+                   const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image) {
+  PartNames names;
+  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
+    const TopTools_IndexedMapOfShape all = parts(cad.shape, kind);
+    for (int p = 1; p <= all.Extent(); ++p) {
+      const std::vector<std::string> own = cad.names.of(all(p));
+      if (own.empty()) continue;
+      const TopTools_IndexedMapOfShape images = parts(image(all(p)), kind);
+      for (int i = 1; i <= images.Extent(); ++i) names.add(images(i), own);
+    }
+  }
+  cad.shape = shape;
+  cad.names = names;
+}
+
 void heal_shape(CadShape& cad, double tolerance) {
   // A file may carry an old triangulation, coarser than asked or of another shape.
   BRepTools::Clean(cad.shape);
@@ -305,14 +298,13 @@ void heal_shape(CadShape& cad, double tolerance) {
   const TopTools_ListOfShape doubles = sew_bodies(cad, tolerance);
   sew(cad, tolerance);
   if (doubles.IsEmpty()) return;
-  TopoDS_Compound all;
-  BRep_Builder().MakeCompound(all);
+  TopoDS_Compound all = empty_compound();
   BRep_Builder().Add(all, cad.shape);
   for (const TopoDS_Shape& face : doubles) {
     BRep_Builder().Add(all, face);
     for (TopExp_Explorer part(face, TopAbs_EDGE); part.More(); part.Next())
-      for (const std::string& name : names.of(part.Current())) cad.names.add(part.Current(), name);
-    for (const std::string& name : names.of(face)) cad.names.add(face, name);
+      cad.names.add(part.Current(), names.of(part.Current()));
+    cad.names.add(face, names.of(face));
   }
   cad.shape = all;
 }
@@ -336,7 +328,7 @@ bool drop_strips(CadShape& cad, const std::vector<int>& faces) {
   if (strips.empty() || rest.IsNull() || parts(rest, TopAbs_FACE).IsEmpty()) return false;
   CadShape whole = cad;
   const int before = count_free_edges(cad.shape);
-  replace(cad, rest, [&](const TopoDS_Shape& part) { return without.Apply(part); });
+  replace_shape(cad, rest, [&](const TopoDS_Shape& part) { return without.Apply(part); });
   sew(cad, 2 * widest);
   if (count_free_edges(cad.shape) > before) {
     cad = whole;

@@ -2,6 +2,7 @@
 
 #include <TopTools_ListOfShape.hxx>
 
+#include <functional>
 #include <vector>
 
 #include "delquad/model.h"
@@ -9,6 +10,11 @@
 #include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
+
+/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge, which hands
+/// its names on.
+void replace_shape(CadShape& cad, const TopoDS_Shape& shape,
+                   const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);
 
 /// Repairs what the kernel finds invalid, and sews free edges that coincide within `tolerance` (a length), of
 /// however many faces, but not those of faces that lie on each other; valid shapes stay as they are. Says in

@@ -25,10 +25,6 @@ namespace {
 /// Radians between neighbouring chords.
 constexpr double kTurnOfChords = 0.1;
 
-bool bounds(const TopoDS_Shape& edge) {
-  return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
-}
-
 /// Edges that bound faces, or stand in several, others inside of faces being INTERNAL; and ends of edges.
 TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
   TopTools_MapOfShape joining;
@@ -39,19 +35,17 @@ TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
       const TopoDS_Shape& edge = at.Current();
       for (TopExp_Explorer end(edge, TopAbs_VERTEX); end.More(); end.Next()) joining.Add(end.Current());
       const int* known = inside_of.Seek(edge);
-      if (bounds(edge) || (known != nullptr && *known != f)) joining.Add(edge);
+      if (is_boundary(edge) || (known != nullptr && *known != f)) joining.Add(edge);
       if (known == nullptr) inside_of.Bind(edge, f);
     }
   return joining;
 }
 
-Vec3 vec3(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 std::vector<Vec3> chords(const TopoDS_Edge& edge, double deflection) {
   const BRepAdaptor_Curve curve(edge);
   const GCPnts_TangentialDeflection cut(curve, kTurnOfChords, deflection);
   std::vector<Vec3> points;
-  for (int i = 1; i <= cut.NbPoints(); ++i) points.push_back(vec3(cut.Value(i)));
+  for (int i = 1; i <= cut.NbPoints(); ++i) points.push_back(vec_of(cut.Value(i)));
   return points;
 }
 
@@ -102,18 +96,16 @@ void drop_inner_edges(CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   const TopTools_MapOfShape joining = joining_edges(cad.shape);
   BRepTools_ReShape reshape;
-  PartNames names = cad.names;
   bool any = false;
   for (int f = 1; f <= faces.Extent(); ++f) {
     const TopoDS_Shape other = without_inner_edges(faces(f), joining);
-    for (const std::string& name : cad.names.of(faces(f))) names.add(other, name);
     if (other.IsSame(faces(f))) continue;
     reshape.Replace(faces(f), other);
     any = true;
   }
-  if (!any) return;
-  cad.shape = reshape.Apply(cad.shape);
-  cad.names = names;
+  if (any)
+    replace_shape(cad, reshape.Apply(cad.shape),
+                  [&](const TopoDS_Shape& part) { return reshape.Apply(part); });
 }
 
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection) {
@@ -128,7 +120,7 @@ std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection) {
   for (TopExp_Explorer vertex(shape, TopAbs_VERTEX, TopAbs_EDGE); vertex.More(); vertex.Next())
     vertices.Add(vertex.Current());
   for (int v = 1; v <= vertices.Extent(); ++v)
-    loose.push_back({{vec3(BRep_Tool::Pnt(TopoDS::Vertex(vertices(v))))},
+    loose.push_back({{vec_of(BRep_Tool::Pnt(TopoDS::Vertex(vertices(v))))},
                      {},
                      fmt::format("the vertex without edges {}", v)});
   return loose;

@@ -110,17 +110,15 @@ class JointFinder {
   std::vector<LooseJoint> find() {
     using Kind = LooseJoint::Kind;
     std::vector<Pair> pairs = near_pairs();
-    for (const auto& [f, g] : pairs)
-      if (!add(Kind::kFaces, f, g, common_area(f, g))) add(Kind::kFaces, f, g, common_area(g, f));
+    const auto try_all = [&](auto found) {  // the first face with the second, else the second with the first
+      for (const auto& [f, g] : pairs)
+        if (!joined_.contains({f, g}) && !found(f, g)) found(g, f);
+    };
+    try_all([&](int f, int g) { return add(Kind::kFaces, f, g, common_area(f, g)); });
     std::erase_if(pairs, [&](const Pair& pair) { return are_of_one_shell(pair[0], pair[1]); });
-    for (const auto& [f, g] : pairs)
-      if (!has_joint(f, g) && !add_line_joint(f, g)) add_line_joint(g, f);
-    for (const auto& [f, g] : pairs)
-      if (!has_joint(f, g) && !add(Kind::kCrossing, f, g, crossing(f, g)))
-        add(Kind::kCrossing, f, g, crossing(g, f));
-    for (const auto& [f, g] : pairs)
-      if (!has_joint(f, g) && !add(Kind::kTouch, f, g, touching(f, g)))
-        add(Kind::kTouch, f, g, touching(g, f));
+    try_all([&](int f, int g) { return add_line_joint(f, g); });
+    try_all([&](int f, int g) { return add(Kind::kCrossing, f, g, crossing(f, g)); });
+    try_all([&](int f, int g) { return add(Kind::kTouch, f, g, touching(f, g)); });
     std::ranges::sort(joints_, {}, [](const LooseJoint& j) { return in_order(j.faces[0], j.faces[1]); });
     return std::move(joints_);
   }
@@ -184,9 +182,7 @@ class JointFinder {
     face.box = box_of(face.triangles[0]);
     for (const int t : face.triangles)
       for (int k = 0; k < 3; ++k) face.box.add(corner(t, k));
-    const double margin = deflection_ + tolerance_;
-    const Vec3 more{margin, margin, margin};
-    face.box = {face.box.low - more, face.box.high + more};
+    face.box = face.box.grown(deflection_ + tolerance_);
   }
 
   void find_lines() {
@@ -250,8 +246,6 @@ class JointFinder {
   }
 
   Pair parts_of(int f, int g) const { return in_order(faces_[f].part, faces_[g].part); }
-
-  bool has_joint(int f, int g) const { return joined_.contains(in_order(f, g)); }
 
   /// The first of the places where no joint of the same parts is known.
   bool add(LooseJoint::Kind kind, int f, int g, const Places& places) {
@@ -326,15 +320,13 @@ class JointFinder {
         const auto box = Box<Vec3>::around({p, q});
         if (!box.overlaps(faces_[g].box)) continue;
         Places found;
-        trees_of(g).boxes.search(
-            0.0, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
-            [&](int n) {
-              const int s = faces_[g].triangles[n];
-              if (!found.empty() || !box_of(s).overlaps(box)) return;
-              const auto x = meeting(p, q, corner(s, 0), corner(s, 1), corner(s, 2));
-              if (!x || !is_apart(*x)) return;
-              if (const auto y = on_both(*x, f, g)) found.push_back(*y);
-            });
+        trees_of(g).boxes.overlapping(box, [&](int n) {
+          const int s = faces_[g].triangles[n];
+          if (!found.empty() || !box_of(s).overlaps(box)) return;
+          const auto x = meeting(p, q, corner(s, 0), corner(s, 1), corner(s, 2));
+          if (!x || !is_apart(*x)) return;
+          if (const auto y = on_both(*x, f, g)) found.push_back(*y);
+        });
         if (!found.empty()) return found;
       }
     return {};
@@ -385,8 +377,7 @@ class JointFinder {
   /// Where a piece is nearest to g, and to its curves if it is of one, if that may be a common place.
   void add_approaches(const Piece& from, int g, std::vector<Approach>& all) {
     const double reach = 2 * deflection_ + tolerance_;
-    const Vec3 more{reach, reach, reach};
-    const Box<Vec3> box{from.box().low - more, from.box().high + more};
+    const Box<Vec3> box = from.box().grown(reach);
     if (!box.overlaps(faces_[g].box)) return;
     std::array<Approach, 2> nearest;  // to a triangle, to a chord
     const auto offer = [&](const Piece& to) {
@@ -400,17 +391,14 @@ class JointFinder {
       if (const double apart = norm(x - y); apart <= reach && apart < known.apart)
         known = {apart, x, from, to};
     };
-    trees_of(g).boxes.search(
-        0.0, [&](const auto& node) { return node.box.overlaps(box) ? 0.0 : 1.0; },
-        [&](int n) {
-          const int t = faces_[g].triangles[n];
-          offer(triangle(t));
-          for (int k = 0; from.curve >= 0 && k < 3; ++k)
-            if (const auto line =
-                    line_on_.find(in_order(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]));
-                line != line_on_.end())
-              offer(chord(line->second, g));
-        });
+    trees_of(g).boxes.overlapping(box, [&](int n) {
+      const int t = faces_[g].triangles[n];
+      offer(triangle(t));
+      for (int k = 0; from.curve >= 0 && k < 3; ++k)
+        if (const auto line = line_on_.find(in_order(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]));
+            line != line_on_.end())
+          offer(chord(line->second, g));
+    });
     for (Approach& at : nearest) {
       if (std::isinf(at.apart)) continue;
       at.at = project(at.from, at.at);
@@ -562,10 +550,9 @@ std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces
     for (const TopoDS_Shape& face : all) {
       if (!is_inside(TopoDS::Face(face), vertex, faces_of)) continue;
       const TopoDS_Shape& touched = part_of(face) == part_of(all.First()) ? *other : all.First();
-      const gp_Pnt at = BRep_Tool::Pnt(TopoDS::Vertex(vertex));
       joints.push_back({LooseJoint::Kind::kTouch,
                         {faces.FindIndex(face) - 1, faces.FindIndex(touched) - 1},
-                        {at.X(), at.Y(), at.Z()}});
+                        vec_of(BRep_Tool::Pnt(TopoDS::Vertex(vertex)))});
       break;
     }
   }

@@ -24,6 +24,7 @@
 #include "delquad/error.h"
 #include "geometry/cad/edge_chords.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/triangle_measures.h"
 
 namespace delquad::cad {
 
@@ -56,8 +57,7 @@ void check_sides(const PatchBoundary& boundary, const TriPatch& flat) {
 /// A face narrower than points that the kernel takes for one is none.
 void check_width(const FaceOutline& outline, const RefinedFace& mesh) {
   double area = 0, perimeter = 0;
-  for (const auto& [a, b, c] : mesh.flat.triangles)
-    area += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+  for (const auto& v : mesh.flat.triangles) area += norm(area_vector(mesh.points, v)) / 2;
   for (const EdgePassage& passage : outline.passages)
     for (std::size_t k = 0; k + 1 < passage.points.size(); ++k)
       perimeter += norm(outline.points[passage.points[k + 1]] - outline.points[passage.points[k]]);
@@ -141,7 +141,7 @@ class OutlineMesher {
     if (crossing == crossing_at_.end()) return at->second;
     const Vec3& x = crossing->second;
     const gp_Pnt p = gp_Pnt(x.x, x.y, x.z).Transformed(face.Location().Transformation());
-    return fmt::format("{} near {}", at->second, show_point(Vec3{p.X(), p.Y(), p.Z()}));
+    return fmt::format("{} near {}", at->second, show_point(vec_of(p)));
   }
 
  private:

@@ -1,4 +1,4 @@
-#include "geometry/cad/part_twin_sides.h"
+#include "geometry/cad/weld_faces.h"
 
 #include <algorithm>
 #include <utility>

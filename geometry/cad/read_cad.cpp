@@ -60,12 +60,6 @@ TopTools_ListOfShape shells_of_solids(const TopoDS_Shape& shape) {
   return shells;
 }
 
-int count_solids(const TopoDS_Shape& shape) {
-  int n = 0;
-  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) ++n;
-  return n;
-}
-
 /// Whether the faces of a group, and no others, have a name in common that is more than a colour.
 bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
   const auto has = [&](int face, const std::string& name) {
@@ -80,9 +74,12 @@ bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
 }
 
 /// Of several solids, names those that have none of their own: "solid 1", ... by their order in the file.
-/// Faces that solids share have the names of both. `groups`: the faces of each body, solids first.
-void name_solids(const TopoDS_Shape& shape, const std::vector<std::vector<int>>& groups, Mesh& mesh) {
-  const int n_solids = count_solids(shape);
+/// Faces that solids share have the names of both. `groups`: the faces of each body; solids come first.
+void name_solids(const TopTools_ListOfShape& bodies, const std::vector<std::vector<int>>& groups,
+                 Mesh& mesh) {
+  const auto n_solids = std::count_if(bodies.begin(), bodies.end(), [](const TopoDS_Shape& body) {
+    return body.ShapeType() == TopAbs_SOLID;
+  });
   if (n_solids < 2) return;
   std::vector<char> named;
   for (int k = 0; k < n_solids; ++k) named.push_back(groups[k].empty() || has_own_name(mesh, groups[k]));
@@ -93,25 +90,28 @@ void name_solids(const TopoDS_Shape& shape, const std::vector<std::vector<int>>&
   }
 }
 
+/// Places that messages name.
+constexpr std::size_t kMostPlaces = 20;
+
+std::string title_of(const Mesh& mesh, int face) {
+  return face_title(mesh.regions[face].tag, mesh.regions[face].names);
+}
+
 /// "face 2, edge on face 1 (lid) at (1, 0, 2)", of so many.
 std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints) {
-  constexpr std::size_t kMostNamed = 20;
   constexpr std::array kHow{"face on", "edge on", "corner on", "through", "touching"};  // by kind
-  const auto title = [&](int f) { return face_title(mesh.regions[f].tag, mesh.regions[f].names); };
-  std::string text;
-  for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
-    const auto& [kind, faces, at] = joints[i];
-    text += fmt::format("{}{}, {} {} at {}", i == 0 ? "" : "; ", title(faces[0]),
-                        kHow[static_cast<std::size_t>(kind)], title(faces[1]), show_point(at));
-  }
-  return joints.size() > kMostNamed ? text + "; ..." : text;
+  std::vector<std::string> all;
+  for (const auto& [kind, faces, at] : joints)
+    all.push_back(fmt::format("{}, {} {} at {}", title_of(mesh, faces[0]),
+                              kHow[static_cast<std::size_t>(kind)], title_of(mesh, faces[1]),
+                              show_point(at)));
+  return first_of(all, kMostPlaces, "; ");
 }
 
 /// Warns of what nearly touches: its mesh would come apart there.
 void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double diagonal,
                const std::function<double(const Vec3&)>& size) {
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
-  constexpr std::size_t kMostNamed = 20;
   std::vector<std::vector<Vec3>> corners(model.fine.regions.size());
   for (std::size_t t = 0; t < model.fine.triangles.size(); ++t)
     for (const int v : model.fine.triangles[t])
@@ -124,24 +124,19 @@ void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double di
            c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
   });
   if (contacts.empty()) return;
-  const auto title = [&](int f) {
-    return face_title(model.fine.regions[f].tag, model.fine.regions[f].names);
-  };
-  std::string list;
+  std::vector<std::string> all;
   double widest = 0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto& [faces, at, distance] = contacts[i];
+  for (const auto& [faces, at, distance] : contacts) {
     widest = std::max(widest, distance);
-    if (i < kMostNamed)
-      list += fmt::format("{}{} is {:.3g} from {} at {}", i == 0 ? "" : "; ", title(faces[0]), distance,
-                          title(faces[1]), show_point(at));
+    all.push_back(fmt::format("{} is {:.3g} from {} at {}", title_of(model.fine, faces[0]), distance,
+                              title_of(model.fine, faces[1]), show_point(at)));
   }
-  if (contacts.size() > kMostNamed) list += "; ...";
   const double digit = std::pow(10, std::floor(std::log10(widest / diagonal)));
   model.warnings.push_back(fmt::format(
       "faces nearly touch at {} and stay apart: {}: move them together in CAD, or try --glue --weld {:.0e} "
       "(surface.glue, weld_tolerance: a part of the diagonal)",
-      counted(std::ssize(contacts), "place"), list, (std::floor(widest / diagonal / digit) + 1) * digit));
+      counted(std::ssize(contacts), "place"), first_of(all, kMostPlaces, "; "),
+      (std::floor(widest / diagonal / digit) + 1) * digit));
 }
 
 /// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
@@ -242,8 +237,9 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (Entity& curve : model.fine.curves)
     if (curve.tag <= edges.Extent()) curve.names = cad.names.of(edges(curve.tag));
   model.embedded = std::move(welded.embedded);
-  const std::vector<std::vector<int>> groups = faces_of(bodies_of(cad.shape), faces);
-  name_solids(cad.shape, groups, model.fine);
+  const TopTools_ListOfShape bodies = bodies_of(cad.shape);
+  const std::vector<std::vector<int>> groups = faces_of(bodies, faces);
+  name_solids(bodies, groups, model.fine);
   orient(model, groups);
   report_edges(model);
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);

@@ -6,6 +6,7 @@
 #include <gp_Vec.hxx>
 #include <utility>
 
+#include "base/box.h"
 #include "base/cancel.h"
 #include "geometry/mesh/delaunay_kernel.h"
 
@@ -24,8 +25,8 @@ SurfacePoint evaluate(const Geom_Surface& surface, Vec2 uv) {
   const gp_Vec normal = du.Crossed(dv);
   const double length = normal.Magnitude();
   constexpr double kParallel = 1e-9;  // sine between the tangents
-  if (!(length > kParallel * du.Magnitude() * dv.Magnitude())) return {{p.X(), p.Y(), p.Z()}, {0, 0, 0}};
-  return {{p.X(), p.Y(), p.Z()}, {normal.X() / length, normal.Y() / length, normal.Z() / length}};
+  if (!(length > kParallel * du.Magnitude() * dv.Magnitude())) return {vec_of(p), {0, 0, 0}};
+  return {vec_of(p), {normal.X() / length, normal.Y() / length, normal.Z() / length}};
 }
 
 class FaceRefiner {
@@ -126,11 +127,7 @@ RefinedFace refine_face(const Geom_Surface& surface, const TriPatch& start, std:
 }
 
 Vec2 parameter_scale(const Geom_Surface& surface, const std::vector<Vec2>& uv) {
-  Vec2 low = uv.front(), high = uv.front();
-  for (const Vec2 x : uv) {
-    low = {std::min(low.x, x.x), std::min(low.y, x.y)};
-    high = {std::max(high.x, x.x), std::max(high.y, x.y)};
-  }
+  const auto [low, high] = Box<Vec2>::around(std::span(uv));
   // Samples in their box: an even grid sees what the outline of a band around a pole does not.
   constexpr int kSamples = 8;
   double u_speed = 0, v_speed = 0;

@@ -143,12 +143,8 @@ std::string beginning(const std::filesystem::path& path) {
   return text;
 }
 
-/// "#3 (Plane), #7 (Line), ...": the first of a list.
-std::string first_of(const std::vector<std::string>& list) {
-  constexpr std::size_t kMostNamed = 5;
-  return fmt::format("{}{}", fmt::join(list.begin(), list.begin() + std::min(list.size(), kMostNamed), ", "),
-                     list.size() > kMostNamed ? ", ..." : "");
-}
+/// Of what is listed in messages.
+constexpr std::size_t kMostNamed = 5;
 
 /// Throws InputError unless the rest is wanted, and there is one; then the shape's list has what is missing.
 void lose(const std::string& text, bool keep_going, bool is_rest, CadShape& cad) {
@@ -161,7 +157,7 @@ void lose(const std::string& kind, const std::vector<std::string>& lost, bool ke
           CadShape& cad) {
   if (lost.empty()) return;
   lose(fmt::format("{} of the {} file cannot be read: {}", counted(std::ssize(lost), "part"), kind,
-                   first_of(lost)),
+                   first_of(lost, kMostNamed)),
        keep_going, is_rest, cad);
 }
 
@@ -183,11 +179,11 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
                                        roots - transferred, roots, kind, complaint->why()));
   if (!lost.doubtful.empty())
-    cad.warnings.push_back(
-        fmt::format("parts of the {} file were read with errors: {}", kind, first_of(lost.doubtful)));
+    cad.warnings.push_back(fmt::format("parts of the {} file were read with errors: {}", kind,
+                                       first_of(lost.doubtful, kMostNamed)));
   if (!lost.unused.empty())
     cad.warnings.push_back(fmt::format("{} faces of the {} file belong to no shape and are left out: {}",
-                                       lost.unused.size(), kind, first_of(lost.unused)));
+                                       lost.unused.size(), kind, first_of(lost.unused, kMostNamed)));
   cad.shape = reader.OneShape();
   cad.unit = wanted.name;
   return cad;
@@ -200,18 +196,19 @@ std::string rest_to_read(const std::string& bytes, const std::map<int, std::stri
   const StepRest rest = rest_of_step(bytes, unreadable);
   if (rest.lost.empty()) return bytes;
   if (rest.is_whole) {
-    cad.warnings.push_back("curves of edges on surfaces are missing, and made anew: " + first_of(rest.lost));
+    cad.warnings.push_back("curves of edges on surfaces are missing, and made anew: " +
+                           first_of(rest.lost, kMostNamed));
     return rest.text;
   }
-  std::string text = rest.ends_early
-                         ? "the STEP file is damaged: " + rest.lost[0]
-                         : fmt::format("{} of the STEP file cannot be read: {}",
-                                       counted(std::ssize(rest.lost), "part"), first_of(rest.lost));
+  std::string text =
+      rest.ends_early ? "the STEP file is damaged: " + rest.lost[0]
+                      : fmt::format("{} of the STEP file cannot be read: {}",
+                                    counted(std::ssize(rest.lost), "part"), first_of(rest.lost, kMostNamed));
   if (!rest.faces.empty()) {
     std::vector<std::string> faces;
     for (const int f : rest.faces) faces.push_back(fmt::format("#{}", f));
     text += fmt::format("; without it {} cannot be made: {}", counted(std::ssize(faces), "face"),
-                        first_of(faces));
+                        first_of(faces, kMostNamed));
   }
   cad.missing.clear();
   lose(text, keep_going, !rest.text.empty(), cad);
@@ -292,7 +289,7 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
   if (cad.shape.IsNull()) throw InputError("not a readable BREP file" + complaint->why());
   TopTools_MapOfShape faces;
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
-    faces.Add(face.Current().Located(TopLoc_Location()));
+    faces.Add(unplaced(face.Current()));
   lose("BREP", lost_in_brep(bytes, faces.Extent()), options.keep_going, !faces.IsEmpty(), cad);
   return cad;
 }

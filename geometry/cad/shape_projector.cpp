@@ -159,7 +159,6 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
   return std::nullopt;
 }
 
-Vec3 vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 gp_Pnt pnt_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 /// The larger of the principal curvatures by size; NaN where the tangents du and dv are parallel or vanish.
@@ -200,16 +199,10 @@ class FaceProjector {
   }
 
   Vec3 nearest(const Vec3& x, double tolerance) const {
-    if (elementary_) {
-      return std::visit(
-          [&](const auto& surface) {
-            double u, v;
-            ElSLib::Parameters(surface, pnt_of(x), u, v);
-            return vec_of(ElSLib::Value(u, v, surface));
-          },
-          *elementary_);
-    }
     const Vec2 uv = parameters(x);
+    if (elementary_)
+      return std::visit([&](const auto& surface) { return vec_of(ElSLib::Value(uv.x, uv.y, surface)); },
+                        *elementary_);
     return vec_of(nearest_point(*surface_, pnt_of(x), uv.x, uv.y, tolerance));
   }
 

@@ -23,6 +23,7 @@
 #include "base/context.h"
 #include "base/parallel.h"
 #include "geometry/cad/watch_kernel.h"
+#include "geometry/mesh/triangle_measures.h"
 
 namespace delquad::cad {
 
@@ -95,9 +96,8 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
   if (triangulation.IsNull() || !triangulation->HasUVNodes()) return mesh;
   const gp_Trsf placed = place.Transformation();
   for (int i = 1; i <= triangulation->NbNodes(); ++i) {
-    const gp_Pnt p = triangulation->Node(i).Transformed(placed);
     const gp_Pnt2d uv = triangulation->UVNode(i);
-    mesh.points.push_back({p.X(), p.Y(), p.Z()});
+    mesh.points.push_back(vec_of(triangulation->Node(i).Transformed(placed)));
     mesh.uv.push_back({uv.X(), uv.Y()});
   }
   mesh.is_reversed = (face.Orientation() == TopAbs_REVERSED) != placed.IsNegative();
@@ -112,8 +112,7 @@ FaceMesh take_triangulation(const TopoDS_Face& face) {
 
 double area(const FaceMesh& mesh) {
   double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+  for (const auto& v : mesh.triangles) sum += norm(area_vector(mesh.points, v)) / 2;
   return sum;
 }
 

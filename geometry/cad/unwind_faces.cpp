@@ -10,7 +10,6 @@
 #include <Precision.hxx>
 #include <ShapeFix_Wire.hxx>
 #include <TopAbs.hxx>
-#include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
@@ -46,27 +45,19 @@ TopoDS_Face turned(const TopoDS_Face& face) {
 }  // namespace
 
 void unwind_faces(CadShape& cad) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   BRepTools_ReShape reshape;
-  PartNames names = cad.names;
   int n = 0;
   for (int f = 1; f <= faces.Extent(); ++f) {
-    TopoDS_Face face = TopoDS::Face(faces(f));
-    const std::vector<std::string> own = cad.names.of(face);
-    if (winds(face)) {
-      const TopoDS_Face other = turned(face);
-      if (!winds(other)) {
-        reshape.Replace(face, other);
-        face = other;
-        ++n;
-      }
-    }
-    for (const std::string& name : own) names.add(face, name);
+    const TopoDS_Face face = TopoDS::Face(faces(f));
+    if (!winds(face)) continue;
+    const TopoDS_Face other = turned(face);
+    if (winds(other)) continue;
+    reshape.Replace(face, other);
+    ++n;
   }
   if (n == 0) return;
-  cad.shape = reshape.Apply(cad.shape);
-  cad.names = names;
+  replace_shape(cad, reshape.Apply(cad.shape), [&](const TopoDS_Shape& part) { return reshape.Apply(part); });
   cad.warnings.push_back(fmt::format("{} face(s) went around more than once and have been turned over", n));
 }
 

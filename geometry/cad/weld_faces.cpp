@@ -15,7 +15,6 @@
 
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
-#include "geometry/cad/part_twin_sides.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad::cad {
@@ -67,10 +66,7 @@ class Welder {
     if (vertex.IsNull()) return new_node(otherwise);
     const int known = vertices_.Extent();
     const int v = vertices_.Add(vertex);
-    if (v > known) {
-      const gp_Pnt p = BRep_Tool::Pnt(vertex);
-      vertex_nodes_.push_back(new_node({p.X(), p.Y(), p.Z()}));
-    }
+    if (v > known) vertex_nodes_.push_back(new_node(vec_of(BRep_Tool::Pnt(vertex))));
     return vertex_nodes_[v - 1];
   }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "geometry/cad/part_twin_sides.h"
 #include "geometry/cad/tessellate.h"
 #include "geometry/surface/surface_model.h"
 
@@ -18,6 +17,11 @@ namespace delquad::cad {
 struct CurveMesh {
   TopoDS_Edge edge;
   std::vector<double> parameters;  ///< of the points of its chain of lines
+};
+
+/// A point put inside a face, on the middle of a side.
+struct PointInside {
+  int point, face;  ///< indices, of points and regions
 };
 
 struct WeldedFaces {
@@ -48,6 +52,13 @@ WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMap
 /// gap's area to its perimeter, a length: how far off the boundary was.
 double repair_face(const std::vector<Vec3>& points, const std::vector<std::array<int, 2>>& boundary,
                    std::vector<std::array<int, 3>>& triangles);
+
+/// Two faces that share more than one curve, or nodes at its ends only, may both have a side between the same
+/// two nodes, one or both of them inside: each is its own way over the surface. Such inner sides get a node
+/// on their middle, so that an edge of the mesh tells the sides of its two triangles. `boundary`: the sides
+/// (lower node first) that edges of each face have, sorted. Returns the new points.
+std::vector<PointInside> part_twin_sides(Mesh& mesh,
+                                         const std::vector<std::vector<std::array<int, 2>>>& boundary);
 
 /// True when no side belongs to more than two of the triangles.
 bool is_manifold(const std::vector<std::array<int, 3>>& triangles);

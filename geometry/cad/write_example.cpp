@@ -1,4 +1,3 @@
-
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepTools.hxx>
 #include <Message.hxx>
@@ -12,9 +11,7 @@
 #include <StepData_StepWriter.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp.hxx>
 #include <TopLoc_Location.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
@@ -56,14 +53,12 @@ CadShape make_example(const std::string& name) {
 /// An example whose faces have its own name first, as those of a product in a STEP file.
 CadShape make_product(const std::string& name) {
   const CadShape example = make_example(name);
-  CadShape product;
-  product.shape = example.shape;
+  CadShape product{example.shape};
   product.unit = "mm";
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(example.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = parts(example.shape, TopAbs_FACE);
   for (int f = 1; f <= faces.Extent(); ++f) {
     product.names.add(faces(f), name);
-    for (const std::string& own : example.names.of(faces(f))) product.names.add(faces(f), own);
+    product.names.add(faces(f), example.names.of(faces(f)));
   }
   return product;
 }
@@ -101,8 +96,7 @@ class SilentKernel {
 
 void name_faces(const CadShape& cad, const STEPControl_Writer& writer) {
   const auto process = writer.WS()->TransferWriter()->FinderProcess();
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   for (int f = 1; f <= faces.Extent(); ++f) {
     TopLoc_Location place;  // a face that was moved may be written where it came from
     const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(process, faces(f), place);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -11,8 +10,5 @@ namespace delquad {
 /// outside is kept. Throws InputError when boundary edges cross or have the patch on both sides, or an
 /// interior point lies outside, on the boundary or on another point.
 TriPatch constrained_delaunay(const PatchBoundary& boundary, const std::vector<Vec2>& interior = {});
-
-/// What is wrong with the triangulation, one line each: ranges, orientation, neighbours that do not agree.
-std::vector<std::string> check_invariants(const TriPatch& tri);
 
 }  // namespace delquad

@@ -24,9 +24,9 @@ inline void renumber_nodes(Mesh& mesh, const std::vector<int>& renamed) {
   renumber(mesh.periodic_faces);
 }
 
-/// Takes out the points that no element uses, and their names; the others keep their order. Returns how many
-/// went.
-inline int drop_unused_points(Mesh& mesh) {
+/// Takes out the points that no element uses, and their names; the others keep their order. Returns the new
+/// number of each; -1: it went.
+inline std::vector<int> drop_unused_points(Mesh& mesh) {
   std::vector<int> index(mesh.points.size(), -1);
   const auto each_vertex = [&](auto&& visit) {
     for (auto& e : mesh.lines) std::for_each(e.begin(), e.end(), visit);
@@ -45,7 +45,7 @@ inline int drop_unused_points(Mesh& mesh) {
   mesh.points.resize(kept);
   renumber_nodes(mesh, index);
   each_vertex([&](int& v) { v = index[v]; });
-  return static_cast<int>(index.size()) - kept;
+  return index;
 }
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "base/box.h"
@@ -42,19 +43,6 @@ class CurveFrame {
   double cells_;
 };
 
-/// Sorts by keys[i], ties in their order, in two passes of 16 bits.
-void sort_by_key(std::vector<int>& items, const std::vector<std::uint32_t>& keys) {
-  std::vector<int> other(items.size());
-  for (const int shift : {0, 16}) {
-    std::vector<std::size_t> first((1U << 16) + 1, 0);
-    const auto digit = [&](int i) { return keys[i] >> shift & 0xFFFFU; };
-    for (const int i : items) ++first[digit(i) + 1];
-    for (std::size_t d = 0; d < 1U << 16; ++d) first[d + 1] += first[d];
-    for (const int i : items) other[first[digit(i)]++] = i;
-    items.swap(other);
-  }
-}
-
 bool any_of(const Elements& elements, std::size_t element, const std::vector<char>& vertices) {
   return std::ranges::any_of(elements.corners(element), [&](int v) { return vertices[v] != 0; });
 }
@@ -79,20 +67,18 @@ std::vector<char> grown(const Elements& elements, std::vector<char> vertices, in
 std::vector<int> ordered(const Elements& elements, std::span<const Vec2> places,
                          const std::vector<char>& around) {
   const CurveFrame frame(places, !around.empty());
-  std::vector<std::uint32_t> keys(elements.size());
-  std::vector<char> is_in(keys.size());
-  parallel_ranges(keys.size(), [&](std::size_t begin, std::size_t end) {
+  constexpr std::uint64_t kOut = std::numeric_limits<std::uint64_t>::max();
+  std::vector<std::uint64_t> order(elements.size(), kOut);  // place on the curve, then number
+  parallel_ranges(order.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      is_in[e] = around.empty() || any_of(elements, e, around);
       const auto corners = elements.corners(e);
-      if (is_in[e]) keys[e] = frame.place(0.5 * (places[corners[0]] + places[corners[2]]));
+      if (around.empty() || any_of(elements, e, around))
+        order[e] = std::uint64_t{frame.place(0.5 * (places[corners[0]] + places[corners[2]]))} << 32 | e;
     }
   });
-  std::vector<int> order;
-  for (std::size_t e = 0; e < is_in.size(); ++e)
-    if (is_in[e]) order.push_back(static_cast<int>(e));
-  sort_by_key(order, keys);
-  return order;
+  std::erase(order, kOut);
+  std::ranges::sort(order);
+  return {order.begin(), order.end()};
 }
 
 using Blocks = std::vector<std::vector<int>>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <span>
 #include <tuple>
@@ -17,6 +18,9 @@ struct HalfEdge {
   int lo, hi;    ///< its ends, lo <= hi
   int element;   ///< triangles first, then quads
   bool forward;  ///< the element runs from lo to hi
+
+  /// Its ends, as the element runs.
+  std::array<int, 2> run() const { return forward ? std::array{lo, hi} : std::array{hi, lo}; }
 };
 
 /// Calls visit(element, vertices) for every triangle, then every quad; `vertices` is an array of 3 or 4.

@@ -62,41 +62,27 @@ std::vector<Box<Vec3>> boxes_of(std::array<Vec3, 3> x) {
     const double from = double(i) / n, to = double(i + 1) / n;
     std::vector<Vec3> corners = {below(from), below(to), above(from), above(to)};
     if (peak >= from && peak <= to) corners.push_back(c);
-    Box<Vec3> box = Box<Vec3>::around(corners);
-    const double margin = kRounding * std::sqrt(side2);
-    box.low = box.low - Vec3{margin, margin, margin};
-    box.high = box.high + Vec3{margin, margin, margin};
-    boxes.push_back(box);
+    boxes.push_back(Box<Vec3>::around(corners).grown(kRounding * std::sqrt(side2)));
   }
-  return boxes;
-}
-
-std::vector<Box<Vec3>> boxes_only(const auto& parts) {
-  std::vector<Box<Vec3>> boxes;
-  for (const auto& part : parts) boxes.push_back(part.box);
   return boxes;
 }
 
 }  // namespace
 
-std::vector<NearestTriangle::Part> NearestTriangle::parts_of(
-    const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles) {
-  if (triangles.empty()) throw std::invalid_argument("NearestTriangle: no triangles");
-  std::vector<Part> parts;
-  parts.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    for (const Box<Vec3>& box : boxes_of({points[a], points[b], points[c]}))
-      parts.push_back({static_cast<int>(t), box});
-  }
-  return parts;
-}
-
 NearestTriangle::NearestTriangle(std::vector<Vec3> points, std::vector<std::array<int, 3>> triangles)
-    : points_(std::move(points)),
-      triangles_(std::move(triangles)),
-      parts_(parts_of(points_, triangles_)),
-      tree_(boxes_only(parts_)) {}
+    : points_(std::move(points)), triangles_(std::move(triangles)) {
+  if (triangles_.empty()) throw std::invalid_argument("NearestTriangle: no triangles");
+  parts_.reserve(triangles_.size());
+  std::vector<Box<Vec3>> boxes;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    for (const Box<Vec3>& box : boxes_of({points_[a], points_[b], points_[c]})) {
+      parts_.push_back({static_cast<int>(t), box});
+      boxes.push_back(box);
+    }
+  }
+  tree_ = BoxTree<Vec3>(boxes);
+}
 
 std::pair<std::array<double, 3>, double> NearestTriangle::nearest_in(int t, const Vec3& x) const {
   const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];

@@ -38,8 +38,6 @@ class NearestTriangle {
     int triangle;
     Box<Vec3> box;
   };
-  static std::vector<Part> parts_of(const std::vector<Vec3>& points,
-                                    const std::vector<std::array<int, 3>>& triangles);
 
   std::vector<Part> parts_;
   BoxTree<Vec3> tree_;

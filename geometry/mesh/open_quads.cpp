@@ -1,9 +1,13 @@
 #include "geometry/mesh/open_quads.h"
 
+#include <algorithm>
+
+#include "base/disjoint_sets.h"
+
 namespace delquad {
 
 OpenQuads::OpenQuads(const Mesh& mesh, std::span<const HalfEdge> sides)
-    : twin_(4 * mesh.quads.size(), -1), node_(twin_.size(), -1), patch_(mesh.quads.size(), -1) {
+    : twin_(4 * mesh.quads.size(), -1), node_(twin_.size(), -1) {
   join(mesh, sides);
   find_nodes();
   find_patches();
@@ -16,7 +20,7 @@ void OpenQuads::join(const Mesh& mesh, std::span<const HalfEdge> sides) {
   };
   const auto half_edge = [&](const HalfEdge& side) {
     const auto& v = mesh.quads[side.element - n_triangles];
-    const int from = side.forward ? side.lo : side.hi, to = side.forward ? side.hi : side.lo;
+    const auto [from, to] = side.run();
     int k = 0;
     while (v[k] != from || v[(k + 1) % 4] != to) ++k;
     return 4 * (side.element - n_triangles) + k;
@@ -47,22 +51,11 @@ void OpenQuads::find_nodes() {
 }
 
 void OpenQuads::find_patches() {
-  std::vector<int> waiting;
-  for (std::size_t q = 0; q < patch_.size(); ++q) {
-    if (patch_[q] >= 0) continue;
-    patch_[q] = n_patches_;
-    waiting.push_back(static_cast<int>(q));
-    while (!waiting.empty()) {
-      const int at = waiting.back();
-      waiting.pop_back();
-      for (int h = 4 * at; h < 4 * at + 4; ++h)
-        if (const int t = twin_[h]; t >= 0 && patch_[quad(t)] < 0) {
-          patch_[quad(t)] = n_patches_;
-          waiting.push_back(quad(t));
-        }
-    }
-    ++n_patches_;
-  }
+  DisjointSets patches(twin_.size() / 4);
+  for (int h = 0; h < static_cast<int>(twin_.size()); ++h)
+    if (twin_[h] >= 0) patches.join(quad(h), quad(twin_[h]));
+  patch_ = patches.places();
+  for (const int p : patch_) n_patches_ = std::max(n_patches_, p + 1);
 }
 
 }  // namespace delquad

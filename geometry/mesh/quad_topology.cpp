@@ -73,35 +73,6 @@ QuadPatch QuadTopology::to_patch() const {
   return mesh;
 }
 
-std::vector<std::string> QuadTopology::check_invariants() const {
-  std::vector<std::string> wrong;
-  const auto half_edge = [](int h) { return "half-edge " + std::to_string(h); };
-  std::vector<int> count(points_.size(), 0);
-  for (int h = 0; h < static_cast<int>(corner_.size()); ++h) {
-    if (corner_[h] < 0) continue;
-    ++count[corner_[h]];
-    if (!vertex_alive(corner_[h])) wrong.push_back(half_edge(h) + " leaves a dead vertex");
-    const int t = twin_[h];
-    if (t < 0) {
-      if (!on_boundary(origin(h)) || !on_boundary(target(h)))
-        wrong.push_back(half_edge(h) + " is open inside");
-      if (out_[origin(h)] != h) wrong.push_back(half_edge(h) + " is not its boundary vertex's first");
-    } else if (twin_[t] != h || origin(t) != target(h) || target(t) != origin(h)) {
-      wrong.push_back(half_edge(h) + " and its twin disagree");
-    }
-  }
-  if (!wrong.empty()) return wrong;
-  for (int v = 0; v < vertex_slots(); ++v) {
-    if (!vertex_alive(v)) continue;
-    int fan = 0;
-    for_each_out(v, [&](int h) { fan += origin(h) == v ? 1 : count[v] + 1; });
-    if (fan != count[v] || valence_[v] != count[v])
-      wrong.push_back("vertex " + std::to_string(v) + " has " + std::to_string(count[v]) + " elements, " +
-                      std::to_string(fan) + " around it, and says " + std::to_string(valence_[v]));
-  }
-  return wrong;
-}
-
 bool QuadTopology::adjacent(int a, int b) const {
   bool found = false;
   for_each_out(a, [&](int h) { found |= target(h) == b || origin(prev(h)) == b; });
@@ -404,7 +375,7 @@ void QuadTopology::rollback(const Mark& mark) {
   assert(mark.ints <= int_log_.size() && mark.moves <= move_log_.size());
   assert(mark.vertices <= points_.size() && 4 * mark.elements <= corner_.size());
   for (; int_log_.size() > mark.ints; int_log_.pop_back())
-    array(int_log_.back().array)[int_log_.back().index] = int_log_.back().old;
+    (this->*int_log_.back().array)[int_log_.back().index] = int_log_.back().old;
   for (; move_log_.size() > mark.moves; move_log_.pop_back())
     points_[move_log_.back().vertex] = move_log_.back().old;
   points_.resize(mark.vertices);
@@ -414,21 +385,8 @@ void QuadTopology::rollback(const Mark& mark) {
   twin_.resize(4 * mark.elements);
 }
 
-std::vector<int>& QuadTopology::array(Array which) {
-  switch (which) {
-    case kCorner:
-      return corner_;
-    case kTwin:
-      return twin_;
-    case kOut:
-      return out_;
-    default:
-      return valence_;
-  }
-}
-
 void QuadTopology::write(Array which, int index, int value) {
-  int& slot = array(which)[index];
+  int& slot = (this->*which)[index];
   if (slot == value) return;
   int_log_.push_back({which, index, slot});
   slot = value;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/marks.h"
@@ -27,8 +26,6 @@ class QuadTopology {
   /// Boundary points first, then live interior ones, each in the order of their creation; live elements
   /// likewise.
   QuadPatch to_patch() const;
-  /// What is wrong, one line each; empty when the mesh is sound.
-  std::vector<std::string> check_invariants() const;
 
   int vertex_slots() const { return static_cast<int>(points_.size()); }
   int element_slots() const { return static_cast<int>(corner_.size() / 4); }
@@ -132,7 +129,7 @@ class QuadTopology {
   void commit() { int_log_.clear(), move_log_.clear(); }
 
  private:
-  enum Array : int { kCorner, kTwin, kOut, kValence };
+  using Array = std::vector<int> QuadTopology::*;
   struct IntChange {
     Array array;
     int index, old;
@@ -144,7 +141,6 @@ class QuadTopology {
 
   std::vector<int> outline(std::span<const int> quads) const;
   bool has_double_edge(std::span<const int> vertices) const;
-  std::vector<int>& array(Array which);
   void write(Array which, int index, int value);
   void add_to_valence(int v, int change) { write(kValence, v, valence_[v] + change); }
   void link(int h, int twin);
@@ -159,6 +155,8 @@ class QuadTopology {
   std::vector<Vec2> points_;
   std::vector<int> corner_, twin_;  // by half-edge; corner -1: no such corner
   std::vector<int> out_, valence_;  // by vertex; out -1: dead
+  static constexpr Array kCorner = &QuadTopology::corner_, kTwin = &QuadTopology::twin_,
+                         kOut = &QuadTopology::out_, kValence = &QuadTopology::valence_;
   std::vector<IntChange> int_log_;
   std::vector<MoveChange> move_log_;
 };

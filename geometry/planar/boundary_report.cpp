@@ -12,23 +12,6 @@
 namespace delquad {
 namespace {
 
-/// The edges of a patch, loop by loop.
-std::vector<std::vector<int>> loops_of(const PatchBoundary& patch) {
-  std::vector<int> edge_from(patch.points.size(), -1);
-  for (std::size_t e = 0; e < patch.edges.size(); ++e) edge_from[patch.edges[e][0]] = static_cast<int>(e);
-  std::vector<bool> seen(patch.edges.size());
-  std::vector<std::vector<int>> loops;
-  for (std::size_t first = 0; first < patch.edges.size(); ++first) {
-    if (seen[first]) continue;
-    loops.emplace_back();
-    for (int e = static_cast<int>(first); !seen[e]; e = edge_from[patch.edges[e][1]]) {
-      seen[e] = true;
-      loops.back().push_back(e);
-    }
-  }
-  return loops;
-}
-
 std::string entity_name(const Entity& entity, const std::string& kind) {
   if (entity.names.empty()) return fmt::format("{} {}", kind, entity.tag);
   return "'" + entity.names.front() + "'";
@@ -48,13 +31,28 @@ std::string loop_name(const std::vector<int>& loop, const PatchBoundary& patch, 
 
 }  // namespace
 
+std::vector<std::vector<int>> loops_of_edges(const PatchBoundary& boundary) {
+  std::vector<int> edge_from(boundary.points.size(), -1);
+  for (std::size_t e = 0; e < boundary.edges.size(); ++e)
+    edge_from[boundary.edges[e][0]] = static_cast<int>(e);
+  std::vector<char> seen(boundary.points.size(), 0);
+  std::vector<std::vector<int>> loops;
+  for (std::size_t first = 0; first < seen.size(); ++first) {
+    if (seen[first]) continue;
+    loops.emplace_back();
+    for (int v = static_cast<int>(first); !std::exchange(seen[v], 1); v = boundary.edges[edge_from[v]][1])
+      loops.back().push_back(edge_from[v]);
+  }
+  return loops;
+}
+
 std::vector<std::string> odd_boundaries(const PlanarDomain& domain) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < domain.patches.size(); ++i) {
     const PatchBoundary& patch = domain.patches[i];
     if (patch.edges.size() % 2 == 0) continue;
     std::vector<std::string> odd;
-    for (const auto& loop : loops_of(patch))
+    for (const auto& loop : loops_of_edges(patch))
       if (loop.size() % 2 == 1) odd.push_back(loop_name(loop, patch, domain.boundary));
     lines.push_back(
         fmt::format("region {}: an odd number of boundary edges ({}) leaves one triangle at least; {}",

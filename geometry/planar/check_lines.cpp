@@ -42,8 +42,7 @@ class LineArranger {
  private:
   template <typename... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    const std::string prefix = names_.source.empty() ? "" : names_.source + ": ";
-    throw InputError(prefix + fmt::format(format, std::forward<Args>(args)...));
+    throw InputError(names_.prefix() + fmt::format(format, std::forward<Args>(args)...));
   }
 
   Vec2 at(int v) const {
@@ -53,11 +52,8 @@ class LineArranger {
   std::string place(int v) const { return fmt::format("({}, {})", at(v).x, at(v).y); }
   const std::array<int, 2>& line(int l) const { return mesh_.lines[static_cast<std::size_t>(l)]; }
   std::string curve(int l) const { return names_.curve(mesh_.line_curve[static_cast<std::size_t>(l)]); }
-  std::string curve_at(int v) const { return curve(lines_at_[first_line_[static_cast<std::size_t>(v)]]); }
-  std::size_t valence(int v) const {
-    const auto i = static_cast<std::size_t>(v);
-    return first_line_[i + 1] - first_line_[i];
-  }
+  std::string curve_at(int v) const { return curve(lines_at_[v][0]); }
+  std::size_t valence(int v) const { return lines_at_[v].size(); }
   bool lexicographic(int v, int w) const {
     const Vec2 a = at(v), b = at(w);
     return std::tie(a.x, a.y, v) < std::tie(b.x, b.y, w);
@@ -78,14 +74,9 @@ class LineArranger {
 
   // Lines of each node, and the nodes that have any.
   void collect_nodes() {
-    first_line_.assign(mesh_.points.size() + 1, 0);
-    for (const auto& ends : mesh_.lines)
-      for (int v : ends) ++first_line_[static_cast<std::size_t>(v) + 1];
-    std::partial_sum(first_line_.begin(), first_line_.end(), first_line_.begin());
-    lines_at_.resize(2 * mesh_.lines.size());
-    std::vector<std::size_t> next(first_line_.begin(), first_line_.end() - 1);
+    lines_at_.resize(mesh_.points.size());
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
-      for (int v : mesh_.lines[l]) lines_at_[next[static_cast<std::size_t>(v)]++] = static_cast<int>(l);
+      for (int v : mesh_.lines[l]) lines_at_[v].push_back(static_cast<int>(l));
     for (std::size_t v = 0; v < mesh_.points.size(); ++v)
       if (valence(static_cast<int>(v)) > 0) used_.push_back(static_cast<int>(v));
   }
@@ -141,7 +132,7 @@ class LineArranger {
   bool cross_there(int v, int w) const {
     if (valence(v) != 2 || valence(w) != 2) return false;
     const auto end = [&](int node, std::size_t k) {
-      const auto [a, b] = line(lines_at_[first_line_[static_cast<std::size_t>(node)] + k]);
+      const auto [a, b] = line(lines_at_[node][k]);
       return at(a == node ? b : a);
     };
     const Vec2 x = at(v), a = end(v, 0), b = end(v, 1);
@@ -161,10 +152,8 @@ class LineArranger {
              mesh_.line_curve[static_cast<std::size_t>(l)] != names_.whiskers;
     };
     std::vector<int> ends;
-    for (int v : used_) {
-      const int l = lines_at_[first_line_[static_cast<std::size_t>(v)]];
-      if (valence(v) == 1 && is_open(l)) ends.push_back(v);
-    }
+    for (int v : used_)
+      if (valence(v) == 1 && is_open(lines_at_[v][0])) ends.push_back(v);
     if (ends.size() == 1) fail("{} ends at {}, outside of every region", curve_at(ends[0]), place(ends[0]));
     if (ends.size() > 1)
       fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {}", ends.size(),
@@ -200,8 +189,7 @@ class LineArranger {
 
   const Mesh& mesh_;
   const BoundaryNames& names_;
-  std::vector<std::size_t> first_line_;
-  std::vector<int> lines_at_;
+  std::vector<std::vector<int>> lines_at_;  ///< nodes
   std::vector<int> used_;  ///< nodes with lines; sorted by coordinates once these are known to be finite
 };
 

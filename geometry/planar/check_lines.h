@@ -16,6 +16,9 @@ struct BoundaryNames {
   std::function<std::string(int)> curve;  ///< name of a curve, by index into Mesh::curves
   std::string crossing_hint;              ///< added where lines meet; may be empty
   int whiskers = -1;                      ///< a curve whose lines may be anywhere
+
+  /// What begins messages.
+  std::string prefix() const { return source.empty() ? "" : source + ": "; }
 };
 
 /// Curves by their groups, or by their tags.
@@ -25,6 +28,9 @@ BoundaryNames names_of_curves(const Mesh& lines, const std::string& source);
 /// touch or overlap, without length or there twice, coincident nodes, coordinates that are not finite, z not
 /// constant; and where a line has no bounded face on either side: there the boundary is open.
 Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names);
+
+/// The edges of a patch's boundary, loop by loop, each from its first point on.
+std::vector<std::vector<int>> loops_of_edges(const PatchBoundary& boundary);
 
 /// One line for each patch whose boundary has an odd number of edges, which leaves a triangle when triangles
 /// are merged to quads: names the region, its odd loops and their curves.

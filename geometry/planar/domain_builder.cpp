@@ -68,28 +68,14 @@ class DomainBuilder {
       const Vec3 &a = mesh().points[mesh().lines[l][0]], &b = mesh().points[mesh().lines[l][1]];
       throw InputError(
           fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
-                      names_.source.empty() ? "" : names_.source + ": ", names_.curve(mesh().line_curve[l]),
-                      a.x, a.y, b.x, b.y));
+                      names_.prefix(), names_.curve(mesh().line_curve[l]), a.x, a.y, b.x, b.y));
     }
   }
 
   /// And flattens the rounding of z.
   void drop_points_without_lines() {
-    Mesh& mesh = domain_.boundary;
-    std::vector<int> renamed(mesh.points.size(), -1);
-    for (const auto& line : mesh.lines)
-      for (const int v : line) renamed[v] = 0;
-    std::vector<Vec3> points;
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      if (renamed[v] < 0) continue;
-      renamed[v] = static_cast<int>(points.size());
-      const Vec3& p = mesh.points[v];
-      points.push_back({p.x, p.y, points.empty() ? p.z : points.front().z});
-    }
-    mesh.points = std::move(points);
-    for (auto& line : mesh.lines)
-      for (int& v : line) v = renamed[v];
-    renumber_nodes(mesh, renamed);
+    drop_unused_points(domain_.boundary);
+    for (Vec3& p : domain_.boundary.points) p.z = mesh().points.front().z;
   }
 
   /// The region comes to lie on the left; of two, the one that the other is around. Sides keep their numbers.
@@ -283,31 +269,11 @@ void keep_nodes(PlanarDomain& domain, const std::vector<char>& used) {
   renumber_nodes(mesh, renamed);
 }
 
-PlanarDomain make_domain(Mesh lines, const DomainOptions& options) {
-  const BoundaryNames names = names_of_curves(lines, options.source);
+PlanarDomain make_domain(Mesh lines, const std::string& source) {
+  const BoundaryNames names = names_of_curves(lines, source);
   const Arrangement arrangement = arrange_lines(lines, names);
-  FaceNames of_faces(arrangement.faces.size());
-  const std::string prefix = options.source.empty() ? "" : options.source + ": ";
-  for (const auto& [node, name] : options.loop_regions) {
-    const std::string what =
-        fmt::format("{}region '{}' is inside the loop of node {}, which lies on", prefix, name, node);
-    int face = -1;
-    for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
-      const auto& outline = arrangement.faces[f].cycles[0];
-      if (std::ranges::none_of(outline, [&](int side) { return start_of(lines.lines, side) == node; }))
-        continue;
-      if (face >= 0) throw InputError(what + " several loops");
-      face = static_cast<int>(f);
-    }
-    if (face < 0) throw InputError(what + " no loop");
-    auto& mine = of_faces[face];
-    const auto names_here = name.empty() ? std::vector<std::string>{} : std::vector{name};
-    if (mine && *mine != names_here)
-      throw InputError(fmt::format("{}one loop has two regions inside: '{}' and '{}'", prefix,
-                                   fmt::join(*mine, ""), name));
-    mine = names_here;
-  }
-  return build_domain(std::move(lines), arrangement, regions_by_nesting(arrangement, of_faces), names);
+  FaceRegions regions = regions_by_nesting(arrangement, FaceNames(arrangement.faces.size()));
+  return build_domain(std::move(lines), arrangement, std::move(regions), names);
 }
 
 }  // namespace delquad

@@ -127,7 +127,7 @@ class LoopsAround {
         throw InputError(
             fmt::format("{}{} and {} overlap: one of two loops may lie inside the other, or they "
                         "lie side by side",
-                        names_.source.empty() ? "" : names_.source + ": ", label(other), label(loop)));
+                        names_.prefix(), label(other), label(loop)));
       }
       outer = loop;
     }
@@ -141,8 +141,7 @@ class LoopsAround {
           loops_[parent].region.empty() != loops_[l].region.empty())
         continue;
       throw InputError(fmt::format("{}{} and {} consist of the same curves: one of them is too many",
-                                   names_.source.empty() ? "" : names_.source + ": ", label(parent),
-                                   label(static_cast<int>(l))));
+                                   names_.prefix(), label(parent), label(static_cast<int>(l))));
     }
   }
 
@@ -196,9 +195,7 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
     }
     result.region.push_back(region_of[loop]);
   }
-  if (result.regions.empty())
-    throw InputError(
-        fmt::format("{}{}the loops enclose nothing", names.source, names.source.empty() ? "" : ": "));
+  if (result.regions.empty()) throw InputError(names.prefix() + "the loops enclose nothing");
   for (std::size_t l = 0; l < loops.size(); ++l) {
     if (loops[l].is_hole && filled[l]) {
       const Vec3& at = lines.points[lines.lines[std::ranges::find(lines.line_curve, loops[l].curves.front()) -

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "delquad/error.h"
-#include "geometry/planar/arrangement.h"
 
 namespace delquad {
 
@@ -70,12 +68,6 @@ std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int 
   return std::nullopt;
 }
 
-Box<Vec2> box_of(const Part& part, double margin) {
-  const Vec2 m{part.bulge + margin, part.bulge + margin};
-  const Box<Vec2> chord = Box<Vec2>::around({part.a, part.b});
-  return {chord.low - m, chord.high + m};
-}
-
 }  // namespace
 
 void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& names) {
@@ -87,50 +79,21 @@ void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& 
   std::vector<Box<Vec2>> boxes;
   for (const LoopEdge& e : edges) {
     parts.push_back(Part::make(e.shape, e.t0, e.t1, e.a, e.b));
-    boxes.push_back(box_of(parts.back(), tolerance));
+    boxes.push_back(Box<Vec2>::around({e.a, e.b}).grown(parts.back().bulge + tolerance));
   }
   const BoxTree<Vec2> tree(boxes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double limit = 0;
-    tree.search(
-        limit, [&](const auto& node) { return node.box.overlaps(boxes[i]) ? 0.0 : 1.0; },
-        [&](int j) {
-          const LoopEdge &e = edges[i], &f = edges[static_cast<std::size_t>(j)];
-          if (f.loop <= e.loop || !boxes[i].overlaps(boxes[static_cast<std::size_t>(j)])) return;
-          const auto at = meeting(parts[i], parts[static_cast<std::size_t>(j)], tolerance);
-          if (!at) return;
-          throw InputError(
-              fmt::format("{}{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected a common place, or "
-                          "more than {:.3g} between them",
-                          names.source, names.source.empty() ? "" : ": ", names.curve(e.curve),
-                          names.curve(f.curve), at->x, at->y, tolerance));
-        });
+    tree.overlapping(boxes[i], [&](int j) {
+      const LoopEdge &e = edges[i], &f = edges[j];
+      if (f.loop <= e.loop || !boxes[i].overlaps(boxes[j])) return;
+      const auto at = meeting(parts[i], parts[j], tolerance);
+      if (!at) return;
+      throw InputError(fmt::format(
+          "{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected a common place, or more than "
+          "{:.3g} between them",
+          names.prefix(), names.curve(e.curve), names.curve(f.curve), at->x, at->y, tolerance));
+    });
   }
-}
-
-LoopNesting nest_loops(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& loops) {
-  std::vector<std::array<int, 2>> lines;
-  std::vector<std::array<int, 2>> place;  // of each line: loop, and which of its lines
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    for (std::size_t k = 0; k < loops[l].size(); ++k) {
-      lines.push_back({loops[l][k], loops[l][(k + 1) % loops[l].size()]});
-      place.push_back({static_cast<int>(l), static_cast<int>(k)});
-    }
-  }
-  const Arrangement arrangement = arrange(points, lines);
-  LoopNesting nesting;
-  nesting.parent.assign(loops.size(), -1);
-  if (arrangement.conflict) {
-    const auto [a, b] = *arrangement.conflict;
-    nesting.conflict = LineConflict{{place[a][0], place[b][0]}, {place[a][1], place[b][1]}};
-    return nesting;
-  }
-  // Each loop is the outline of one face.
-  for (const Arrangement::Face& face : arrangement.faces)
-    if (face.around >= 0)
-      nesting.parent[place[face.cycles[0][0] / 2][0]] =
-          place[arrangement.faces[face.around].cycles[0][0] / 2][0];
-  return nesting;
 }
 
 }  // namespace delquad

@@ -151,7 +151,6 @@ class Chainer {
   void join_spans() {
     std::vector<Span> spans;
     std::vector<Box<Vec2>> boxes;
-    const Vec2 margin{tolerance_, tolerance_};
     for (int c = 0; c < static_cast<int>(model_.curves.size()); ++c) {
       double t = 0;
       int node = chain_.curve_ends[c][0];
@@ -159,20 +158,16 @@ class Chainer {
       stops.push_back({1, chain_.curve_ends[c][1]});
       for (const CurveStop& stop : stops) {
         spans.push_back({c, {node, stop.node}, CurveSpan(*model_.curves[c].shape, t, stop.t)});
-        const Box<Vec2>& box = spans.back().shape.box();
-        boxes.push_back({box.low - margin, box.high + margin});
+        boxes.push_back(spans.back().shape.box().grown(tolerance_));
         t = stop.t;
         node = stop.node;
       }
     }
     const BoxTree<Vec2> tree(boxes);
     const auto near = [&](const Box<Vec2>& box, const auto& visit) {
-      const double limit = 0;
-      tree.search(
-          limit, [&](const auto& n) { return n.box.overlaps(box) ? 0.0 : 1.0; },
-          [&](int i) {
-            if (boxes[i].overlaps(box)) visit(spans[i]);
-          });
+      tree.overlapping(box, [&](int i) {
+        if (boxes[i].overlaps(box)) visit(spans[i]);
+      });
     };
     for (int v = 0, n = static_cast<int>(chain_.nodes.size()); v < n; ++v)
       near({chain_.nodes[v], chain_.nodes[v]}, [&](const Span& span) { stop_at(span, v); });

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "delquad/model.h"
@@ -68,20 +67,13 @@ struct PlanarDomain {
   std::vector<std::string> notes = {};  ///< for warnings
 };
 
-struct DomainOptions {
-  std::string source;  ///< file, for messages
-  /// For each loop given by one of its nodes: the region inside it. A loop in a region is a hole unless it is
-  /// here; a loop in a hole, or in no other, holds a region in any case.
-  std::vector<std::pair<int, std::string>> loop_regions;
-};
-
 /// Tells what the lines enclose, whatever their order and orientation: regions side by side, and by nesting
 /// outer ones, holes and islands (see regions_by_nesting()). Lines with a region on both sides are
 /// interfaces, lines that end inside of a region stand in it. Regions are in the order of their
 /// lexicographically smallest nodes. In `boundary` the points keep their order (those without lines are
 /// dropped) and so do the lines, turned so that the region lies on their left (the inner one of two). A
 /// patch's points go round its outline, then round what lies inside, each from its lexicographically smallest
-/// node. Throws InputError as arrange_lines() and build_domain().
-PlanarDomain make_domain(Mesh lines, const DomainOptions& options = {});
+/// node. Throws InputError as arrange_lines() and build_domain(); messages call the lines by `source`.
+PlanarDomain make_domain(Mesh lines, const std::string& source = {});
 
 }  // namespace delquad

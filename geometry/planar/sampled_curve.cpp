@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/box.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -118,13 +119,10 @@ void sample(const Sampler& sampler, std::vector<SampledPiece>& pieces) {
 
 /// Largest extent of the points along an axis.
 double extent(const std::vector<SampledPiece>& pieces) {
-  Vec2 low = pieces[0].points[0], high = low;
+  Box<Vec2> box = Box<Vec2>::around({pieces[0].points[0]});
   for (const SampledPiece& piece : pieces)
-    for (const Vec2 p : piece.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-  return std::max(high.x - low.x, high.y - low.y);
+    for (const Vec2 p : piece.points) box.add(p);
+  return std::max(box.size().x, box.size().y);
 }
 
 }  // namespace

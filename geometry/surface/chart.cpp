@@ -10,6 +10,7 @@
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/triangle_measures.h"
 
 namespace delquad {
 
@@ -164,10 +165,6 @@ Chart build_chart(const Mesh& fine, Gluing& gluing, const std::vector<int>& memb
   return chart;
 }
 
-double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
-  return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
-}
-
 }  // namespace
 
 std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
@@ -194,8 +191,7 @@ int genus(const Chart& chart) {
 
 std::vector<double> triangle_areas(const Chart& chart) {
   std::vector<double> areas;
-  for (const auto& [a, b, c] : chart.triangles)
-    areas.push_back(norm(cross(chart.points[b] - chart.points[a], chart.points[c] - chart.points[a])) / 2);
+  for (const auto& v : chart.triangles) areas.push_back(norm(area_vector(chart.points, v)) / 2);
   return areas;
 }
 
@@ -211,7 +207,8 @@ std::vector<double> angle_defects(const Chart& chart) {
   std::fill_n(defect.begin(), chart.n_boundary, std::numbers::pi);
   for (const auto& v : chart.triangles)
     for (int k = 0; k < 3; ++k)
-      defect[v[k]] -= angle(chart.points[v[k]], chart.points[v[(k + 1) % 3]], chart.points[v[(k + 2) % 3]]);
+      defect[v[k]] -= angle_between(chart.points[v[(k + 1) % 3]] - chart.points[v[k]],
+                                    chart.points[v[(k + 2) % 3]] - chart.points[v[k]]);
   return defect;
 }
 

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/compound_projector.h"
 
 namespace delquad {
@@ -50,8 +51,7 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
                         : edge.size() == 2 ? mesh.triangle_region[edge[&side == &edge[0]].element]
                                            : -2;
       if (other == face) continue;  // a seam
-      of_face[face].push_back(
-          {side.forward ? std::array{side.lo, side.hi} : std::array{side.hi, side.lo}, other, named});
+      of_face[face].push_back({side.run(), other, named});
     }
   }
   std::vector<std::vector<Loop>> loops(mesh.regions.size());
@@ -153,11 +153,8 @@ class SmallHoles {
 
   double area_of(const std::set<int>& faces) const {
     double area = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      if (faces.contains(mesh_.triangle_region[t]))
-        area += norm(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a])) / 2;
-    }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (faces.contains(mesh_.triangle_region[t])) area += norm(area_vector(mesh_, t)) / 2;
     return area;
   }
 
@@ -237,8 +234,7 @@ class SmallHoles {
 SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow) {
   const Mesh former = model.fine;
   if (!SmallHoles(model, narrow).close()) return model;
-  TidyGroups kept = tidy_model(model);
-  regroup(model, former, kept.faces, std::move(kept.curves));
+  tidy_model(model, former);
   return model;
 }
 

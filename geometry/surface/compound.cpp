@@ -12,6 +12,7 @@
 #include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/triangle_sides.h"
@@ -169,12 +170,10 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   for (const auto& [a, b] : mesh.lines) on_curve[a] = on_curve[b] = 1;
   std::map<std::array<int, 2>, Vec3> direction;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t];
-    const Vec3 area = cross(mesh.points[v[1]] - mesh.points[v[0]], mesh.points[v[2]] - mesh.points[v[0]]);
-    for (const int p : v) {
+    for (const int p : mesh.triangles[t]) {
       if (!on_curve[p]) continue;
       Vec3& sum = direction[{mesh.triangle_region[t], p}];
-      sum = sum + area;
+      sum = sum + area_vector(mesh, t);
     }
   }
   return direction;
@@ -234,7 +233,7 @@ std::vector<char> tangent_curves(const SurfaceModel& model, double angle) {
     const Vec3 m = directions.at({f, a}) + directions.at({f, b}),
                n = directions.at({g, a}) + directions.at({g, b});
     // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
-    if (angle < 180 && !(std::atan2(norm(cross(m, n)), dot(m, n)) < radians(angle))) sharp[curve] = 1;
+    if (angle < 180 && !(angle_between(m, n) < radians(angle))) sharp[curve] = 1;
   }
   for (size_t c = 0; c < sharp.size(); ++c) smooth[c] = smooth[c] && !sharp[c];
   return smooth;
@@ -248,13 +247,11 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
   for (size_t i = 0; i < faces.size(); ++i) {
     if (smooth[mesh.line_curve[i]]) sets.join(faces[i][0], faces[i][1]);
   }
-  std::map<int, std::vector<int>> of_first;
-  for (int face = 0; face < static_cast<int>(mesh.regions.size()); ++face)
-    of_first[sets.root(face)].push_back(face);
-  Groups groups;
-  for (auto& [first, members] : of_first) {
-    if (members.size() > 1) groups.push_back(std::move(members));
-  }
+  const std::vector<int> place = sets.places();
+  Groups groups(place.size());
+  for (std::size_t face = 0; face < place.size(); ++face)
+    groups[place[face]].push_back(static_cast<int>(face));
+  std::erase_if(groups, [](const auto& members) { return members.size() < 2; });
   return groups;
 }
 
@@ -264,11 +261,10 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
   struct LineFrom {
     int line, from;  ///< its other point
   };
-  std::vector<double> lengths(mesh.curves.size(), 0);
+  const std::vector<double> lengths = lengths_of_curves(mesh);
   std::vector<std::vector<LineFrom>> lines_at(mesh.points.size());
   for (int i = 0; i < static_cast<int>(mesh.lines.size()); ++i) {
     const auto [a, b] = mesh.lines[i];
-    lengths[mesh.line_curve[i]] += norm(mesh.points[b] - mesh.points[a]);
     lines_at[a].push_back({i, b});
     lines_at[b].push_back({i, a});
   }

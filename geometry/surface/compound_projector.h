@@ -22,13 +22,9 @@ void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces,
 std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
                                                              int first_curve, std::vector<int> faces);
 
-/// The former numbers of what is left.
-struct TidyGroups {
-  EntityGroups faces, curves;
-};
-
 /// Takes points out that no triangle and no line has, faces without triangles, curves without lines and
-/// corners without curves. Parts the surface where it touches itself at a point without a line.
-TidyGroups tidy_model(SurfaceModel& model);
+/// corners without curves. Parts the surface where it touches itself at a point without a line. `former`: the
+/// triangulation before anything was taken from it.
+void tidy_model(SurfaceModel& model, const Mesh& former);
 
 }  // namespace delquad

@@ -1,36 +1,25 @@
 #include "geometry/surface/curve_chains.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
+#include <map>
+#include <utility>
 
-#include "geometry/surface/triangle_sides.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/triangle_measures.h"
 
 namespace delquad {
 
 namespace {
 
-/// The lines at each point.
-class PointLines {
- public:
-  explicit PointLines(const Mesh& mesh) : start_(mesh.points.size() + 1, 0), lines_(2 * mesh.lines.size()) {
-    for (const auto& [a, b] : mesh.lines) {
-      ++start_[a + 1];
-      ++start_[b + 1];
-    }
-    for (size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-    std::vector<int> next(start_.begin(), start_.end() - 1);
-    for (size_t i = 0; i < mesh.lines.size(); ++i) {
-      for (const int p : mesh.lines[i]) lines_[next[p]++] = static_cast<int>(i);
-    }
-  }
-  std::span<const int> at(int point) const {
-    return std::span(lines_).subspan(start_[point], start_[point + 1] - start_[point]);
-  }
+using Edges = std::vector<std::array<int, 2>>;
 
- private:
-  std::vector<int> start_, lines_;
-};
+/// The edges at each point.
+std::map<int, std::vector<int>> edges_at_points(const Edges& edges) {
+  std::map<int, std::vector<int>> at;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const int p : edges[e]) at[p].push_back(static_cast<int>(e));
+  return at;
+}
 
 /// Triangles at each line.
 std::vector<std::size_t> triangles_on_lines(const Mesh& mesh) {
@@ -44,66 +33,80 @@ int other_end(const std::array<int, 2>& line, int end) { return line[0] == end ?
 
 }  // namespace
 
-double turn_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 in = b - a, out = c - b;
-  return std::atan2(norm(cross(in, out)), dot(in, out));
-}
+double turn_angle(const Vec3& a, const Vec3& b, const Vec3& c) { return angle_between(b - a, c - b); }
 
 void mark_turns(const Mesh& mesh, double angle, const std::vector<char>& among, std::vector<char>& corner) {
-  const PointLines lines(mesh);
-  for (int p = 0; p < static_cast<int>(mesh.points.size()); ++p) {
-    const auto here = lines.at(p);
+  for (const auto& [p, here] : edges_at_points(mesh.lines)) {
     if (!among[p] || here.size() != 2) continue;
     const int a = other_end(mesh.lines[here[0]], p), b = other_end(mesh.lines[here[1]], p);
     if (turn_angle(mesh.points[a], mesh.points[p], mesh.points[b]) > angle) corner[p] = 1;
   }
 }
 
+std::vector<EdgeChain> chain_edges(const Edges& edges, const std::function<bool(int)>& is_end) {
+  const std::map<int, std::vector<int>> at = edges_at_points(edges);
+  const auto ends = [&](int p) { return at.at(p).size() != 2 || is_end(p); };
+  std::vector<EdgeChain> chains;
+  std::vector<char> done(edges.size(), 0);
+  const auto follow = [&](int from, int edge) {
+    EdgeChain& chain = chains.emplace_back(EdgeChain{{from}, {}});
+    while (!std::exchange(done[edge], 1)) {
+      const int to = other_end(edges[edge], chain.points.back());
+      chain.points.push_back(to);
+      chain.edges.push_back(edge);
+      if (ends(to)) break;
+      const std::vector<int>& here = at.at(to);
+      edge = here[0] == edge ? here[1] : here[0];
+    }
+  };
+  for (const auto& [p, here] : at)
+    for (const int edge : here)
+      if (!done[edge] && ends(p)) follow(p, edge);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (!done[e]) follow(edges[e][0], static_cast<int>(e));
+  return chains;
+}
+
 std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector<int>& line_kind,
                                           std::vector<char> corner) {
   Mesh& mesh = model.fine;
-  const PointLines lines(mesh);
   const std::vector<std::size_t> triangles = triangles_on_lines(mesh);
   const auto continues = [&](int line, int other) {
     return line_kind[line] == line_kind[other] && triangles[line] == triangles[other];
   };
   model.corners.clear();
-  for (int p = 0; p < static_cast<int>(corner.size()); ++p) {
-    const auto here = lines.at(p);
-    if (here.empty()) continue;
+  for (const auto& [p, here] : edges_at_points(mesh.lines)) {
     if (here.size() != 2 || !continues(here[0], here[1])) corner[p] = 1;
     if (corner[p]) model.corners.push_back(p);
   }
+  const std::vector<EdgeChain> chains = chain_edges(mesh.lines, [&](int p) { return corner[p] != 0; });
+  mesh.lines.clear();
+  mesh.line_curve.clear();
+  std::vector<std::vector<int>> lines;
+  for (const EdgeChain& chain : chains) {
+    for (std::size_t i = 0; i < chain.edges.size(); ++i)
+      mesh.lines.push_back({chain.points[i], chain.points[i + 1]});
+    mesh.line_curve.resize(mesh.lines.size(), static_cast<int>(lines.size()));
+    lines.push_back(chain.edges);
+  }
+  return lines;
+}
 
-  std::vector<std::vector<int>> chains;
-  std::vector<std::array<int, 2>> sorted;
-  std::vector<int> curve_of;
-  std::vector<char> done(mesh.lines.size(), 0);
-  const auto follow = [&](int from, int line) {
-    chains.emplace_back();
-    while (!done[line]) {
-      done[line] = 1;
-      const int to = other_end(mesh.lines[line], from);
-      chains.back().push_back(line);
-      sorted.push_back({from, to});
-      curve_of.push_back(static_cast<int>(chains.size()) - 1);
-      if (corner[to]) break;
-      const auto here = lines.at(to);
-      line = here[0] == line ? here[1] : here[0];
-      from = to;
-    }
-  };
-  for (const int p : model.corners) {
-    for (const int line : lines.at(p)) {
-      if (!done[line]) follow(p, line);
-    }
+std::vector<std::vector<int>> points_of_curves(const Mesh& mesh) {
+  std::vector<std::vector<int>> points(mesh.curves.size());
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    std::vector<int>& chain = points[mesh.line_curve[l]];
+    if (chain.empty()) chain.push_back(mesh.lines[l][0]);
+    chain.push_back(mesh.lines[l][1]);
   }
-  for (size_t i = 0; i < mesh.lines.size(); ++i) {
-    if (!done[i]) follow(mesh.lines[i][0], static_cast<int>(i));
-  }
-  mesh.lines = std::move(sorted);
-  mesh.line_curve = std::move(curve_of);
-  return chains;
+  return points;
+}
+
+std::vector<double> lengths_of_curves(const Mesh& mesh) {
+  std::vector<double> lengths(mesh.curves.size(), 0);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    lengths[mesh.line_curve[l]] += norm(mesh.points[mesh.lines[l][1]] - mesh.points[mesh.lines[l][0]]);
+  return lengths;
 }
 
 std::vector<Entity> entities_of_pieces(const std::vector<Entity>& given,

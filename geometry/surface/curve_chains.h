@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "geometry/surface/surface_model.h"
@@ -13,12 +15,27 @@ double turn_angle(const Vec3& a, const Vec3& b, const Vec3& c);
 /// `among`: the points that are looked at.
 void mark_turns(const Mesh& mesh, double angle, const std::vector<char>& among, std::vector<char>& corner);
 
+/// Edges one after the other.
+struct EdgeChain {
+  std::vector<int> points;  ///< from end to end; of a closed one the last is the first
+  std::vector<int> edges;   ///< by index
+};
+/// Maximal chains, which end at the points told and where other than two edges meet.
+std::vector<EdgeChain> chain_edges(const std::vector<std::array<int, 2>>& edges,
+                                   const std::function<bool(int)>& is_end);
+
 /// Joins the lines of model.fine into maximal chains, which end at the marked points, where other than two
 /// lines meet and where the kind of the lines or the number of triangles on them changes. Sorts the lines and
 /// sets line_curve and the model's corners; returns for each chain the numbers that its lines had before.
 /// model.fine.curves is left to the caller.
 std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector<int>& line_kind,
                                           std::vector<char> corner);
+
+/// The points of each curve whose lines form one chain, from end to end; of a closed one the last is the
+/// first.
+std::vector<std::vector<int>> points_of_curves(const Mesh& mesh);
+
+std::vector<double> lengths_of_curves(const Mesh& mesh);
 
 /// An entity for each piece of the `given` ones: the first piece of one keeps its tag, others get new tags;
 /// all keep its names. given_of_piece -1: a piece of none.

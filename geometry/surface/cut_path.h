@@ -25,8 +25,9 @@ struct CutPath {
 
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
-/// Is the path no more than one side of the boundary?
-bool is_boundary_side(const Chart& chart, const CutPath& path);
+/// The path with its length; none when it is no more than one side of the boundary, or visits a vertex or an
+/// edge twice.
+std::optional<CutPath> measured(const Chart& chart, CutPath path);
 
 /// A connected piece of a level curve.
 struct LevelCurve {

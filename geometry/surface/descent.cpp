@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "geometry/surface/cut_path.h"
@@ -26,13 +25,7 @@ class Descent {
     for (std::size_t steps = 0; !arrived_; ++steps)
       if (steps > chart_.triangles.size() || !(at_.b < 0 ? leave_vertex() : leave_edge()))
         return std::nullopt;
-    if (is_boundary_side(chart_, path_)) return std::nullopt;
-    std::set<std::pair<int, int>> seen;
-    for (const EdgePoint& p : path_.points)
-      if (!seen.insert(std::minmax({p.a, p.b})).second) return std::nullopt;
-    for (std::size_t i = 1; i < path_.points.size(); ++i)
-      path_.length += norm(position(chart_, path_.points[i]) - position(chart_, path_.points[i - 1]));
-    return path_;
+    return measured(chart_, std::move(path_));
   }
 
  private:

@@ -9,6 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "base/disjoint_sets.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/laplacian.h"
 
@@ -49,10 +51,7 @@ class ElementGraph {
   bool is_triangle(int e) const { return triangles_[e].size() == 1; }
   double area(int e) const {
     double area = 0;
-    for (const int t : triangles_[e]) {
-      const auto& [a, b, c] = chart_.triangles[t];
-      area += norm(cross(chart_.points[b] - chart_.points[a], chart_.points[c] - chart_.points[a])) / 2;
-    }
+    for (const int t : triangles_[e]) area += norm(area_vector(chart_.points, chart_.triangles[t])) / 2;
     return area;
   }
   double mean(int e, const std::vector<double>& u) const {
@@ -84,18 +83,15 @@ using Parts = std::vector<char>;  // of each element, 0 or 1
 
 /// Components of both parts, by element, and their sizes.
 std::pair<std::vector<int>, std::vector<int>> components(const ElementGraph& graph, const Parts& part) {
-  std::vector<int> component(part.size(), -1), sizes;
-  for (int first = 0; first < graph.size(); ++first) {
-    if (component[first] >= 0) continue;
-    std::vector<int> found{first};
-    component[first] = static_cast<int>(sizes.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-      graph.for_each_side(found[i], [&](int other, double) {
-        if (component[other] >= 0 || part[other] != part[first]) return;
-        component[other] = component[first];
-        found.push_back(other);
-      });
-    sizes.push_back(static_cast<int>(found.size()));
+  DisjointSets joined(part.size());
+  for (int e = 0; e < graph.size(); ++e)
+    graph.for_each_side(e, [&](int other, double) {
+      if (part[other] == part[e]) joined.join(e, other);
+    });
+  std::vector<int> component = joined.places(), sizes;
+  for (const int c : component) {
+    sizes.resize(std::max<std::size_t>(sizes.size(), c + 1), 0);
+    ++sizes[c];
   }
   return {std::move(component), std::move(sizes)};
 }

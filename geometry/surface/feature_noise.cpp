@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {
@@ -99,36 +100,16 @@ class NoiseFilter {
     }
   }
 
-  void number_faces() {
-    face_.assign(mesh_.triangles.size(), -1);
-    n_faces_ = 0;
-    std::vector<int> stack;
-    for (int seed = 0; seed < static_cast<int>(face_.size()); ++seed) {
-      if (face_[seed] >= 0) continue;
-      face_[seed] = n_faces_;
-      stack = {seed};
-      while (!stack.empty()) {
-        const int t = stack.back();
-        stack.pop_back();
-        for (int s = 3 * t; s < 3 * t + 3; ++s)
-          if (cut_[s] == kNoCut && face_of(twin_[s]) < 0) {
-            face_[twin_[s] / 3] = n_faces_;
-            stack.push_back(twin_[s] / 3);
-          }
-      }
-      ++n_faces_;
-    }
-  }
-
   /// Whether any face was joined to another.
   bool join_faces() {
-    number_faces();
-    std::vector<std::vector<int>> borders(n_faces_);  // edges, by the side that lies in the face
+    face_ = parts_between_cuts(twin_, cut_);
+    const int n_faces = 1 + std::ranges::max(face_);
+    std::vector<std::vector<int>> borders(n_faces);  // edges, by the side that lies in the face
     for (int s = 0; s < static_cast<int>(cut_.size()); ++s)
       if (cut_[s] != kNoCut && !stays(s) && face_of(s) != face_of(twin_[s])) borders[face_of(s)].push_back(s);
-    std::vector<char> changed(n_faces_, 0);
+    std::vector<char> changed(n_faces, 0);
     bool any = false;
-    for (int f = 0; f < n_faces_; ++f) {
+    for (int f = 0; f < n_faces; ++f) {
       if (changed[f] || borders[f].empty() || !is_noise(borders[f])) continue;
       const int other = best_neighbour(borders[f]);
       if (changed[other]) continue;
@@ -156,11 +137,17 @@ class NoiseFilter {
   double longest_;
   std::vector<std::vector<int>> sides_at_;  ///< one side of each edge
   std::vector<int> face_;                   ///< of each triangle
-  int n_faces_ = 0;
   DroppedFeatures dropped_;
 };
 
 }  // namespace
+
+std::vector<int> parts_between_cuts(const std::vector<int>& twin, const std::vector<int>& cut) {
+  DisjointSets parts(twin.size() / 3);
+  for (std::size_t s = 0; s < twin.size(); ++s)
+    if (cut[s] == kNoCut) parts.join(static_cast<int>(s / 3), twin[s] / 3);
+  return parts.places();
+}
 
 DroppedFeatures drop_noise(const Mesh& mesh, const std::vector<int>& twin, const std::vector<double>& angle,
                            std::vector<int>& cut) {

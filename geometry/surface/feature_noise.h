@@ -10,6 +10,10 @@ namespace delquad {
 /// What lies along a side of a triangle: nothing, a cut that was found, or else the index of a given curve.
 constexpr int kNoCut = -2, kNewCut = -1;
 
+/// Of each triangle its part of the surface between cuts, in the order of their first triangles. `twin`: see
+/// side_twins; `cut`: of each side.
+std::vector<int> parts_between_cuts(const std::vector<int>& twin, const std::vector<int>& cut);
+
 struct DroppedFeatures {
   std::size_t islands = 0, edges = 0;
   Vec3 at;  ///< a point of the first

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/predicates.h"
-#include "geometry/planar/loops_apart.h"
+#include "geometry/planar/arrangement.h"
 
 namespace delquad {
 
@@ -45,7 +45,10 @@ bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat) {
   if (std::ranges::adjacent_find(boundary) != boundary.end()) return false;
   const auto outer =
       std::ranges::count_if(chart.loops, [&](const auto& loop) { return signed_area(flat, loop) > 0; });
-  return outer == 1 && !nest_loops(flat, chart.loops).conflict;
+  std::vector<std::array<int, 2>> lines;
+  for (const auto& loop : chart.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k) lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
+  return outer == 1 && !arrange(flat, lines).conflict;
 }
 
 FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat) {

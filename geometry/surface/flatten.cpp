@@ -19,6 +19,7 @@
 #include "base/segment.h"
 #include "base/sort_unique.h"
 #include "geometry/surface/conformal_maps.h"
+#include "geometry/surface/curve_chains.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/element_cuts.h"
 #include "geometry/surface/improve_triangulation.h"
@@ -84,6 +85,11 @@ ChartElements elements_of(const Chart& chart, const FlattenOptions& options) {
   return elements;
 }
 
+/// For each triangle 0 or 1, see plan_parting().
+std::vector<char> parted(const Chart& chart, const FlattenOptions& options) {
+  return options.element.empty() ? plan_parting(chart) : plan_division(chart, elements_of(chart, options));
+}
+
 class ChartWork {
  public:
   ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
@@ -97,7 +103,7 @@ class ChartWork {
     const bool wanted =
         outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
     if (wanted && outcome.parts.empty() && (!outcome.cut || stuck_))
-      return {std::move(outcome.map), std::nullopt, true, part()};
+      return {std::move(outcome.map), std::nullopt, true, parted(chart_, options_)};
     return outcome;
   }
 
@@ -156,13 +162,9 @@ class ChartWork {
   }
 
   Outcome divide(std::optional<Map> map) const {
-    if (elements_) return {std::move(map), std::nullopt, true, part()};
+    if (elements_) return {std::move(map), std::nullopt, true, parted(chart_, options_)};
     return {std::move(map), plan_division(chart_), true};
   }
-  std::vector<char> part() const {
-    return elements_ ? plan_division(chart_, *elements_) : plan_parting(chart_);
-  }
-
   std::optional<CutPath> path_from(const std::vector<int>& from, const std::vector<int>& to) const {
     std::vector<char> begins(chart_.points.size(), 0), ends(chart_.points.size(), 0);
     for (const int v : from) begins[v] = 1;
@@ -226,38 +228,6 @@ std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vecto
     if (is_one_to_one(part, flat)) return flat;
   }
   return std::nullopt;
-}
-
-/// Chains of the edges, which end where other than two meet and at marked nodes; the last node of a closed
-/// one is its first.
-template <class IsEnd>
-std::vector<std::vector<int>> chains_of_edges(const std::vector<std::array<int, 2>>& edges, IsEnd is_end) {
-  std::map<int, std::vector<int>> at;  // edges by node
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    for (int v : edges[e]) at[v].push_back(static_cast<int>(e));
-  std::vector<char> used(edges.size(), 0);
-  const auto ends = [&](int v) { return at.at(v).size() != 2 || is_end(v); };
-  std::vector<std::vector<int>> chains;
-  const auto walk = [&](int from, int first) {
-    std::vector<int> chain = {from};
-    for (int e = first; e >= 0;) {
-      used[e] = 1;
-      const int v = edges[e][0] == chain.back() ? edges[e][1] : edges[e][0];
-      chain.push_back(v);
-      e = -1;
-      if (!ends(v))
-        for (int next : at.at(v))
-          if (!used[next]) e = next;
-    }
-    chains.push_back(std::move(chain));
-  };
-  for (const auto& [v, there] : at)
-    if (ends(v))
-      for (int e : there)
-        if (!used[e]) walk(v, e);
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (!used[e]) walk(edges[e][0], static_cast<int>(e));
-  return chains;
 }
 
 /// Rounds of: flatten what is not flat yet, then cut what would not go.
@@ -382,7 +352,7 @@ class Flattener {
         continue;
       }
       Chart& chart = mapped[i].chart;
-      std::vector<char> parts = parting(chart);
+      std::vector<char> parts = parted(chart, options_);
       if (parts.empty()) {
         failed_[chart.face] = 1;
         continue;
@@ -390,11 +360,6 @@ class Flattener {
       for (const int t : chart.fine_triangle) open_[t] = 1;
       planned.push_back({std::move(chart), {std::nullopt, std::nullopt, true, std::move(parts)}});
     }
-  }
-
-  std::vector<char> parting(const Chart& chart) const {
-    if (options_.element.empty()) return plan_parting(chart);
-    return plan_division(chart, elements_of(chart, options_));
   }
 
   std::vector<CutEnd> cut_ends() const {
@@ -505,9 +470,8 @@ class Flattener {
     std::set<int> on_boundary;
     for (const auto& loop : chart.loops)
       for (int v : loop) on_boundary.insert(chart.fine_node[v]);
-    for (const std::vector<int>& chain :
-         chains_of_edges(edges, [&](int v) { return on_boundary.contains(v); }))
-      add_cut(editor, chart, chain, true);
+    for (const EdgeChain& chain : chain_edges(edges, [&](int v) { return on_boundary.contains(v); }))
+      add_cut(editor, chart, chain.points, true);
     return true;
   }
 

@@ -15,7 +15,9 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/compound_projector.h"
+#include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {
@@ -29,18 +31,6 @@ std::string title(const char* kind, const Entity& entity) {
 
 double length_of(const Mesh& mesh, const std::array<int, 2>& line) {
   return norm(mesh.points[line[1]] - mesh.points[line[0]]);
-}
-
-std::vector<double> curve_lengths(const Mesh& mesh) {
-  std::vector<double> lengths(mesh.curves.size(), 0);
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
-    lengths[mesh.line_curve[i]] += length_of(mesh, mesh.lines[i]);
-  return lengths;
-}
-
-Vec3 area_vector(const Mesh& mesh, int triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
 }
 
 /// How much a length of a curve counts where two triangles meet: from a fourth, at 90 degrees and more, to 1.
@@ -219,21 +209,15 @@ void part_common_edges(SurfaceModel& model, int a, int b) {
   editor.finish();
 }
 
-Vec3 area_vector(const std::array<Vec3, 3>& x) { return cross(x[1] - x[0], x[2] - x[0]); }
-
 /// Whether no triangle at `a` turns over when a moves to `b`.
 bool keeps_sides(const Mesh& mesh, int a, int b) {
-  for (const auto& triangle : mesh.triangles) {
-    if (std::ranges::find(triangle, a) == triangle.end()) continue;
-    if (std::ranges::find(triangle, b) != triangle.end()) continue;
-    std::array<Vec3, 3> before, after;
-    for (int k = 0; k < 3; ++k) {
-      before[k] = mesh.points[triangle[k]];
-      after[k] = triangle[k] == a ? mesh.points[b] : before[k];
-    }
-    if (!(dot(area_vector(before), area_vector(after)) > 0)) return false;
-  }
-  return true;
+  return std::ranges::all_of(mesh.triangles, [&](std::array<int, 3> triangle) {
+    if (std::ranges::find(triangle, a) == triangle.end()) return true;
+    if (std::ranges::find(triangle, b) != triangle.end()) return true;
+    const Vec3 before = area_vector(mesh.points, triangle);
+    std::ranges::replace(triangle, a, b);
+    return dot(before, area_vector(mesh.points, triangle)) > 0;
+  });
 }
 
 /// Moves the end `a` of a line to its other end `b`; false: the surface would not be what it was.
@@ -257,17 +241,6 @@ bool contract_line(SurfaceModel& model, int a, int b) {
   return true;
 }
 
-/// The nodes of a curve from end to end.
-std::vector<int> nodes_of_curve(const Mesh& mesh, int curve) {
-  std::vector<int> nodes;
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
-    if (mesh.line_curve[i] != curve) continue;
-    if (nodes.empty()) nodes.push_back(mesh.lines[i][0]);
-    nodes.push_back(mesh.lines[i][1]);
-  }
-  return nodes;
-}
-
 /// How far at most the points that are one with a point have come; points behind the last: no way.
 using Moved = std::vector<double>;
 
@@ -286,7 +259,7 @@ std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int
 
 /// Whether something became of a curve.
 bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
-  std::vector<int> nodes = nodes_of_curve(model.fine, curve);
+  std::vector<int> nodes = points_of_curves(model.fine)[curve];
   if (nodes.front() == nodes.back()) return false;
   for (const bool reversed : {false, true}) {
     if (reversed) std::ranges::reverse(nodes);
@@ -303,7 +276,7 @@ bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
 /// Contracts curves shorter than that, the shortest first.
 SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narrow) {
   const Mesh& mesh = model.fine;
-  const std::vector<double> lengths = curve_lengths(mesh);
+  const std::vector<double> lengths = lengths_of_curves(mesh);
   std::vector<char> stays(lengths.size(), 0);
   for (std::size_t c = 0; c < lengths.size(); ++c)
     stays[c] = narrow.keep_named && !mesh.curves[c].names.empty();
@@ -334,8 +307,7 @@ SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narr
                   : "stays: it is closed, or the surface would fold or tear without it, or move too far,",
              place)});
   }
-  TidyGroups kept = tidy_model(model);
-  regroup(model, former, kept.faces, std::move(kept.curves));
+  tidy_model(model, former);
   return model;
 }
 

@@ -50,7 +50,7 @@ struct LaplaceSolver::System {
 };
 
 LaplaceSolver::LaplaceSolver(const Chart& chart, std::vector<char> fixed, double shift)
-    : system_(std::make_unique<System>()) {
+    : system_(std::make_shared<System>()) {
   assert(fixed.size() == chart.points.size());
   assert(shift > 0 || std::ranges::find(fixed, 1) != fixed.end());
   System& s = *system_;
@@ -87,10 +87,6 @@ LaplaceSolver::LaplaceSolver(const Chart& chart, std::vector<char> fixed, double
   matrix.setFromTriplets(inner.begin(), inner.end());
   s.factors.compute(matrix);
 }
-
-LaplaceSolver::~LaplaceSolver() = default;
-LaplaceSolver::LaplaceSolver(LaplaceSolver&&) noexcept = default;
-LaplaceSolver& LaplaceSolver::operator=(LaplaceSolver&&) noexcept = default;
 
 std::vector<double> LaplaceSolver::solve(const std::vector<double>& values,
                                          const std::vector<double>& load) const {

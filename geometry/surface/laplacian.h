@@ -19,9 +19,6 @@ class LaplaceSolver {
  public:
   /// `shift` times the vertex areas is added on the diagonal: needed when no vertex is fixed.
   LaplaceSolver(const Chart& chart, std::vector<char> fixed, double shift = 0);
-  ~LaplaceSolver();
-  LaplaceSolver(LaplaceSolver&&) noexcept;
-  LaplaceSolver& operator=(LaplaceSolver&&) noexcept;
 
   /// (L + shift areas) x = load at the free vertices, x = values at the fixed ones.
   std::vector<double> solve(const std::vector<double>& values, const std::vector<double>& load) const;
@@ -30,7 +27,7 @@ class LaplaceSolver {
 
  private:
   struct System;
-  std::unique_ptr<System> system_;
+  std::shared_ptr<System> system_;
 };
 
 /// The slowest vibration of the chart with free boundary: its level curves divide the chart where it is

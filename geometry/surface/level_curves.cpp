@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "geometry/surface/cut_path.h"
 
@@ -91,14 +91,7 @@ class LevelWalk {
     }
     if (out.closed && out.points.size() > 1 && out.points.front() == out.points.back()) out.points.pop_back();
     if (out.points.size() < (out.closed ? 3 : 2)) return std::nullopt;
-    if (is_boundary_side(chart_, out)) return std::nullopt;
-    std::map<std::pair<int, int>, int> seen;
-    for (const EdgePoint& p : out.points)
-      if (seen[{p.a, p.b}]++ > 0) return std::nullopt;
-    for (std::size_t i = 0; i + (out.closed ? 0 : 1) < out.points.size(); ++i)
-      out.length +=
-          norm(position(chart_, out.points[(i + 1) % out.points.size()]) - position(chart_, out.points[i]));
-    return out;
+    return measured(chart_, std::move(out));
   }
 
   const Chart& chart_;
@@ -114,6 +107,9 @@ Vec3 position(const Chart& chart, const EdgePoint& p) {
   return (1 - p.t) * chart.points[p.a] + p.t * chart.points[p.b];
 }
 
+namespace {
+
+/// Is the path no more than one side of the boundary?
 bool is_boundary_side(const Chart& chart, const CutPath& path) {
   if (path.points.size() != 2 || path.points[0].b >= 0 || path.points[1].b >= 0) return false;
   const auto ends = std::minmax({path.points[0].a, path.points[1].a});
@@ -121,6 +117,19 @@ bool is_boundary_side(const Chart& chart, const CutPath& path) {
     for (std::size_t k = 0; k < loop.size(); ++k)
       if (std::minmax({loop[k], loop[(k + 1) % loop.size()]}) == ends) return true;
   return false;
+}
+
+}  // namespace
+
+std::optional<CutPath> measured(const Chart& chart, CutPath path) {
+  if (is_boundary_side(chart, path)) return std::nullopt;
+  std::set<std::pair<int, int>> seen;
+  for (const EdgePoint& p : path.points)
+    if (!seen.insert(std::minmax({p.a, p.b})).second) return std::nullopt;
+  const std::size_t n = path.points.size();
+  for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i)
+    path.length += norm(position(chart, path.points[(i + 1) % n]) - position(chart, path.points[i]));
+  return path;
 }
 
 std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level) {

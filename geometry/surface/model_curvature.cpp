@@ -8,6 +8,8 @@
 
 #include "base/box.h"
 #include "base/parallel.h"
+#include "geometry/mesh/triangle_measures.h"
+#include "geometry/surface/curve_chains.h"
 
 namespace delquad {
 
@@ -24,8 +26,6 @@ Vec3 unit(const Vec3& v) {
   const double length = norm(v);
   return length > 0 ? (1 / length) * v : Vec3{};
 }
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 /// One face with points of its own.
 struct FacePiece {
@@ -95,7 +95,7 @@ class FormEstimate {
     normals_.assign(piece_.points.size(), {});
     std::map<std::pair<int, int>, int> sides;
     for (const auto& v : piece_.triangles) {
-      const Vec3 n = unit(cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0])));
+      const Vec3 n = unit(area_vector(piece_.points, v));
       for (int k = 0; k < 3; ++k) {
         normals_[v[k]] = normals_[v[k]] + corner_angle(v, k) * n;
         ++sides[std::minmax(v[k], v[(k + 1) % 3])];
@@ -131,7 +131,7 @@ class FormEstimate {
   /// The symmetric form that explains best how the normal changes along the sides.
   std::optional<Eigen::Matrix3d> form_of(const std::array<int, 3>& v) const {
     const Vec3 x = unit(point(v[1]) - point(v[0]));
-    const Vec3 area = cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
+    const Vec3 area = area_vector(piece_.points, v);
     const Vec3 y = unit(cross(area, x));
     Eigen::Matrix<double, 6, 3> rows = Eigen::Matrix<double, 6, 3>::Zero();
     Eigen::Matrix<double, 6, 1> change;
@@ -159,8 +159,7 @@ class FormEstimate {
 
 bool is_plane(const FacePiece& piece) {
   Vec3 sum;
-  for (const auto& [a, b, c] : piece.triangles)
-    sum = sum + cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]);
+  for (const auto& v : piece.triangles) sum = sum + area_vector(piece.points, v);
   const Vec3 normal = unit(sum);
   const double tolerance = kFlatRing * diagonal(piece.points);
   return dot(normal, normal) > 0 && std::ranges::all_of(piece.points, [&](const Vec3& p) {
@@ -212,13 +211,7 @@ void ModelCurvature::estimate_faces(const Mesh& fine) {
 }
 
 void ModelCurvature::measure_curves(const Mesh& fine) {
-  std::vector<std::vector<int>> chains(fine.curves.size());
-  for (std::size_t l = 0; l < fine.lines.size(); ++l) {
-    std::vector<int>& chain = chains[fine.line_curve[l]];
-    if (chain.empty()) chain.push_back(fine.lines[l][0]);
-    chain.push_back(fine.lines[l][1]);
-  }
-  for (const std::vector<int>& chain : chains) {
+  for (const std::vector<int>& chain : points_of_curves(fine)) {
     curves_.emplace_back();
     if (chain.size() < 3) continue;  // straight
     std::vector<Vec3> points;

@@ -17,7 +17,9 @@
 #include "base/segment.h"
 #include "base/text.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/chart.h"
+#include "geometry/surface/curve_chains.h"
 
 namespace delquad {
 
@@ -31,19 +33,6 @@ constexpr double kCornerAngle = 60;
 constexpr double kOpposite = -0.7, kAcross = 0.9;
 
 std::array<int, 2> sorted_ends(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-double triangle_area(const Mesh& mesh, int t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
-}
-
-/// Whether every number stands there an even number of times.
-bool in_pairs(std::vector<int> numbers) {
-  std::ranges::sort(numbers);
-  for (std::size_t i = 0; i < numbers.size(); i += 2)
-    if (i + 1 == numbers.size() || numbers[i] != numbers[i + 1]) return false;
-  return true;
-}
 
 /// A side of a chart's boundary.
 struct BoundarySide {
@@ -102,14 +91,12 @@ class Reporter {
 
   void measure_curves() {
     report_.curves.resize(mesh_.curves.size());
-    std::vector<std::vector<int>> ends(mesh_.curves.size());
-    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
-      const auto& [a, b] = mesh_.lines[l];
-      CurveReport& curve = report_.curves[mesh_.line_curve[l]];
-      curve.length += norm(mesh_.points[b] - mesh_.points[a]);
-      ends[mesh_.line_curve[l]].insert(ends[mesh_.line_curve[l]].end(), {a, b});
+    const std::vector<double> lengths = lengths_of_curves(mesh_);
+    const std::vector<std::vector<int>> points = points_of_curves(mesh_);
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      report_.curves[c].length = lengths[c];
+      report_.curves[c].closed = points[c].empty() || points[c].front() == points[c].back();
     }
-    for (std::size_t c = 0; c < ends.size(); ++c) report_.curves[c].closed = in_pairs(ends[c]);
     std::vector<char> seen(mesh_.curves.size(), 0);
     for_each_edge(std::span(sides_), [&](std::span<const HalfEdge> edge) {
       const auto line = line_curve_.find({edge[0].lo, edge[0].hi});
@@ -127,7 +114,7 @@ class Reporter {
     report_.faces.resize(mesh_.regions.size());
     for (FaceReport& face : report_.faces) face.width = kInf;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const double area = triangle_area(mesh_, static_cast<int>(t));
+      const double area = norm(area_vector(mesh_, t)) / 2;
       report_.faces[mesh_.triangle_region[t]].area += area;
       report_.area += area;
     }
@@ -192,16 +179,12 @@ class Reporter {
     DisjointSets joined(n_faces);
     for (const CurveReport& curve : report_.curves)
       for (const int f : curve.faces) joined.join(curve.faces[0], f);
-    std::vector<int> shell_of(n_faces, -1);
+    const std::vector<int> shell_of = joined.places();
     for (int f = 0; f < n_faces; ++f) {
-      int& shell = shell_of[joined.root(f)];
-      if (shell < 0) {
-        shell = static_cast<int>(report_.shells.size());
-        report_.shells.push_back({{}, 0, 0, true});
-      }
-      report_.shells[shell].faces.push_back(f);
-      report_.shells[shell].area += report_.faces[f].area;
-      shell_of[f] = shell;
+      if (shell_of[f] == std::ssize(report_.shells)) report_.shells.push_back({{}, 0, 0, true});
+      ShellReport& shell = report_.shells[shell_of[f]];
+      shell.faces.push_back(f);
+      shell.area += report_.faces[f].area;
     }
     count_cells(shell_of);
   }
@@ -257,38 +240,27 @@ std::string topology(const FaceReport& face) {
 namespace {
 
 std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
-  constexpr int kMostNamed = 10;
-  std::string text;
-  int n = 0;
-  for (std::size_t c = 0; c < listed.size(); ++c) {
-    if (!listed[c]) continue;
-    if (++n <= kMostNamed) text += fmt::format("{}{}", n > 1 ? ", " : "", mesh.curves[c].tag);
-  }
-  if (n > kMostNamed) text += ", ...";
+  constexpr std::size_t kMostNamed = 10;
+  std::vector<std::string> tags;
+  for (std::size_t c = 0; c < listed.size(); ++c)
+    if (listed[c]) tags.push_back(std::to_string(mesh.curves[c].tag));
   const auto first = std::ranges::find(listed, 1) - listed.begin();
   const auto line = std::ranges::find(mesh.line_curve, static_cast<int>(first)) - mesh.line_curve.begin();
-  return fmt::format("{} ({}), the first through {}", n, text, show_point(mesh.points[mesh.lines[line][0]]));
+  return fmt::format("{} ({}), the first through {}", tags.size(), first_of(tags, kMostNamed),
+                     show_point(mesh.points[mesh.lines[line][0]]));
 }
 
 }  // namespace
 
 void report_edges(SurfaceModel& model) {
   const Mesh& mesh = model.fine;
-  std::vector<std::pair<std::array<int, 2>, int>> curve_of;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const auto& [a, b] = mesh.lines[l];
-    curve_of.push_back({{std::min(a, b), std::max(a, b)}, mesh.line_curve[l]});
-  }
-  std::ranges::sort(curve_of);
   std::vector<char> free(mesh.curves.size(), 0), crowded(mesh.curves.size(), 0);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 2) return;
-    const std::array<int, 2> ends{edge[0].lo, edge[0].hi};
-    const auto at = std::ranges::lower_bound(curve_of, std::pair(ends, 0));
-    if (at == curve_of.end() || at->first != ends) return;
-    (edge.size() == 1 ? free : crowded)[at->second] = 1;
-  });
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const std::size_t n = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size();
+    if (n == 1) free[mesh.line_curve[l]] = 1;
+    if (n > 2) crowded[mesh.line_curve[l]] = 1;
+  }
   if (std::ranges::count(free, 1) > 0)
     model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free));
   if (std::ranges::count(crowded, 1) > 0)

@@ -12,6 +12,7 @@
 #include "base/disjoint_sets.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/chart.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/ignore_small.h"
@@ -343,7 +344,7 @@ class FaceCutter {
     std::vector<int> chain{p};
     Vec3 normal;
     for (const int t : editor.triangles_at(p))
-      if (mesh_.triangle_region[t] == face) normal = normal + area_vector(t);
+      if (mesh_.triangle_region[t] == face) normal = normal + area_vector(mesh_, t);
     const Vec3 to = mesh_.points[q] - mesh_.points[p], beside = cross(normal, to);
     const auto height = [&](int v) { return dot(mesh_.points[v] - mesh_.points[p], beside); };
     for (int step = 0; step < kMostSteps; ++step) {
@@ -385,11 +386,6 @@ class FaceCutter {
     return {};
   }
 
-  Vec3 area_vector(int triangle) const {
-    const auto& [a, b, c] = mesh_.triangles[triangle];
-    return cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]);
-  }
-
   SurfaceModel& model_;
   const Mesh& mesh_;
   double length_;
@@ -397,110 +393,94 @@ class FaceCutter {
   std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> splits_;  ///< how far, and the node
 };
 
-/// What cuts divide faces into.
-class FaceParts {
- public:
-  FaceParts(const Mesh& mesh, std::size_t n_curves, const NarrowOptions& options)
-      : charts_(extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1))),
-        parts_(charts_.size()),
-        is_narrow_(charts_.size(), 0) {
-    std::vector<int> chart_of(mesh.triangles.size());
-    std::vector<double> area(charts_.size(), 0), outline(area);
-    for (std::size_t c = 0; c < charts_.size(); ++c) {
-      for (const int t : charts_[c].fine_triangle) chart_of[t] = static_cast<int>(c);
-      for (const double a : triangle_areas(charts_[c])) area[c] += a;
-    }
-    const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-      const auto [a, b] = mesh.lines[l];
-      const auto edge = sides_of_edge(std::span(sides), a, b);
-      for (const HalfEdge& side : edge)
-        outline[chart_of[side.element]] += norm(mesh.points[b] - mesh.points[a]);
-      for (const HalfEdge& side : edge)
-        if (edge.size() == 2 && may_join(mesh, mesh.line_curve[l], mesh.triangle_region[side.element],
-                                         mesh.triangle_region[edge[&side == &edge[0]].element], options))
-          is_narrow_[chart_of[side.element]] = 1;
-    }
-    for (std::size_t c = 0; c < charts_.size(); ++c)
-      if (!(2 * area[c] < options.length * outline[c]) ||
-          std::ranges::any_of(charts_[c].fine_triangle, [&](int t) { return is_kept(mesh, t, options); }))
-        is_narrow_[c] = 0;
-    for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-      if (mesh.line_curve[l] < static_cast<int>(n_curves)) continue;
-      const auto edge = sides_of_edge(std::span(sides), mesh.lines[l][0], mesh.lines[l][1]);
-      const int c = chart_of[edge[0].element], d = chart_of[edge[1].element];
-      if (!is_narrow_[c] && !is_narrow_[d]) parts_.join(c, d);
-    }
-    std::vector<double> part_area(charts_.size(), 0);
-    std::vector<int> largest(mesh.regions.size(), -1);
-    for (int c = 0; c < n(); ++c) part_area[parts_.root(c)] += area[c];
-    for (int c = 0; c < n(); ++c) {
-      int& most = largest[charts_[c].face];
-      if (parts_.root(c) != c || is_narrow_[c]) continue;
-      if (most < 0 || part_area[c] > part_area[most]) most = c;
-    }
-    for (int c = 0; c < n(); ++c)
-      stays_.push_back(largest[charts_[c].face] < 0 || parts_.root(c) == largest[charts_[c].face]);
+/// Makes each part into which cuts (curves from `first_cut` on) divide faces a face, but for the largest one
+/// that is not narrow: the narrow ones come last. Of faces that are narrow everywhere, and where nothing is
+/// cut, all stays. `is_cut`: of each face. Returns the former face of each.
+std::vector<int> number_parts(Mesh& mesh, int first_cut, const std::vector<char>& is_cut,
+                              const NarrowOptions& options) {
+  const std::vector<Chart> charts = extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1));
+  const int n = static_cast<int>(charts.size());
+  std::vector<int> chart_of(mesh.triangles.size());
+  std::vector<double> area(charts.size(), 0), outline(area), part_area(area);
+  for (int c = 0; c < n; ++c) {
+    for (const int t : charts[c].fine_triangle) chart_of[t] = c;
+    for (const double a : triangle_areas(charts[c])) area[c] += a;
   }
-
-  /// Makes each part a face, but for the largest one that is not narrow: the narrow ones come last. Of faces
-  /// that are narrow everywhere, and where nothing is cut, all stays. `is_cut`: of each face.
-  void number(Mesh& mesh, const std::vector<char>& is_cut, std::vector<int>& origin) {
-    int tag = 0;
-    for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
-    std::vector<int> face_of(charts_.size(), -1);  // by root
-    for (const char narrow : {0, 1})
-      for (int c = 0; c < n(); ++c) {
-        const Chart& chart = charts_[c];
-        if (is_narrow_[c] != narrow || stays_[c] || !is_cut[chart.face]) continue;
-        int& face = face_of[parts_.root(c)];
-        if (face < 0) {
-          face = static_cast<int>(mesh.regions.size());
-          mesh.regions.push_back(mesh.regions[chart.face]);
-          mesh.regions.back().tag = ++tag;
-          origin.push_back(chart.face);
-        }
-        for (const int t : chart.fine_triangle) mesh.triangle_region[t] = face;
+  std::vector<char> is_narrow(charts.size(), 0);
+  std::vector<std::array<int, 2>> beside_cuts;  // charts
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const auto [a, b] = mesh.lines[l];
+    const auto edge = sides_of_edge(sides, a, b);
+    for (const HalfEdge& side : edge) {
+      outline[chart_of[side.element]] += norm(mesh.points[b] - mesh.points[a]);
+      if (edge.size() == 2 && may_join(mesh, mesh.line_curve[l], mesh.triangle_region[side.element],
+                                       mesh.triangle_region[edge[&side == &edge[0]].element], options))
+        is_narrow[chart_of[side.element]] = 1;
+    }
+    if (mesh.line_curve[l] >= first_cut)
+      beside_cuts.push_back({chart_of[edge[0].element], chart_of[edge[1].element]});
+  }
+  for (int c = 0; c < n; ++c)
+    if (!(2 * area[c] < options.length * outline[c]) ||
+        std::ranges::any_of(charts[c].fine_triangle, [&](int t) { return is_kept(mesh, t, options); }))
+      is_narrow[c] = 0;
+  DisjointSets parts(charts.size());
+  for (const auto& [c, d] : beside_cuts)
+    if (!is_narrow[c] && !is_narrow[d]) parts.join(c, d);
+  for (int c = 0; c < n; ++c) part_area[parts.root(c)] += area[c];
+  std::vector<int> origin(mesh.regions.size()), largest(mesh.regions.size(), -1);
+  std::iota(origin.begin(), origin.end(), 0);
+  for (int c = 0; c < n; ++c) {
+    int& most = largest[charts[c].face];
+    if (parts.root(c) == c && !is_narrow[c] && (most < 0 || part_area[c] > part_area[most])) most = c;
+  }
+  int tag = 0;
+  for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
+  std::vector<int> face_of(charts.size(), -1);  // by root
+  for (const char narrow : {0, 1})
+    for (int c = 0; c < n; ++c) {
+      const int former = charts[c].face, root = parts.root(c);
+      if (is_narrow[c] != narrow || largest[former] < 0 || root == largest[former] || !is_cut[former])
+        continue;
+      if (face_of[root] < 0) {
+        face_of[root] = static_cast<int>(mesh.regions.size());
+        mesh.regions.push_back(Entity{++tag, mesh.regions[former].names});
+        origin.push_back(former);
       }
-  }
-
- private:
-  int n() const { return static_cast<int>(charts_.size()); }
-
-  std::vector<Chart> charts_;
-  DisjointSets parts_;  ///< of charts
-  std::vector<char> is_narrow_, stays_;
-};
+      for (const int t : charts[c].fine_triangle) mesh.triangle_region[t] = face_of[root];
+    }
+  return origin;
+}
 
 }  // namespace
 
 std::vector<int> cut_narrow_parts(SurfaceModel& whole, const NarrowOptions& options) {
   SurfaceModel model = whole;
   Mesh& mesh = model.fine;
-  const std::size_t n_faces = mesh.regions.size(), n_curves = mesh.curves.size();
-  std::vector<int> origin(n_faces);
-  std::iota(origin.begin(), origin.end(), 0);
+  const std::size_t n_faces = mesh.regions.size();
+  const int n_curves = static_cast<int>(mesh.curves.size());
   const std::vector<int> faces_of_cuts = FaceCutter(model, options.length).cut();
   std::vector<char> is_cut(n_faces, 0);
   for (const int face : faces_of_cuts) is_cut[face] = 1;
-  if (!faces_of_cuts.empty()) FaceParts(mesh, n_curves, options).number(mesh, is_cut, origin);
+  std::vector<int> origin(n_faces);
+  std::iota(origin.begin(), origin.end(), 0);
+  if (!faces_of_cuts.empty()) origin = number_parts(mesh, n_curves, is_cut, options);
   if (origin.size() == n_faces) return origin;
   EntityGroups faces;
   for (const int face : origin) faces.push_back({face});
   regroup(model, mesh, faces, each_alone(n_curves));
   if (model.projector)
-    model.projector =
-        with_curves_on_faces(std::move(model.projector), static_cast<int>(n_curves), faces_of_cuts);
+    model.projector = with_curves_on_faces(std::move(model.projector), n_curves, faces_of_cuts);
   // Cuts that part nothing go.
   const Mesh former = mesh;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   keep_lines(mesh, [&](std::size_t l) {
-    const auto edge = sides_of_edge(std::span(sides), former.lines[l][0], former.lines[l][1]);
-    return former.line_curve[l] < static_cast<int>(n_curves) ||
+    const auto edge = sides_of_edge(sides, former.lines[l][0], former.lines[l][1]);
+    return former.line_curve[l] < n_curves ||
            mesh.triangle_region[edge[0].element] != mesh.triangle_region[edge[1].element];
   });
-  TidyGroups kept = tidy_model(model);
-  regroup(model, former, kept.faces, std::move(kept.curves));
+  tidy_model(model, former);
   whole = std::move(model);
   return origin;
 }

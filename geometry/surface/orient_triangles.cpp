@@ -11,6 +11,7 @@
 #include "base/box.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {
@@ -73,12 +74,8 @@ Component collect(const Mesh& mesh, const std::vector<int>& twin, int seed, std:
 
 /// Radians by which the surface turns at an edge, were its triangles to agree.
 double turn_at(const Mesh& mesh, int side, int twin) {
-  const auto area = [&](int s) {
-    const auto& [a, b, c] = mesh.triangles[s / 3];
-    return cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-  };
-  const Vec3 m = area(side), n = (run_alike(mesh, side, twin) ? -1.0 : 1.0) * area(twin);
-  return std::atan2(norm(cross(m, n)), dot(m, n));
+  const double sign = run_alike(mesh, side, twin) ? -1 : 1;
+  return angle_between(area_vector(mesh, side / 3), sign * area_vector(mesh, twin / 3));
 }
 
 /// Triangles that are known to agree, or to disagree, with others.

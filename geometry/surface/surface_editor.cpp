@@ -5,16 +5,25 @@
 
 namespace delquad {
 
-SurfaceEditor::SurfaceEditor(SurfaceModel& model)
-    : mesh_(model.fine),
-      triangles_at_(mesh_.points.size()),
-      lines_at_(mesh_.points.size()),
-      next_line_(mesh_.lines.size(), -1),
-      begins_(mesh_.lines.size(), 1) {
+SurfaceEditor::SurfaceEditor(SurfaceModel& model) : mesh_(model.fine), triangles_at_(mesh_.points.size()) {
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     for (int v : mesh_.triangles[t]) triangles_at_[v].push_back(static_cast<int>(t));
+  index_lines();
+}
+
+void SurfaceEditor::index_lines() {
+  lines_at_.assign(mesh_.points.size(), {});
   for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
     for (int v : mesh_.lines[l]) lines_at_[v].push_back(static_cast<int>(l));
+  next_line_.assign(mesh_.lines.size(), -1);
+  begins_.assign(mesh_.lines.size(), 1);
+}
+
+int SurfaceEditor::add_node(const Vec3& x) {
+  mesh_.points.push_back(x);
+  triangles_at_.emplace_back();
+  lines_at_.emplace_back();
+  return static_cast<int>(mesh_.points.size()) - 1;
 }
 
 void SurfaceEditor::find_triangles_on(int a, int b, std::vector<int>& found) const {
@@ -49,10 +58,7 @@ int SurfaceEditor::split_edge(int a, int b, const Vec3& x) {
   const std::vector<int> on_edge = triangles_on(a, b);
   const int line = line_on(a, b);
   assert(!on_edge.empty() || line >= 0);
-  const int node = static_cast<int>(mesh_.points.size());
-  mesh_.points.push_back(x);
-  triangles_at_.emplace_back();
-  lines_at_.emplace_back();
+  const int node = add_node(x);
   for (int t : on_edge) {
     const int half = static_cast<int>(mesh_.triangles.size());
     mesh_.triangles.push_back(mesh_.triangles[t]);
@@ -80,10 +86,7 @@ int SurfaceEditor::split_edge(int a, int b, const Vec3& x) {
 int SurfaceEditor::split_triangle(int triangle, const Vec3& x) {
   assert(triangle >= 0 && triangle < static_cast<int>(mesh_.triangles.size()));
   const auto corners = mesh_.triangles[triangle];
-  const int node = static_cast<int>(mesh_.points.size());
-  mesh_.points.push_back(x);
-  triangles_at_.emplace_back();
-  lines_at_.emplace_back();
+  const int node = add_node(x);
   for (int k = 1; k < 3; ++k) {
     const int part = static_cast<int>(mesh_.triangles.size());
     mesh_.triangles.push_back(corners);
@@ -142,11 +145,7 @@ void SurfaceEditor::finish() {
   }
   mesh_.lines = std::move(lines);
   mesh_.line_curve = std::move(line_curve);
-  for (auto& at : lines_at_) at.clear();
-  for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
-    for (int v : mesh_.lines[l]) lines_at_[v].push_back(static_cast<int>(l));
-  next_line_.assign(mesh_.lines.size(), -1);
-  begins_.assign(mesh_.lines.size(), 1);
+  index_lines();
 }
 
 }  // namespace delquad

@@ -40,6 +40,8 @@ class SurfaceEditor {
   void finish();
 
  private:
+  void index_lines();
+  int add_node(const Vec3& x);
   void replace_corner(int triangle, int from, int to);
 
   Mesh& mesh_;

@@ -80,20 +80,16 @@ void part_touching_fans(Mesh& mesh) {
 
 }  // namespace
 
-TidyGroups tidy_model(SurfaceModel& model) {
+void tidy_model(SurfaceModel& model, const Mesh& former) {
   Mesh& mesh = model.fine;
   part_touching_fans(mesh);
-  std::vector<char> used(mesh.points.size(), 0), on_line(mesh.points.size(), 0);
-  for (const auto& line : mesh.lines)
-    for (const int v : line) used[v] = on_line[v] = 1;
-  for (const auto& triangle : mesh.triangles)
-    for (const int v : triangle) used[v] = 1;
-  std::vector<int> number(used.size());
-  for (std::size_t p = 0, n = 0; p < used.size(); ++p) number[p] = used[p] ? static_cast<int>(n++) : -1;
+  std::vector<char> on_line(mesh.points.size(), 0);
+  for (const auto& [a, b] : mesh.lines) on_line[a] = on_line[b] = 1;
   std::erase_if(model.corners, [&](int p) { return !on_line[p]; });
+  const std::vector<int> number = drop_unused_points(mesh);
   for (int& p : model.corners) p = number[p];
-  drop_unused_points(mesh);
-  return {keep_used(mesh.regions, mesh.triangle_region), keep_used(mesh.curves, mesh.line_curve)};
+  const EntityGroups faces = keep_used(mesh.regions, mesh.triangle_region);
+  regroup(model, former, faces, keep_used(mesh.curves, mesh.line_curve));
 }
 
 }  // namespace delquad

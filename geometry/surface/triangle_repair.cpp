@@ -113,8 +113,8 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
 }
 
 /// Corners of triangles (3 t + k: that at the start of side 3 t + k) that share an edge at their vertex
-/// belong to one fan, also where more than two triangles share it. Returns one corner of each fan, by corner.
-std::vector<int> fans(const Mesh& mesh) {
+/// belong to one fan, also where more than two triangles share it. The fans, each by one of its corners.
+DisjointSets fans(const Mesh& mesh) {
   DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_at = [&](int side, int v) {
     return side_start(mesh, side) == v ? side : next_side(side);
@@ -125,12 +125,12 @@ std::vector<int> fans(const Mesh& mesh) {
       for (const int v : {half.lo, half.hi})
         corners.join(corner_at(first, v), corner_at(side_number(mesh, half), v));
   });
-  return corners.roots();
+  return corners;
 }
 
 /// Gives each fan at a vertex a vertex of its own.
 void split_vertices(Mesh& mesh, std::vector<Warning>& warnings) {
-  const std::vector<int> fan = fans(mesh);
+  const std::vector<int> fan = fans(mesh).roots();
   std::vector<int> vertex_of_fan(fan.size(), -1);
   std::vector<char> used(mesh.points.size(), 0);
   int splits = 0;
@@ -207,7 +207,7 @@ Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::
   leave_out_flat(mesh, source, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   settle_triangles(mesh, source, warnings);
-  const int unused = drop_unused_points(mesh);
+  const auto unused = std::ranges::count(drop_unused_points(mesh), -1);
   if (unused > 0) warnings.push_back("left out " + counted(unused, "point") + " that no triangle uses");
   return mesh;
 }

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "geometry/mesh/half_edges.h"
@@ -15,20 +12,8 @@ inline int side_start(const Mesh& mesh, int side) { return mesh.triangles[side /
 inline int side_end(const Mesh& mesh, int side) { return mesh.triangles[side / 3][(side % 3 + 1) % 3]; }
 inline int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
 
-/// The sides along the edge between a and b; none when it is no edge.
-inline std::span<const HalfEdge> sides_of_edge(const std::vector<HalfEdge>& sorted, int a, int b) {
-  const auto before = [](const HalfEdge& s, const std::array<int, 2>& edge) {
-    return std::tie(s.lo, s.hi) < std::tie(edge[0], edge[1]);
-  };
-  const std::array<int, 2> edge = {std::min(a, b), std::max(a, b)};
-  const auto first = std::lower_bound(sorted.begin(), sorted.end(), edge, before);
-  auto last = first;
-  while (last != sorted.end() && last->lo == edge[0] && last->hi == edge[1]) ++last;
-  return {first, last};
-}
-
 inline int side_number(const Mesh& mesh, const HalfEdge& half) {
-  const int start = half.forward ? half.lo : half.hi, end = half.forward ? half.hi : half.lo;
+  const auto [start, end] = half.run();
   int side = 3 * half.element;
   while (side_start(mesh, side) != start || side_end(mesh, side) != end) ++side;
   return side;

@@ -13,6 +13,7 @@
 #include "base/box.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/feature_noise.h"
 #include "geometry/surface/model_report.h"
@@ -64,7 +65,7 @@ std::vector<double> side_angles(const Mesh& mesh, const std::vector<int>& twin) 
   for (size_t s = 0; s < twin.size(); ++s) {
     if (twin[s] < 0) continue;
     const size_t t = s / 3, u = static_cast<size_t>(twin[s]) / 3;
-    angles[s] = std::atan2(norm(cross(normal[t], normal[u])), dot(normal[t], normal[u]));
+    angles[s] = angle_between(normal[t], normal[u]);
   }
   return angles;
 }
@@ -150,23 +151,9 @@ void keep_features(const Mesh& mesh, const std::vector<FeatureBall>& balls, cons
 
 /// Numbers the parts between cuts in the order of their first triangles; returns the region of each.
 std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& cut) {
-  const int n = static_cast<int>(mesh.triangles.size());
-  std::vector<int> face(n, -1), region_of_face, stack;
-  for (int seed = 0; seed < n; ++seed) {
-    if (face[seed] >= 0) continue;
-    face[seed] = static_cast<int>(region_of_face.size());
-    region_of_face.push_back(mesh.triangle_region[seed]);
-    stack = {seed};
-    while (!stack.empty()) {
-      const int t = stack.back();
-      stack.pop_back();
-      for (int s = 3 * t; s < 3 * t + 3; ++s) {
-        if (cut[s] != kNoCut || face[twin[s] / 3] >= 0) continue;
-        face[twin[s] / 3] = face[t];
-        stack.push_back(twin[s] / 3);
-      }
-    }
-  }
+  std::vector<int> face = parts_between_cuts(twin, cut), region_of_face;
+  for (std::size_t t = 0; t < face.size(); ++t)
+    if (face[t] == std::ssize(region_of_face)) region_of_face.push_back(mesh.triangle_region[t]);
   mesh.triangle_region = std::move(face);
   return region_of_face;
 }

@@ -161,7 +161,7 @@ void check_case(const Case& c) {
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {
   if (text.empty()) throw InputError("--size: the size is empty: expected a number or an expression");
   if (text != kFromBoundary) return make_field({.text = text, .where = "--size"});
-  const PlanarDomain domain = make_domain(outline(mesh), {"boundary of the mesh", {}});
+  const PlanarDomain domain = make_domain(outline(mesh), "boundary of the mesh");
   return make_boundary_size(std::make_shared<BackgroundMesh>(domain.patches), domain.boundary);
 }
 

@@ -6,6 +6,7 @@
 
 #include "algorithms/insertion/frontal_mesher.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "tests/support/patch_invariants.h"
 
 namespace delquad::testing_support {
 

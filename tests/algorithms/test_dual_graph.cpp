@@ -11,6 +11,7 @@
 
 #include "algorithms/recombination/recombine.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/shapes.h"
 #include "tests/support/tri_patches.h"
 

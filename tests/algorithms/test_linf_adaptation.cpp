@@ -12,6 +12,7 @@
 #include "delquad/extend.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "tests/support/analytic_fields.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

@@ -15,6 +15,7 @@
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/planar/planar_model.h"
 #include "tests/fields/backgrounds.h"
+#include "tests/support/patch_invariants.h"
 
 namespace delquad {
 namespace {
@@ -161,7 +162,7 @@ TEST(BackgroundMesh, RefusesBoundariesThatRunTheWrongWayRound) {
     try {
       background_of(boundary);
     } catch (const InputError& error) {
-      return std::string(error.what()).find("wrong way round") != std::string::npos;
+      return std::string(error.what()).find("turned inside out") != std::string::npos;
     }
     return false;
   };

@@ -9,6 +9,7 @@
 #include "base/predicates.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/patch_invariants.h"
 
 namespace delquad {
 namespace {

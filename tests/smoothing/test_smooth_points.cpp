@@ -17,6 +17,7 @@
 #include "tests/smoothing/seeds.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {

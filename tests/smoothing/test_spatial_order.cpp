@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/smoothing/seeds.h"
+#include "tests/support/patch_invariants.h"
 
 namespace delquad {
 namespace {

@@ -10,6 +10,7 @@
 #include "base/predicates.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/flatten.h"
+#include "tests/support/patch_invariants.h"
 
 namespace delquad::testing_support {
 

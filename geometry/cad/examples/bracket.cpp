@@ -60,8 +60,7 @@ bool lies_in(const TopoDS_Edge& edge, int direction, double value) {
 }
 
 TopoDS_Shape with_fillets(const TopoDS_Shape& sharp) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(sharp, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = parts(sharp, TopAbs_EDGE);
   BRepFilletAPI_MakeFillet fillet(sharp);
   for (int e = 1; e <= edges.Extent(); ++e) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(e));
@@ -101,8 +100,7 @@ CadShape make_bracket() {
   for (const double at : kHolesAt)
     for (const double side : {kHoleFromSide, kWidth - kHoleFromSide})
       solid = BRepAlgoAPI_Cut(solid, cylinder({at, side, -1}, z, kHoleRadius, kThickness + 2));
-  CadShape cad;
-  cad.shape = solid;
+  CadShape cad{solid};
   for (TopExp_Explorer face(solid, TopAbs_FACE); face.More(); face.Next())
     cad.names.add(face.Current(), role_of(TopoDS::Face(face.Current())));
   return cad;

@@ -33,9 +33,7 @@ CadShape make_loft() {
   loft.AddWire(ellipse(25, 14, 10, {0.8, 0.6, 0}));
   loft.AddWire(ellipse(50, 18, 8, {0.28, 0.96, 0}));
   loft.AddWire(ellipse(80, 11, 10, {0, 1, 0}));
-  CadShape cad;
-  cad.shape = loft.Shape();
-  return cad;
+  return {loft.Shape()};
 }
 
 CadShape make_free_form() {
@@ -56,9 +54,7 @@ CadShape make_free_form() {
   for (const auto& [x, y, r] :
        {std::array{30.0, 30.0, 11.0}, {68.0, 25.0, 6.0}, {60.0, 70.0, 14.0}, {100.0, 100.0, 25.0}})
     drill(x, y, r);
-  CadShape cad;
-  cad.shape = face;
-  return cad;
+  return {face};
 }
 
 }  // namespace delquad::cad

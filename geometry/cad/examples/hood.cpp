@@ -87,9 +87,7 @@ CadShape make_hood() {
   BRepBuilderAPI_Sewing shell;
   for (TopExp_Explorer face(join.Shape(), TopAbs_FACE); face.More(); face.Next()) shell.Add(face.Current());
   shell.Perform();
-  CadShape cad;
-  cad.shape = shell.SewedShape();
-  return cad;
+  return {shell.SewedShape()};
 }
 
 }  // namespace delquad::cad

@@ -11,6 +11,7 @@
 #include <GC_MakeArcOfCircle.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Shell.hxx>
 #include <cmath>
 #include <gp_Circ.hxx>
 
@@ -35,7 +36,8 @@ TopoDS_Wire elbow_spine(double before, double bend, double after) {
       .Wire();
 }
 
-/// A main cylinder along x and a branch along z.
+/// A main cylinder along x and a branch along z. The third direction puts each one's seam away from the curve
+/// where they meet.
 TopoDS_Shape cross_of(double length, double radius, double height, double branch_radius) {
   const gp_Ax2 along({-length / 2, 0, 0}, {1, 0, 0}, {0, 0, -1}), up({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
   return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(along, radius, length),
@@ -55,21 +57,34 @@ TopoDS_Shape rounded_crossing(const TopoDS_Shape& sharp, double radius) {
 
 }  // namespace
 
+CadShape make_pipe_tee() {
+  constexpr double kRadius = 20, kBranchRadius = 15;
+  const TopoDS_Shape solid = cross_of(120, kRadius, 60, kBranchRadius);
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  CadShape cad;
+  for (TopExp_Explorer face(solid, TopAbs_FACE); face.More(); face.Next()) {
+    const BRepAdaptor_Surface surface(TopoDS::Face(face.Current()));
+    if (surface.GetType() != GeomAbs_Cylinder) continue;  // the lid of an end
+    builder.Add(shell, face.Current());
+    cad.names.add(face.Current(), surface.Cylinder().Radius() < kRadius ? "branch" : "pipe");
+  }
+  cad.shape = shell;
+  return cad;
+}
+
 CadShape make_elbow() {
   constexpr double kOuter = 10, kInner = 7;
   const gp_Ax2 place({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
   BRepBuilderAPI_MakeFace ring(circle(place, kOuter));
   ring.Add(TopoDS::Wire(circle(place, kInner).Reversed()));
-  CadShape cad;
-  cad.shape = BRepOffsetAPI_MakePipe(elbow_spine(30, 25, 20), ring.Face()).Shape();
-  return cad;
+  return {BRepOffsetAPI_MakePipe(elbow_spine(30, 25, 20), ring.Face()).Shape()};
 }
 
 CadShape make_blended_tee() {
   const TopoDS_Shape outside = rounded_crossing(cross_of(120, 20, 60, 14), 6);
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Cut(outside, cross_of(122, 16, 61, 10));
-  return cad;
+  return {BRepAlgoAPI_Cut(outside, cross_of(122, 16, 61, 10))};
 }
 
 }  // namespace delquad::cad

@@ -78,8 +78,7 @@ CadShape make_wing_body() {
   const TopoDS_Shape left = BRepAlgoAPI_Fuse(half_fuselage(), wing());
   gp_Trsf mirror;
   mirror.SetMirror(gp_Ax2({0, 0, 0}, {0, 1, 0}));
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Fuse(left, BRepBuilderAPI_Transform(left, mirror, /*Copy=*/true).Shape());
+  CadShape cad{BRepAlgoAPI_Fuse(left, BRepBuilderAPI_Transform(left, mirror, /*Copy=*/true).Shape())};
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
     cad.names.add(face.Current(), part_of(TopoDS::Face(face.Current())));
   return cad;

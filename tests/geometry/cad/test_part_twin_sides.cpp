@@ -5,7 +5,7 @@
 #include <gp_Ax2.hxx>
 
 #include "geometry/cad/cad_reader.h"
-#include "geometry/cad/part_twin_sides.h"
+#include "geometry/cad/weld_faces.h"
 #include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/surface_counts.h"

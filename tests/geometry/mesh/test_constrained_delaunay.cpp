@@ -6,6 +6,7 @@
 #include <random>
 
 #include "delquad/error.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

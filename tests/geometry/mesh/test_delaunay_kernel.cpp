@@ -7,6 +7,7 @@
 
 #include "base/predicates.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "geometry/mesh/constrained_delaunay.h"
+#include "tests/support/patch_invariants.h"
 #include "tests/support/shapes.h"
 
 namespace delquad {

@@ -108,29 +108,6 @@ TEST(LineDomain, OrderOfPointsDoesNotMatterEither) {
   for (std::size_t k = 0; k < a.patches.size(); ++k) EXPECT_EQ(a.patches[k].points, b.patches[k].points);
 }
 
-TEST(LineDomain, NamedLoopsAreFilled) {
-  // Nodes 4 and 8 lie on the second and third square.
-  const PlanarDomain filled = make_domain(nested_squares(), {"", {{4, "steel"}, {8, "core"}, {0, "plate"}}});
-  ASSERT_EQ(filled.patches.size(), 4u);
-  const std::vector<std::vector<std::string>> names{{"plate"}, {"steel"}, {"core"}, {"domain"}};
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(filled.boundary.regions[i].names, names[i]);
-  EXPECT_DOUBLE_EQ(area(filled.patches[1]), 64 - 36);
-  EXPECT_DOUBLE_EQ(area(filled.patches[2]), 36);
-  // Inside a filled loop a loop is a hole again.
-  const PlanarDomain ring = make_domain(nested_squares(), {"", {{4, "steel"}}});
-  ASSERT_EQ(ring.patches.size(), 3u);
-  EXPECT_DOUBLE_EQ(area(ring.patches[1]), 64 - 36);
-}
-
-TEST(LineDomain, InclusionsShareTheirNodes) {
-  const PlanarDomain domain = make_domain(nested_squares(), {"", {{4, "steel"}}});
-  std::vector<int> outer = domain.patches[0].point_node, inner = domain.patches[1].point_node, shared;
-  std::ranges::sort(outer);
-  std::ranges::sort(inner);
-  std::ranges::set_intersection(outer, inner, std::back_inserter(shared));
-  EXPECT_EQ(shared, (std::vector<int>{4, 5, 6, 7}));
-}
-
 TEST(LineDomain, KeepsNodesAndDropsThoseWithoutLines) {
   Mesh mesh = polygon_lines({square(0, 0, 1)});
   mesh.points.insert(mesh.points.begin() + 1, {std::numeric_limits<double>::quiet_NaN(), 0, 0});
@@ -158,8 +135,8 @@ TEST(LineDomain, NestsTightNeighboursExactly) {
 }
 
 void expect_rejected(const Mesh& mesh, std::initializer_list<const char*> parts) {
-  expect_input_error([&] { make_domain(mesh, {"plate.msh", {}}); }, {"plate.msh: "});
-  expect_input_error([&] { make_domain(mesh, {"plate.msh", {}}); }, parts);
+  expect_input_error([&] { make_domain(mesh, "plate.msh"); }, {"plate.msh: "});
+  expect_input_error([&] { make_domain(mesh, "plate.msh"); }, parts);
 }
 
 TEST(LineDomain, RejectsMeetingLines) {
@@ -219,14 +196,6 @@ TEST(LineDomain, RejectsDegenerateLinesAndNodes) {
   expect_rejected(broken, {"line 4", "-1"});
   broken.line_curve.pop_back();
   expect_rejected(broken, {"4 lines have 3 curves"});
-}
-
-TEST(LineDomain, RejectsRegionsThatContradict) {
-  const auto with = [](std::vector<std::pair<int, std::string>> regions) {
-    return [regions] { make_domain(nested_squares(), {"", regions}); };
-  };
-  expect_input_error(with({{4, "steel"}, {5, "brass"}}), {"'steel'", "'brass'"});
-  expect_input_error(with({{77, "steel"}}), {"'steel'", "77"});
 }
 
 TEST(LineDomain, ChainsAHundredThousandEdgesQuickly) {

@@ -180,7 +180,7 @@ TEST(TidyModel, BodiesThatTouchWhereNoCurveIsArePartedThere) {
                                       {{{0, 4}}, 8},
                                       {{{0, 1}, {0, 4}}, 7}}) {
     SurfaceModel model = touching_tetrahedra(lines);
-    tidy_model(model);
+    tidy_model(model, Mesh(model.fine));
     EXPECT_EQ(model.fine.points.size(), points);
     EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   }

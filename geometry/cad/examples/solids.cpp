@@ -9,6 +9,7 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -28,8 +29,8 @@ TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, do
 
 /// The straight edges along a direction.
 TopTools_IndexedMapOfShape edges_along(const TopoDS_Shape& shape, const gp_Dir& direction) {
-  TopTools_IndexedMapOfShape edges, found;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = parts(shape, TopAbs_EDGE);
+  TopTools_IndexedMapOfShape found;
   for (int e = 1; e <= edges.Extent(); ++e) {
     const BRepAdaptor_Curve curve(TopoDS::Edge(edges(e)));
     if (curve.GetType() == GeomAbs_Line && curve.Line().Direction().IsParallel(direction, 1e-6))
@@ -40,14 +41,16 @@ TopTools_IndexedMapOfShape edges_along(const TopoDS_Shape& shape, const gp_Dir& 
 
 }  // namespace
 
+CadShape make_sphere() { return {BRepPrimAPI_MakeSphere(10)}; }
+
+CadShape make_torus() { return {BRepPrimAPI_MakeTorus(20, 8)}; }
+
 CadShape make_variable_fillet() {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(80, 50, 30).Shape();
   BRepFilletAPI_MakeFillet fillet(box);
   const TopTools_IndexedMapOfShape along = edges_along(box, {1, 0, 0});
   for (int e = 1; e <= along.Extent(); ++e) fillet.Add(2, 3.0 * e, TopoDS::Edge(along(e)));
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Cut(fillet.Shape(), cylinder({40, 25, -1}, {0, 0, 1}, 8, 32));
-  return cad;
+  return {BRepAlgoAPI_Cut(fillet.Shape(), cylinder({40, 25, -1}, {0, 0, 1}, 8, 32))};
 }
 
 CadShape make_sheet() {
@@ -67,9 +70,7 @@ CadShape make_sheet() {
   for (const double x : {60.0, 70.2}) cut(cylinder({x, 30, -1}, {0, 0, 1}, 5, 2));
   cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, kWidth - 0.3, -1), 46, 1, 2));
   cut(cylinder({85, 12, -1}, {0, 0, 1}, 0.2, 2));
-  CadShape cad;
-  cad.shape = sheet;
-  return cad;
+  return {sheet};
 }
 
 CadShape make_thin_box() {
@@ -82,17 +83,13 @@ CadShape make_thin_box() {
   for (const double x : {kWall, 40 + kWall / 2})
     for (const double y : {kWall, 30 + kWall / 2}) box = BRepAlgoAPI_Cut(box, room(x, y));
   for (const double x : {20.0, 60.0}) box = BRepAlgoAPI_Cut(box, cylinder({x, -1, 15}, {0, 1, 0}, 6, 62));
-  CadShape cad;
-  cad.shape = box;
-  return cad;
+  return {box};
 }
 
 CadShape make_cone_tip() {
   const TopoDS_Shape cone = BRepPrimAPI_MakeCone(gp_Ax2({0, 0, 30}, {0, 0, 1}), 20, 0, 50).Shape();
   const TopoDS_Shape body = BRepAlgoAPI_Fuse(cone, cylinder({0, 0, 0}, {0, 0, 1}, 12, 35));
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Cut(body, cylinder({-40, 0, 12}, {1, 0, 0}, 5, 80));
-  return cad;
+  return {BRepAlgoAPI_Cut(body, cylinder({-40, 0, 12}, {1, 0, 0}, 5, 80))};
 }
 
 CadShape make_cross_drilled() {
@@ -100,9 +97,7 @@ CadShape make_cross_drilled() {
   block = BRepAlgoAPI_Cut(block, cylinder({-1, 25, 20}, {1, 0, 0}, 9, 62));
   block = BRepAlgoAPI_Cut(block, cylinder({22, -1, 23}, {0, 1, 0}, 6, 52));
   block = BRepAlgoAPI_Cut(block, cylinder({45, 25, 15}, {0, 0.6, 0.8}, 4, 60));
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Cut(block, BRepPrimAPI_MakeSphere(gp_Pnt(60, 50, 40), 15).Shape());
-  return cad;
+  return {BRepAlgoAPI_Cut(block, BRepPrimAPI_MakeSphere(gp_Pnt(60, 50, 40), 15).Shape())};
 }
 
 CadShape make_fins() {
@@ -115,9 +110,7 @@ CadShape make_fins() {
     const gp_Ax2 fin(corner, place.Direction(), place.XDirection());
     body = BRepAlgoAPI_Fuse(body, BRepPrimAPI_MakeBox(fin, 26, 1.2, 34).Shape());
   }
-  CadShape cad;
-  cad.shape = BRepAlgoAPI_Cut(body, cylinder({0, 0, -1}, {0, 0, 1}, 6, 52));
-  return cad;
+  return {BRepAlgoAPI_Cut(body, cylinder({0, 0, -1}, {0, 0, 1}, 6, 52))};
 }
 
 }  // namespace delquad::cad
