@@ -31,9 +31,6 @@ constexpr int kSettlingSweeps = 3;
 constexpr double kSettled = 0.08, kSettledAtLast = 0.02;
 /// How much of the mean quality around an edit that lowers the valence sum may cost.
 constexpr double kGreedyLoss = 0.02;
-/// And an edit by which fewer quads fail, and what it may add to the valence sum.
-constexpr double kMendingLoss = 0.1;
-constexpr int kMendingPrice = 4;
 /// An edit is given up where a sweep leaves it so much farther away than it may be.
 constexpr double kHopeless = 0.05;
 
@@ -64,7 +61,6 @@ class CleanupProcess {
       if (block_.is_near(v)) list_irregular(v);
     for (int left = options_.rounds - 1; left >= 0 && !work_.empty() && !is_spent(); --left)
       anneal(options_.tolerance * left / options_.rounds);
-    mend_failing();
     summary_.stopped = is_spent();
     relocation_.activate_all(block_);
     summary_.relocated += relocation_.relax(kSettledAtLast, 30);
@@ -142,36 +138,6 @@ class CleanupProcess {
     }
   }
 
-  /// Edits by which fewer quads fail around those that do.
-  void mend_failing() {
-    std::vector<TreatmentMove> edits;
-    for (int e = 0; e < mesh_.element_slots(); ++e) {
-      check_cancelled();
-      if (is_spent()) return;
-      if (!mesh_.alive(e) || !block_.is_near(mesh_.corner(e, 0)) ||
-          element_quality(mesh_, relocation_, e).failing == 0)
-        continue;
-      edits.clear();
-      for (int k = 0; k < 4; ++k) {
-        const int v = mesh_.corner(e, k);
-        if (v < 0) continue;
-        for_each_edit_near(v, [&](const TreatmentMove& edit) {
-          if (energy_.gain(edit) >= -kMendingPrice && is_legal(mesh_, edit) &&
-              std::ranges::find(edits, edit) == edits.end())
-            edits.push_back(edit);
-        });
-      }
-      std::ranges::stable_sort(edits, std::ranges::greater{},
-                               [&](const TreatmentMove& edit) { return energy_.gain(edit); });
-      const auto mends = std::ranges::find_if(
-          edits, [&](const TreatmentMove& edit) { return attempt(edit, kMendingLoss, 1); });
-      if (mends == edits.end()) continue;
-      ++summary_.mended;
-      accept();
-      drain();
-    }
-  }
-
   bool pick_neutral(int v, TreatmentMove& move) {
     last_failed_.resize(mesh_.vertex_slots(), -1);
     choices_.clear();
@@ -183,9 +149,8 @@ class CleanupProcess {
     return true;
   }
 
-  /// Applies the move and relocates around; takes all back if the quality falls by more than `loss`, or not
-  /// `fewer` quads fail.
-  bool attempt(const TreatmentMove& move, double loss, int fewer = 0) {
+  /// Applies the move and relocates around; takes all back if the quality falls by more than `loss`.
+  bool attempt(const TreatmentMove& move, double loss) {
     const TouchedVertices touched = touched_by(mesh_, move);
     touched_.assign(touched.begin(), touched.end());
     const ElementQuality before = quality(touched_);
@@ -195,8 +160,8 @@ class CleanupProcess {
     for (int sweep = 0; sweep < kTrialSweeps; ++sweep) {
       for (const int v : touched_) relocation_.step(v);
       const ElementQuality after = quality(touched_);
-      if (after.least_sine >= least && after.crowding <= before.crowding &&
-          after.failing <= before.failing - fewer && after.value >= before.value - loss) {
+      if (after.least_sine >= least && after.crowding <= before.crowding && after.failing <= before.failing &&
+          after.value >= before.value - loss) {
         count(move);
         return true;
       }

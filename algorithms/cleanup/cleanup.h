@@ -30,7 +30,6 @@ struct CleanupSummary {
   int openings = 0;
   long long tried = 0;      ///< neutral moves tried while annealing
   int annealed = 0;         ///< of these, accepted
-  int mended = 0;           ///< edits by which fewer quads fail
   long long relocated = 0;  ///< moves of vertices
   long long looks = 0;      ///< QuadRelocation::looks(): at most linear in the number of elements
   int stopped = 0;          ///< 1: before all edits were tried, after as many looks as the patch may take
@@ -45,9 +44,8 @@ struct Counters<CleanupSummary> {
       counter("irregular_before", &S::irregular_before), counter("irregular_after", &S::irregular_after),
       counter("rotations", &S::rotations), counter("diamonds", &S::diamonds),
       counter("doublets", &S::doublets), counter("splits", &S::splits), counter("openings", &S::openings),
-      counter("tried", &S::tried), counter("annealed", &S::annealed), counter("mended", &S::mended),
-      counter("relocated", &S::relocated), counter("looks", &S::looks), counter("stopped", &S::stopped),
-      counter("seconds", &S::seconds));
+      counter("tried", &S::tried), counter("annealed", &S::annealed), counter("relocated", &S::relocated),
+      counter("looks", &S::looks), counter("stopped", &S::stopped), counter("seconds", &S::seconds));
 };
 
 /// Vertices whose valence is not ideal, see ValenceEnergy.
@@ -62,17 +60,16 @@ int count_irregular(const QuadPatch& mesh);
 /// that is left, a random edit that leaves the sum as it is, so that pairs of valences 3 and 5 travel until
 /// they meet others, is kept while the quality around loses less than a tolerance that decays to 0; greedy
 /// edits follow wherever they can. What has failed is not tried again before an edit changes what lies
-/// around. In the end edits near quads that fail, see ElementQuality, are kept where fewer fail by them,
-/// though the sum may grow. Quality is the mean over quads of eta - 1.5 * (size deviation), after local
-/// relocation; the size deviation of a quad is the mean over its sides of 1 - min(l, 1/l), l = length /
+/// around. Quality is the mean over quads of eta - 1.5 * (size deviation), after
+/// local relocation; the size deviation of a quad is the mean over its sides of 1 - min(l, 1/l), l = length /
 /// delta'.
 ///
-/// The sum grows only where fewer quads fail, and the least eta of the mesh never falls below both
-/// kCleanupFloorEta and what it was. No edit makes more quads fail, see ElementQuality. Boundary points stay
-/// where they are, in their order; the mesh stays conforming, oriented and of the same topology type;
-/// leftover triangles stay. Edges without length are opened first. The same input and seed give the same
-/// mesh. Time is linear in the number of irregular vertices: after the first scan only they are visited.
-/// Throws std::invalid_argument where the input is not conforming.
+/// The sum never grows, and the least eta of the mesh never falls below both kCleanupFloorEta and what it
+/// was. No edit makes more quads fail, see ElementQuality. Boundary points stay where they are, in their
+/// order; the mesh stays conforming, oriented and of the same topology type; leftover triangles stay. Edges
+/// without length are opened first. The same input and seed give the same mesh. Time is linear in the number
+/// of irregular vertices: after the first scan only they are visited. Throws std::invalid_argument where the
+/// input is not conforming.
 QuadPatch clean_up(const QuadPatch& mesh, const ParametricSize& size, const CleanupOptions& options = {},
                    CleanupSummary* summary = nullptr);
 

@@ -13,7 +13,6 @@
 #include "algorithms/treatment/treatment.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "delquad/extend.h"
-#include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/quad_patch_checks.h"
@@ -34,15 +33,6 @@ int valence_energy(const QuadPatch& mesh) {
   return sum;
 }
 
-int count_failing(const QuadPatch& mesh, const ParametricSize& size) {
-  QuadTopology topology(mesh);
-  const QuadRelocation relocation(topology, size);
-  int failing = 0;
-  for (int e = 0; e < topology.element_slots(); ++e)
-    if (topology.alive(e)) failing += element_quality(topology, relocation, e).failing;
-  return failing;
-}
-
 /// Boundary vertices whose only quad has an angle of about 160 degrees or more.
 int forced_bad(const QuadPatch& mesh) {
   const QuadTopology topology(mesh);
@@ -61,9 +51,7 @@ QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const Pa
   EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
             own.splits + 2 * own.openings - own.diamonds - own.doublets);
-  if (count_failing(result, size) >= count_failing(mesh, size)) {
-    EXPECT_LE(valence_energy(result), valence_energy(mesh));
-  }
+  EXPECT_LE(valence_energy(result), valence_energy(mesh));
   EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
   if (summary != nullptr) *summary = own;
   return result;
@@ -206,22 +194,18 @@ TEST(Cleanup, AnnealingFindsWhatGreedyCannot) {
 TEST(Cleanup, RandomPolygonsWithHoles) {
   const FunctionSize size(0.06);
   const FunctionCross cross(0.3);
-  int mended = 0;
   for (int seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
     const QuadPatch mesh = treated(boundary, *placement, cross, size);
-    CleanupSummary summary;
-    const QuadPatch result = cleaned(mesh, boundary, size, {}, &summary);
-    mended += summary.mended;
+    const QuadPatch result = cleaned(mesh, boundary, size);
     EXPECT_GT(worst_sine(result), 0);
     EXPECT_EQ(forced_bad(result), 0);
     const QuadPatch again = clean_up(mesh, size);
     EXPECT_EQ(again.points, result.points);
     EXPECT_EQ(again.quads, result.quads);
   }
-  EXPECT_GT(mended, 0);
 }
 
 TEST(Cleanup, WorksOnWhatMatchingLeaves) {
