@@ -151,8 +151,8 @@ void print_after(const std::string& file, const MeshResult& result, double secon
   if (result.criteria) print_criteria(*result.criteria, result.mesh);
 }
 
-/// Moves elements that fail to regions of their own, which have the names of theirs, "failing" and, by
-/// criterion, "failing_min_length".
+/// Moves elements that fail to regions of their own, which have the tag and names of theirs, "failing" and,
+/// by criterion, "failing_min_length".
 void name_failing(const CriteriaReport& report, Mesh& mesh) {
   if (!mesh.periodic_faces.empty())
     throw InputError("--failing-sets does not go with periodic faces, whose elements stay together");
@@ -163,8 +163,6 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
   std::vector<std::set<std::string>> sets(mesh.triangles.size() + mesh.quads.size());
   for (const CriterionResult& result : report.results)
     for (const int element : result.failing) sets[element].insert("failing_" + result.limit.key);
-  int tag = 0;
-  for (const Entity& region : mesh.regions) tag = std::max(tag, region.tag);
   std::map<std::pair<int, std::set<std::string>>, int> made;
   for (std::size_t e = 0; e < sets.size(); ++e) {
     if (sets[e].empty()) continue;
@@ -172,11 +170,7 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
     int& region = e < n ? mesh.triangle_region[e] : mesh.quad_region[e - n];
     const auto [at, is_new] = made.try_emplace({region, sets[e]}, static_cast<int>(mesh.regions.size()));
     if (is_new) {
-      // A set without a name is written by its tag, of which there are two now.
-      if (mesh.regions[region].names.empty())
-        mesh.regions[region].names.push_back(tag_label(2, mesh.regions[region].tag));
       Entity part = mesh.regions[region];
-      part.tag = ++tag;
       part.names.emplace_back("failing");
       part.names.insert(part.names.end(), sets[e].begin(), sets[e].end());
       mesh.regions.push_back(std::move(part));

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <string>
+
 #include "io/mesh_io.h"
 #include "tests/program/program.h"
 
@@ -8,6 +13,19 @@ namespace {
 
 /// With a corner of 25 degrees.
 const std::string kWedge = "[[loop]]\npolygon = [[0, 0], [6, 0], [6, 2.8]]\nregion = \"plate\"\n";
+
+/// The numbers of an element set.
+std::set<int> set_of(const std::string& inp, const std::string& name) {
+  const std::string head = "*ELSET, ELSET=" + name + "\n";
+  std::set<int> numbers;
+  const auto from = inp.find(head);
+  if (from == std::string::npos) return numbers;
+  std::string text = inp.substr(from + head.size(), inp.find('*', from + head.size()) - from - head.size());
+  std::ranges::replace(text, ',', ' ');
+  std::istringstream in(text);
+  for (int n = 0; in >> n;) numbers.insert(n);
+  return numbers;
+}
 
 TEST(Criteria, GiveATableAndSets) {
   const TemporaryFolder folder;
@@ -30,6 +48,9 @@ TEST(Criteria, GiveATableAndSets) {
   for (const char* set :
        {"*ELSET, ELSET=failing\n", "*ELSET, ELSET=failing_min_angle\n", "*ELSET, ELSET=plate\n"})
     EXPECT_TRUE(contains(inp, set)) << set;
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "plain.inp", "--size", "0.4"}).exit_code, 0);
+  EXPECT_EQ(set_of(inp, "region_1"), set_of(read_text(folder / "plain.inp"), "region_1"));
+  EXPECT_GT(set_of(inp, "region_1").size(), set_of(inp, "failing").size());
   const ProgramResult other = delquad(
       {"mesh", model, "-o", folder / "sets.msh", "--size", "0.4", "--criteria", "batch", "--failing-sets"});
   EXPECT_EQ(other.exit_code, 2);
