@@ -14,10 +14,10 @@ namespace delquad {
 ///
 /// The text is that of packed_text(), of numbers of 7 bits a byte, lowest first, in this order: vertices of
 /// triangles, of quads (each as its distance below the next new one; 0: that one, which is then used up), eta
-/// of quads in 128ths (128: it fails), ends of lines (the same way), irregular vertices (number and valence), pairs of them
-/// (two numbers each), steps from vertex to vertex in each direction, in units of `unit`, signs in the lowest
-/// bit. A curved quad is the polygon of the nodes on its sides, `order` for each side, and a curved line as
-/// many pieces.
+/// of quads in 128ths (128: it fails), ends of lines (the same way), irregular vertices (number and valence),
+/// pairs of them (two numbers each), steps from vertex to vertex in each direction, in units of `unit`, signs
+/// in the lowest bit. A curved quad is the polygon of the nodes on its sides, `order` for each side, and a
+/// curved line as many pieces.
 struct PackedMesh {
   std::size_t points = 0, triangles = 0, quads = 0, lines = 0, irregular = 0, pairs = 0;
   int dimension = 2, order = 1;
