@@ -195,7 +195,7 @@ std::string Soundness::text() const { return fmt::format("{}", fmt::join(reasons
 std::string Soundness::complaint() const {
   std::string text = sound() ? "" : "the mesh is not sound: " + this->text();
   if (!beyond.empty())
-    text += fmt::format("{}it is beyond its limits: {}", text.empty() ? "" : "; ", fmt::join(beyond, "; "));
+    text += fmt::format("{}it is beyond the limits: {}", text.empty() ? "" : "; ", fmt::join(beyond, "; "));
   return text;
 }
 
