@@ -277,7 +277,8 @@ struct Soundness {
   std::vector<std::string> reasons;
   /// All that are known of these places, the first hundred for each reason.
   std::vector<Place> places = {};
-  /// One for each limit of single elements that was asked for (options "limits") and is not kept, alike.
+  /// One for each limit of single elements that was asked for (options "limits") and is not kept, and the
+  /// price at which given quads would be sound where that makes others poor, alike.
   std::vector<std::string> beyond = {};
   bool sound() const { return reasons.empty(); }
   /// Sound, and within these limits.
