@@ -108,7 +108,7 @@ bool keep_better(Finishing& on) {
   if (best) take_mesh(std::move(*best), result);
   if (!result.soundness.sound()) return best.has_value();
   std::string price = text_of_price(on.prepared, result, before);
-  if (makes_poor_quads(result, before) && !repair_options(on.prepared.settings.options).at_any_price)
+  if (costs_too_much(result, before) && !repair_options(on.prepared.settings.options).at_any_price)
     result.soundness.beyond.push_back(price + "; --set repair.at_any_price=true takes it");
   else
     result.warnings.push_back(fmt::format("{}: {}", on.label, price));
@@ -309,6 +309,11 @@ const OptionTable<RepairOptions>& repair_table() {
           .add({.name = "refine_unsound",
                 .help = "whether sizes are made smaller where the mesh would not be sound"},
                &RepairOptions::refine_unsound)
+          .add(
+              {.name = "ignore_small",
+               .help = "of surfaces: whether what is narrower than a tenth of the size is left out where the "
+                       "mesh would not be sound, as by ignore_below"},
+              &RepairOptions::ignore_small)
           .add({.name = "keep_given", .help = "whether given quads stay where they would become worse"},
                &RepairOptions::keep_given)
           .add({.name = "at_any_price",

@@ -63,7 +63,14 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
   if (result.soundness.sound()) return;
   const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
   PreparedProblem best = prepared.inside();
-  refine_unsound([&](const Refinement& r) { return prepare_problem(*problem, r); }, word, best, result);
+  const auto anew = [&](const Refinement& r) {
+    if (r.ignore_below == 0) return prepare_problem(*problem, r);
+    MeshProblem other = *problem;
+    other.surface.ignore_below = r.ignore_below;
+    other.options.set("curves.keep_named", true);
+    return prepare_problem(other, r);
+  };
+  refine_unsound(anew, word, best, result);
   prepared = {problem, std::make_shared<const PreparedProblem>(std::move(best))};
 }
 

@@ -19,6 +19,7 @@ struct Refinement {
   /// In the spots: of triangulations, see TriangulatedOptions::kept_features, and what is small, see
   /// NarrowOptions::kept.
   bool keep_features = false;
+  double ignore_below = 0;  ///< of surfaces, in place of that of the problem, names stay; 0: as that has it
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -27,10 +28,13 @@ constexpr int kFirstWithFeatures = 4;
 constexpr double kPart = 0.5, kReach = 3;
 /// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
 /// about as long, and with the steps that its curves took: at least so many, some 30 seconds; of large meshes
-/// so many times those of the first.
+/// so many times those of the first; a third more for meshes without what is small.
 constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
+
+/// What is narrower than this part of the size has no room for an edge, and is left out at last.
+constexpr double kSmall = 0.1;
 
 /// Places within so many sizes of a face that is an image count where its mesh comes from, too.
 constexpr double kBeside = 3;
@@ -99,7 +103,7 @@ Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
-void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads, PreparedProblem& prepared,
                 MeshResult& result) {
   // Lines that were given are kept.
   const bool can_be_finer =
@@ -110,8 +114,6 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
   Refinement refinement = as_read(prepared);
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
-  Budget quads(std::max(kLeastQuads, kMostTimes * quads_of(prepared, result)));
-  quads.spend(quads_of(prepared, result));
   const MeshWorth before = worth_of(result);
   bool is_other = false;
   StageLog lost;  // the times of all meshes but the best
@@ -160,6 +162,40 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, PreparedProbl
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 
+/// Meshes without what is small beside the size, where that makes the mesh sound.
+void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& quads,
+                     PreparedProblem& prepared, MeshResult& result) {
+  const RepairOptions options = repair_options(prepared.settings.options);
+  if (!options.refine_unsound || !options.ignore_small || !prepared.surface || prepared.surface->given ||
+      prepared.surface->ignores_small || result.soundness.places.empty())
+    return;
+  double least = std::numeric_limits<double>::infinity();
+  int hint = -1;
+  for (const Place& place : result.soundness.places)
+    least = std::min(least, asked_size(prepared).at(place.at, hint));
+  const auto anew = [&](Refinement refinement) {
+    refinement.ignore_below = kSmall * least;
+    return prepare_anew(refinement);
+  };
+  try {
+    PreparedProblem other = anew(as_read(prepared));
+    MeshResult run = run_word(other, word);
+    quads.spend(quads_of(other, run));
+    make_finer(anew, word, quads, other, run);
+    if (!run.soundness.sound()) return;
+    run.warnings.emplace_back(fmt::format(
+        "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be sound: "
+        "{}; --set repair.ignore_small=false keeps it",
+        prepared.settings.name, kSmall * least, result.soundness.text()));
+    run.seconds += result.seconds;
+    note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
+    std::swap(prepared, other);
+    std::swap(result, run);
+  } catch (const InputError&) {
+    // Nothing is left, or it cannot be meshed: what there was stays.
+  }
+}
+
 /// Meshes without the faces where the mesh is not sound, while that leaves some.
 void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
@@ -194,7 +230,11 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
 
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result) {
-  make_finer(prepare_anew, word, prepared, result);
+  const long long most = std::max(kLeastQuads, kMostTimes * quads_of(prepared, result));
+  Budget finer(most), without_small(most / 3);
+  finer.spend(quads_of(prepared, result));
+  make_finer(prepare_anew, word, finer, prepared, result);
+  if (!result.soundness.sound()) leave_out_small(prepare_anew, word, without_small, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 

@@ -71,10 +71,10 @@ Harm harm_of(const MeshResult& after, const MeshResult& before) {
           times_worse(number, 1 + kOtherNumber) + times_worse(1 - kOtherNumber, number)};
 }
 
-bool makes_poor_quads(const MeshResult& after, const MeshResult& before) {
+bool costs_too_much(const MeshResult& after, const MeshResult& before) {
   const Harm harm = harm_of(after, before);
   const auto& values = after.metrics.values;
-  return (harm.eta > 0 && values.at("eta_worst") < kBadEta) ||
+  return harm.number > 0 || (harm.eta > 0 && values.at("eta_worst") < kBadEta) ||
          (harm.side > 0 && values.at("edge_min") < kPoorEdge) ||
          (harm.aspect > 0 && values.at("aspect_max") > kPoorAspect);
 }

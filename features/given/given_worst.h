@@ -26,8 +26,8 @@ struct Harm {
 };
 Harm harm_of(const MeshResult& after, const MeshResult& before);
 
-/// Whether what is worse is that of a poor quad, see poor_quads.h.
-bool makes_poor_quads(const MeshResult& after, const MeshResult& before);
+/// Whether what is worse is that of a poor quad, see poor_quads.h, or the number of quads.
+bool costs_too_much(const MeshResult& after, const MeshResult& before);
 
 /// What it costs that quads are sound now, and where.
 std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);

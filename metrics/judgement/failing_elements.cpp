@@ -22,8 +22,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSharpAngle = kBadEta * std::numbers::pi / 2;
-/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge.
-constexpr double kPartOfBound = 0.9;
+/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge; below
+/// the angle (radians) any.
+constexpr double kPartOfBound = 0.9, kCusp = kDegree;
 /// Edges on curves, and places between curves, below this part of the size leave no room for good quads.
 constexpr double kFine = 0.25;
 constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -157,7 +158,7 @@ class CauseFinder {
     const double sharp = std::max({kSharpAngle, limit_beyond(failing, kMinAngle) * kDegree,
                                    limit_beyond(failing, kMinEta) * std::numbers::pi / 2});
     const auto in_corner = [&](double angle, double bound, std::array<int, 2> curves) {
-      if (eta < kPartOfBound * bound) return false;
+      if (eta < kPartOfBound * bound && angle > kCusp) return false;
       failing.cause = kAtCorner, failing.what = angle, failing.curves = curves;
       return true;
     };

@@ -92,6 +92,16 @@ void warn_of_single_precision(const std::string& label, const Mesh& mesh, const 
                   describe(mesh, spoilt, "1 quad is inverted or flat", "quads are inverted or flat"), help));
 }
 
+/// Says what of the model stands in the way of quads that are inverted or flat.
+void explain_flat_quads(const JudgedMesh& judged, Soundness& soundness) {
+  static const Criteria flat{.limits = {{.key = "min_jacobian", .value = kLeastJacobian}}};
+  FailingElements failing(judged, flat, false);
+  failing.explain();
+  for (const FailingCause cause : {kAtCorner, kAtFineCurve, kAtGap})
+    if (const std::string why = failing.text_of(cause, true); !why.empty())
+      soundness.reasons.back() += fmt::format("; {}", why);
+}
+
 void hold_to(const FailingElements& failing, std::vector<std::string>& beyond) {
   for (std::size_t k = 0; k < failing.tallies.size(); ++k)
     if (std::string text = failing.text_of(k); !text.empty()) beyond.push_back(std::move(text));
@@ -225,6 +235,7 @@ BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, 
     for (const FailingElement& quad : poor.elements)
       if ((quad.beyond >> kPoorByEta & 1) != 0) ++(quad.cause == kAtCorner ? bad.in_corners : bad.elsewhere);
     warn_of_poor_quads(label, poor, judged, warnings);
+    if (!soundness.reasons.empty()) explain_flat_quads(judged, soundness);
   }
   warn_of_single_precision(label, mesh, sides, warnings);
   const Criteria limits = option_criteria(prepared.settings.options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "delquad/error.h"
@@ -79,6 +80,56 @@ TEST(RefineUnsound, KeepGoingLeavesOutWhatIsNotSound) {
   EXPECT_NE(result.failures[0].reason.find("is not sound"), std::string::npos) << result.failures[0].reason;
   EXPECT_TRUE(result.soundness.sound());
   EXPECT_EQ(result.mesh.quads.size(), 16u) << "of the flat sheet alone";
+}
+
+/// A slab of height 1 whose outline has a corner of that angle (radians), 5 long.
+MeshProblem needle(double angle) {
+  TriangleModel slab;
+  slab.source = "needle";
+  constexpr int n = 8;
+  const auto side = [&](double x) { return x <= 5 ? x * angle : 5 * angle + 0.6 * (x - 5); };
+  Mesh& mesh = slab.mesh;
+  for (int i = 0; i <= n; ++i) {
+    const double x = 10.0 * i / n;
+    for (const Vec3& p : {Vec3{x, 0, 0}, Vec3{x, side(x), 0}, Vec3{x, 0, 1}, Vec3{x, side(x), 1}})
+      mesh.points.push_back(p);
+  }
+  const auto add = [&](int a, int b, int c, int d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < 4 * n; i += 4) {
+    add(i, i + 1, i + 5, i + 4);      // below
+    add(i + 2, i + 6, i + 7, i + 3);  // above
+    add(i, i + 4, i + 6, i + 2);
+    add(i + 1, i + 3, i + 7, i + 5);
+  }
+  add(4 * n, 4 * n + 1, 4 * n + 3, 4 * n + 2);
+  // Both sides meet at the tip.
+  for (auto& triangle : mesh.triangles)
+    for (int& v : triangle) v = v == 1 ? 0 : v == 3 ? 2 : v;
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  mesh.regions = {{1, {}}};
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  MeshProblem problem;
+  problem.name = problem.where = "needle";
+  problem.model = slab;
+  problem.size.field = make_constant_size(0.6);
+  return problem;
+}
+
+TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
+  MeshProblem problem = needle(1e-5 * std::numbers::pi / 180);
+  const MeshResult result = mesh(problem, "DBCO");
+  EXPECT_TRUE(says(result, "what is narrower than 0.06, a tenth of the size, is left out"));
+  problem.options.set("repair.refine_unsound", false);
+  try {
+    mesh(problem, "DBCO");
+    ADD_FAILURE() << "the test is too easy";
+  } catch (const UnsoundError& error) {
+    EXPECT_NE(std::string(error.what()).find("in places narrower than the size"), std::string::npos)
+        << error.what() << ": the reason is told";
+  }
 }
 
 /// A ball whose points are thrown in and out: at this size quads fold.
