@@ -182,15 +182,19 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
     MeshResult run = run_word(other, word);
     quads.spend(quads_of(other, run));
     make_finer(anew, word, quads, other, run);
-    if (!run.soundness.sound()) return;
-    run.warnings.emplace_back(fmt::format(
-        "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be sound: "
-        "{}; --set repair.ignore_small=false keeps it",
-        prepared.settings.name, kSmall * least, result.soundness.text()));
-    run.seconds += result.seconds;
-    note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
-    std::swap(prepared, other);
-    std::swap(result, run);
+    if (run.soundness.sound()) {
+      run.warnings.emplace_back(fmt::format(
+          "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be "
+          "sound: {}; --set repair.ignore_small=false keeps it",
+          prepared.settings.name, kSmall * least, result.soundness.text()));
+      run.log.summaries.add(kRefining, {{"ignored_below", kSmall * least}});
+      note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
+      std::swap(prepared, other);
+      std::swap(result, run);
+    }
+    result.seconds += run.seconds;
+    add_times(other.times, result.log);
+    add_times(run.log.times, result.log);
   } catch (const InputError&) {
     // Nothing is left, or it cannot be meshed: what there was stays.
   }
