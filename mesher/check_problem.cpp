@@ -14,6 +14,7 @@
 #include "features/curves/surface_input.h"
 #include "features/divisions/divisions.h"
 #include "features/given/given_surface.h"
+#include "features/washers/hole_rows.h"
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/surface/triangulated_model.h"
@@ -59,6 +60,7 @@ void check_size(const SizeSpec& size) {
 
 void check_surface(const SurfaceSpec& surface, const std::string& where) {
   check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
+  check_length(surface.fill_holes, "the diameter of holes that are closed", where);
   check_length(surface.merge_curves, "the length of curves that are merged", where);
   if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
   if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
@@ -160,6 +162,7 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   add(s.compounds != Compounds::kNone, "compound");
   add(s.merge_curves > 0, "merge_curves");
   add(s.ignore_below > 0, "ignore_below");
+  add(s.fill_holes > 0, "fill_holes");
   add(s.feature_angle && !angle_may_be, "feature_angle");
   add(s.weld_tolerance.has_value(), "weld_tolerance");
   add(s.mirror.has_value(), "mirror");
@@ -189,6 +192,24 @@ void check_symmetry_alone(const MeshProblem& problem) {
   if (is_symmetric(problem) && !problem.periodic.empty())
     throw InputError(fmt::format("{}: symmetry does not go with periodic sides ({}): expected one of the two",
                                  problem.symmetry.where, problem.periodic[0].where));
+}
+
+/// Washers and rows across fillets are not mirrored, and have no images on other sides.
+void check_washers(const MeshProblem& problem) {
+  check_washers(problem.washers, problem.fillet_rows);
+  const bool is_planar = std::holds_alternative<PlanarModel>(problem.model);
+  const bool is_kept =
+      std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model);
+  if (!problem.fillet_rows.empty() && (is_planar || is_kept))
+    throw InputError(problem.fillet_rows[0].where + ": rows across fillets are for CAD models");
+  if (problem.washers.empty() && problem.fillet_rows.empty()) return;
+  const std::string& where =
+      problem.washers.empty() ? problem.fillet_rows[0].where : problem.washers[0].where;
+  if (is_kept) throw InputError(where + ": washers are for planar models of curves and for surfaces");
+  if (!is_planar && (is_symmetric(problem) || !problem.periodic.empty()))
+    throw InputError(where +
+                     ": rows around holes and across fillets of a surface go neither with symmetry nor with "
+                     "periodic sides");
 }
 
 /// Refuses what does not go with the kind of model.
@@ -236,6 +257,7 @@ void check_problem(const MeshProblem& problem) {
   for (const CurveDivision& division : problem.divisions) check_division(division);
   check(problem.cross);
   check_surface(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
+  check_washers(problem);
   check_kind(problem);
 }
 

@@ -11,7 +11,9 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/curves/compose_size.h"
 #include "features/symmetry/mirrored_surface.h"
+#include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "mesher/finish_steps.h"
@@ -105,6 +107,14 @@ Refinement as_read(const PreparedProblem& prepared) {
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
   check_criteria(problem.criteria);
+  if (const auto* model = std::get_if<PlanarModel>(&problem.model);
+      model != nullptr && !problem.washers.empty()) {
+    std::vector<Warning> of_size, told;
+    const PointSize size = as_function(planar_base_size(problem.size, *model, of_size));
+    PreparedProblem prepared = prepare_problem(with_planar_washers(problem, size, told), refinement);
+    prepared.warnings.insert(prepared.warnings.begin(), told.begin(), told.end());
+    return prepared;
+  }
   PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
   check_order(prepared);
   check_criteria(problem.criteria, prepared.boundary, asked_size(prepared));

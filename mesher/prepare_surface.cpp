@@ -25,6 +25,7 @@
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
+#include "features/washers/surface_washers.h"
 #include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
@@ -68,13 +69,13 @@ constexpr long long kStepsAnew = kMostAgreementSteps / 10;
 /// Meshes the curves; faces for which that is impossible go.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
-                             const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                             long long most_steps, Failures& failures) {
+                             const std::vector<CurveDivision>& divisions, const MappedSpec& mapped,
+                             const PeriodicSides& periodic, long long most_steps, Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       return make_surface_domain(model, failures.are_left_out() ? flattening : std::move(flattening), size,
-                                 *solver, asked, divisions, periodic, problem.mapped,
+                                 *solver, asked, divisions, periodic, mapped,
                                  curve_options(problem.options).agreement, most_steps);
     } catch (const FaceError& error) {
       failures.add(error.face(), error.what());
@@ -123,7 +124,7 @@ class SurfaceSteps final : public ModelSteps {
     check_surface_cross(problem_.cross);
     check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
-    divisions_ = cut_ ? divisions_of_part(problem_.divisions, *cut_) : problem_.divisions;
+    if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
   }
@@ -150,8 +151,8 @@ class SurfaceSteps final : public ModelSteps {
     }
     surface_->domain =
         mesh_curves_of(model_, std::move(flattening_), *on_curves,
-                       wanted_.curvature ? nullptr : wanted_.base.get(), problem_, divisions_, periodic_,
-                       refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
+                       wanted_.curvature ? nullptr : wanted_.base.get(), problem_, divisions_, mapped_,
+                       periodic_, refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     surface_->ignores_small = problem_.surface.ignore_below > 0;
@@ -168,7 +169,7 @@ class SurfaceSteps final : public ModelSteps {
 
   void make_patches(PreparedProblem& p) override {
     prepare_patches(surface_, p);
-    add_grids(problem_.mapped, surface_->domain.mapped, p);
+    add_grids(mapped_, surface_->domain.mapped, p);
     for (std::size_t i = 0; i < p.patches.size(); ++i)
       if (p.patches[i].grid && p.patches[i].grid_stays)
         for (const auto& loop : surface_->domain.patches[i].outline)
@@ -196,7 +197,11 @@ class SurfaceSteps final : public ModelSteps {
                                              : "a surface needs a size (a number or an expression)");
     });
     model_ = join_short_curves(problem_, *asked_, std::move(model_));
+    SurfaceWashers washers;
+    washers.plan(problem_.washers, divisions_, as_function(asked_), model_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, warnings);
+    washers.cut(model_, divisions_, mapped_);
+    divide_fillets(problem_.fillet_rows, model_, divisions_, mapped_);
   }
 
   void set_size(PreparedProblem& p) {
@@ -205,7 +210,7 @@ class SurfaceSteps final : public ModelSteps {
     if (!wanted_.curve_limit.empty()) p.size.adapted_to.push_back("short curves");
     if (wanted_.curvature) p.size.adapted_to.push_back("curvature");
     if (!refinement_.spots.empty()) p.size.adapted_to.push_back("sound quads");
-    if (!problem_.divisions.empty()) p.size.adapted_to.push_back("given edges");
+    if (!divisions_.empty()) p.size.adapted_to.push_back("given edges");
     if (!p.size.adapted_to.empty()) p.size.asked = asked_;
     p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
     check_count(p.size.expected_quads, problem_);
@@ -217,8 +222,9 @@ class SurfaceSteps final : public ModelSteps {
   SurfaceModel model_;
   std::shared_ptr<const SurfaceModel> cad_;  ///< PreparedSurface::cad
   std::shared_ptr<const SizeField> asked_;
-  std::optional<CutSurface> cut_;         ///< of a symmetric one, whose part is `model_`
-  std::vector<CurveDivision> divisions_;  ///< of the part
+  std::optional<CutSurface> cut_;                              ///< of a symmetric one, whose part is `model_`
+  std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
+  MappedSpec mapped_ = problem_.mapped;
   WantedSize wanted_;
   PeriodicSides periodic_;
   std::vector<Warning> of_periodic_;

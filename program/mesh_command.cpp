@@ -106,6 +106,8 @@ void print_before(const std::string& file, const Mesh& mesh, const Prepared& pre
   fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
              mesh.points.size());
   print_metrics(prepared.metrics(mesh));
+  if (const Criteria& criteria = prepared.problem().criteria; !criteria.empty())
+    print_criteria(judge(mesh, criteria, prepared->size.field.get()), mesh);
 }
 
 /// The least and the largest wanted size at nodes.

@@ -96,6 +96,38 @@ void set_mapped(const MeshArguments& arguments, MappedSpec& mapped) {
   mapped.automatic = std::erase(mapped.names, "auto") > 0;
 }
 
+/// What "LEAST-MOST:ROWS", and of washers perhaps ":EDGES:WIDTH" says.
+template <class Spec>
+std::vector<Spec> rows_of(const std::vector<std::string>& texts, const char* option,
+                          std::size_t most_numbers) {
+  std::vector<Spec> specs;
+  for (const std::string& text : texts) {
+    std::vector<double> numbers;
+    for (std::size_t at = 0; at <= text.size(); ++at) {
+      const std::size_t end = std::min(text.find_first_of(numbers.empty() ? "-" : ":", at), text.size());
+      numbers.push_back(as_number(text.substr(at, end - at)).value_or(-1));
+      at = end;
+    }
+    const auto is_whole = [&](std::size_t i) {
+      return numbers.size() <= i || std::floor(numbers[i]) == numbers[i];
+    };
+    if (numbers.size() < 3 || numbers.size() > most_numbers || std::ranges::min(numbers) < 0 ||
+        !is_whole(2) || !is_whole(3) || std::ranges::max(numbers) > 1e9)
+      refuse("{} '{}': expected LEAST-MOST:ROWS{}", option, text,
+             most_numbers > 3 ? ", perhaps with :EDGES and :WIDTH, such as 5-12:2:16" : ", such as 2-5:3");
+    Spec& spec = specs.emplace_back();
+    spec = {.least = numbers[0],
+            .most = numbers[1],
+            .rows = static_cast<int>(numbers[2]),
+            .where = std::string(option) + " " + text};
+    if constexpr (requires { spec.edges; }) {
+      if (numbers.size() > 3) spec.edges = static_cast<int>(numbers[3]);
+      if (numbers.size() > 4) spec.width = numbers[4];
+    }
+  }
+  return specs;
+}
+
 /// The model's sizes, with what the command line says in their place.
 SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
   if (arguments.size) {
@@ -170,6 +202,8 @@ void add_surface(CLI::App& command, SurfaceArguments& arguments) {
   command.add_option(
       "--ignore-below", arguments.ignore_below,
       "length: close smaller holes, join narrower faces to neighbours, shorter curves to points");
+  command.add_option("--fill-holes", arguments.fill_holes, "diameter: close holes that are not wider")
+      ->check(kLength);
   command.add_flag("--glue", arguments.glue,
                    "bodies of a CAD model that touch share faces, curves and nodes there");
   command.add_option("--unit", arguments.unit,
@@ -193,6 +227,10 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
       refuse("--ignore-below {}: expected a length > 0", *arguments.ignore_below);
     given("--ignore-below");
     surface.ignore_below = *arguments.ignore_below;
+  }
+  if (arguments.fill_holes) {
+    given("--fill-holes");
+    surface.fill_holes = *arguments.fill_holes;
   }
   if (arguments.glue) {
     given("--glue");
@@ -218,6 +256,13 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option(
           "--mapped", arguments.mapped,
           "name of a region or face that becomes a grid, or 'auto' for all where that pays; may be repeated")
+      ->allow_extra_args(false);
+  mesh->add_option(
+          "--washers", arguments.washers,
+          "LEAST-MOST:ROWS[:EDGES[:WIDTH]]: rows of quads around holes of these diameters; may be repeated")
+      ->allow_extra_args(false);
+  mesh->add_option("--fillet-rows", arguments.fillet_rows,
+                   "LEAST-MOST:ROWS: rows of quads across fillets of these radii; may be repeated")
       ->allow_extra_args(false);
   mesh->add_option("--refine", arguments.refine, "divide all sizes by this, for studies of convergence")
       ->check(kLength);
@@ -273,6 +318,9 @@ void set_problem(const MeshArguments& arguments, Case& c) {
   if (arguments.refine) c.refine = *arguments.refine;
   if (arguments.quads) c.quads = *arguments.quads;
   set_mapped(arguments, c.mapped);
+  if (!arguments.washers.empty()) c.washers = rows_of<WasherSpec>(arguments.washers, "--washers", 5);
+  if (!arguments.fillet_rows.empty())
+    c.fillet_rows = rows_of<FilletRows>(arguments.fillet_rows, "--fillet-rows", 3);
   set_options(arguments, c.options);
   set_criteria(arguments, c.criteria);
   set_surface(arguments, c);

@@ -16,9 +16,9 @@ namespace delquad {
 struct SurfaceArguments {
   std::string compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
-  std::optional<double> ignore_below;  ///< a length
-  bool glue = false;                   ///< else as the model says
-  bool keep_going = false;             ///< leave out what cannot be read or meshed
+  std::optional<double> ignore_below, fill_holes;  ///< lengths
+  bool glue = false;                               ///< else as the model says
+  bool keep_going = false;                         ///< leave out what cannot be read or meshed
 };
 void add_surface(CLI::App& command, SurfaceArguments& arguments);
 void set_surface(const SurfaceArguments& arguments, Case& c);
@@ -32,6 +32,7 @@ struct MeshArguments : SurfaceArguments {
   bool serendipity = false;                               ///< quads of order 2 have 8 nodes
   bool keep_numbers = false;                              ///< of nodes, as stages made them
   std::vector<std::string> mapped;                        ///< names of regions, or "auto"
+  std::vector<std::string> washers, fillet_rows;          ///< "LEAST-MOST:ROWS..."
   std::vector<std::string> size_on;                       ///< "NAME=SIZE"
   std::vector<std::string> set;                           ///< "OPTION=VALUE", see Options
   double curvature = 0, min = 0, max = 0, gradation = 0;  ///< as in SizeSpec; 0: as the model says

@@ -290,6 +290,18 @@ void define_size(py::class_<Problem>& c) {
            [](Problem& p, const std::vector<std::string>& names, bool automatic) {
              p.problem.mapped = {names, automatic, "mapped", {}};
            })
+      .def(
+          "add_washer",
+          [](Problem& p, std::array<double, 2> diameter, int rows, int edges, double width) {
+            p.problem.washers.push_back({diameter[0], diameter[1], rows, edges, width, "washers"});
+          },
+          py::arg("diameter"), py::arg("rows") = 1, py::arg("edges") = 0, py::arg("width") = 0)
+      .def(
+          "add_fillet_rows",
+          [](Problem& p, std::array<double, 2> radius, int rows) {
+            p.problem.fillet_rows.push_back({radius[0], radius[1], rows, "fillet_rows"});
+          },
+          py::arg("radius"), py::arg("rows") = 1)
       .def("mapped_corners",
            [](Problem& p, const std::string& name, const std::vector<py::object>& corners) {
              GridCorners grid{name, {}, "mapped"};
@@ -361,6 +373,7 @@ void define_surface(py::class_<Problem>& c) {
            })
       .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
+      .def("fill_holes", [](Problem& p, double diameter) { p.problem.surface.fill_holes = diameter; })
       .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })
       .def("merge_curves", [](Problem& p, double length) { p.problem.surface.merge_curves = length; });
 }

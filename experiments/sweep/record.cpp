@@ -98,6 +98,7 @@ Json surface_json(const SurfaceSpec& surface) {
                       {"normal", point_json(surface.mirror->normal)},
                       {"tolerance", surface.mirror->tolerance},
                       {"join", surface.mirror->join}};
+  if (surface.fill_holes > 0) json["fill_holes"] = surface.fill_holes;
   if (!surface.embed.empty()) json["embed"] = embed_json(surface.embed);
   return json;
 }
@@ -163,6 +164,11 @@ Json options_json(const Case& c) {
     json["mapped_corners"].push_back({{"name", grid.region}, {"corners", corners}});
   }
   for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
+  for (const WasherSpec& w : c.washers)
+    json["washers"].push_back(
+        {{"diameter", {w.least, w.most}}, {"rows", w.rows}, {"edges", w.edges}, {"width", w.width}});
+  for (const FilletRows& f : c.fillet_rows)
+    json["fillet_rows"].push_back({{"radius", {f.least, f.most}}, {"rows", f.rows}});
   if (word_start(c.model) == WordStart::kGivenMesh) json["start"] = true;
   if (!c.criteria.empty()) json["criteria"] = criteria_json(c.criteria);
   for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);

@@ -33,6 +33,9 @@ namespace delquad {
 std::shared_ptr<const SizeField> base_size(const SizeSpec& spec, const SampleDomain& domain,
                                            std::vector<Warning>& warnings,
                                            const std::function<std::shared_ptr<const SizeField>()>& own);
+/// Of a planar model of curves, which has no edge lengths of its own.
+std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const PlanarModel& model,
+                                                  std::vector<Warning>& warnings);
 /// What stands in for a base that was not given: the largest size. Throws InputError with `why` where there
 /// is none.
 std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why);

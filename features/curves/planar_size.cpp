@@ -118,16 +118,21 @@ class SizedModel {
 
 }  // namespace
 
+std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const PlanarModel& model,
+                                                  std::vector<Warning>& warnings) {
+  return base_size(spec, {box_in_space(model)}, warnings, [&] {
+    return largest_size(
+        spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
+  });
+}
+
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
                           const std::vector<SizeSpot>& spots, PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
   PreparedSize& size = p.size;
   SizedModel sized(problem, model, p);
   const PlanarDomain& domain = sized.domain;
-  size.field = base_size(spec, {box_in_space(model)}, p.warnings, [&] {
-    return largest_size(
-        spec, "curves have no edge lengths of their own: expected a size (a number or an expression)");
-  });
+  size.field = planar_base_size(spec, model, p.warnings);
   p.symmetry = planes_of(problem, model);
   const auto with_images = [&](std::shared_ptr<const SizeField> field) {
     return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));

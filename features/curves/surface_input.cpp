@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/length_unit.h"
@@ -67,6 +68,9 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
                                                                 : tangent_groups(model, kEveryAngle);
     model = make_compound(std::move(model), groups, options);
   }
+  if (spec.fill_holes > 0)
+    model = close_small_holes(std::move(model), {std::numbers::pi * spec.fill_holes,
+                                                 curve_options(problem.options).keep_named, kept});
   if (spec.ignore_below > 0)
     model = ignore_small(std::move(model),
                          {spec.ignore_below, curve_options(problem.options).keep_named, kept}, options);
@@ -183,7 +187,8 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
   SurfaceModel model = example != nullptr ? read_example(example->name, options)
                                           : read_cad(std::get<CadModel>(problem.model), options);
   const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
-                             problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0;
+                             problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0 ||
+                             problem.surface.fill_holes > 0;
   const auto unusable =
       std::ranges::find_if(model.left_out, [](const LeftOutFace& f) { return f.face >= 0; });
   if (unusable != model.left_out.end() && changes_faces)

@@ -40,8 +40,9 @@ class GridOfPatch {
 
   /// The grid; nothing where it would fold, at `fold`, or where it is not asked for and would be bad.
   std::optional<QuadPatch> make(Vec2& fold) const {
-    const std::vector<double> layers =
-        mapped_.corners.empty() ? ring_layers(patch_.boundary, *patch_.size) : std::vector<double>{};
+    std::vector<double> layers;
+    for (int row = 1; row < mapped_.rows; ++row) layers.push_back(double(row) / mapped_.rows);
+    if (mapped_.corners.empty() && mapped_.rows == 0) layers = ring_layers(patch_.boundary, *patch_.size);
     const auto flat = interpolated_grid(patch_.boundary, patch_.boundary.points, mapped_.corners, layers);
     if (!flat) return std::nullopt;
     QuadPatch grid;
@@ -53,7 +54,8 @@ class GridOfPatch {
     if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
       smooth_grid(grid, *patch_.cross, *patch_.size);
     if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
-    if (!mapped_.is_asked && !quality_of(grid).pays(is_narrow(layers))) return std::nullopt;
+    if (!mapped_.is_asked && mapped_.rows == 0 && !quality_of(grid).pays(is_narrow(layers)))
+      return std::nullopt;
     return grid;
   }
 
@@ -144,9 +146,17 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
   for (std::size_t i = 0; i < mapped.size(); ++i) {
     PreparedPatch& patch = p.patches[mapped[i].patch];
     patch.grid = std::move(grids[i]);
-    patch.grid_stays = mapped[i].is_asked;
+    patch.grid_stays = mapped[i].is_asked || mapped[i].rows > 0;
     if (!patch.grid || !patch.grid_stays || p.plane.curve_places.empty()) continue;
     for (const int node : patch.boundary.point_node) p.plane.curve_places[node] = {};
+  }
+  for (const auto& [region, rows] : spec.rings) {
+    if (std::ranges::none_of(p.patches, [&](const PreparedPatch& patch) {
+          return patch.grid && has_name(p.boundary.regions[patch.region], region);
+        }))
+      p.warnings.push_back(
+          {"rings that have no rows", 0,
+           fmt::format("{} has not {} rows: it is no ring, or numbers of edges forbid it", region, rows)});
   }
   const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
   if (spec.automatic && std::ranges::none_of(p.patches, has_grid))

@@ -186,17 +186,20 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
   const bool asked =
       std::ranges::any_of(spec_.names, [&](const auto& name) { return has_name(region, name); });
   const bool just_narrow = !asked && !spec_.automatic;
-  if (outline.size() == 2 && turns_nowhere(outline[0]) && turns_nowhere(outline[1])) {
+  const auto told =
+      std::ranges::find_if(spec_.rings, [&](const auto& r) { return has_name(region, r.first); });
+  const int rows = told == spec_.rings.end() ? 0 : told->second;
+  if (outline.size() == 2 && (rows > 0 || (turns_nowhere(outline[0]) && turns_nowhere(outline[1])))) {
     const double outer = wanted(outline[0]), inner = wanted(outline[1]);
-    if (!asked && !sides_match(outer, inner)) return std::nullopt;
+    if (!asked && rows == 0 && !sides_match(outer, inner)) return std::nullopt;
     const double length = (outer + inner) / 2;
-    if (just_narrow && !is_narrow(quads / length, length)) return std::nullopt;
-    MappedFace ring{face, asked, {{}, {}}, {}};
+    if (just_narrow && rows == 0 && !is_narrow(quads / length, length)) return std::nullopt;
+    MappedFace ring{face, asked, {{}, {}}, {}, rows};
     for (const int k : {0, 1})
       for (const OutlinePart& part : outline[k]) ring.sides[k].push_back(part.curve);
     return ring;
   }
-  if (outline.size() != 1 || outline[0].size() < 3) {
+  if (outline.size() != 1 || outline[0].size() < 3 || rows > 0) {
     if (!asked) return std::nullopt;
     throw InputError(fmt::format("{}: '{}' cannot be a grid: {}", spec_.where, region_label(region),
                                  why_no_grid(outline)));

@@ -113,7 +113,7 @@ std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, con
                                       const std::vector<int>& counts) {
   std::vector<MappedPatch> patches;
   for (const MappedFace& face : mapped) {
-    MappedPatch& patch = patches.emplace_back(MappedPatch{face.face, {}, face.is_asked});
+    MappedPatch& patch = patches.emplace_back(MappedPatch{face.face, {}, face.is_asked, face.rows});
     if (face.begins.empty()) continue;
     std::size_t part = 0;
     int at = 0;

@@ -30,6 +30,11 @@ void refine(CurveDivision& division, double k) {
   division.edges = edges;
 }
 
+void refine(WasherSpec& washer, double k) {
+  washer.rows = refined_number(washer.rows, k);
+  washer.edges = 2 * refined_number(washer.edges / 2.0, k);
+}
+
 /// So do rows.
 void refine(LayerSpec& layer, double k) {
   const std::vector<double> heights = layer_heights(layer);
@@ -92,6 +97,8 @@ MeshProblem refined(MeshProblem problem) {
   require_free_sizes(problem, fmt::format("refine {}", k));
   for (CurveDivision& division : problem.divisions) refine(division, k);
   for (LayerSpec& layer : problem.layers) refine(layer, k);
+  for (WasherSpec& washer : problem.washers) refine(washer, k);
+  for (FilletRows& fillet : problem.fillet_rows) fillet.rows = refined_number(fillet.rows, k);
   return with_scaled_sizes(std::move(problem), 1 / k);
 }
 

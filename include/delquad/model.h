@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -101,8 +102,10 @@ struct MappedSpec {
   bool automatic = false;        ///< and all where that pays: four nearly right angles, sides that match
   std::string where = "mapped";  ///< who asked for it, for messages
   std::vector<GridCorners> corners = {};  ///< of regions whose corners are told, named above or not
+  /// Numbers of regions of surfaces ("region_2") that become rings of so many rows where they can.
+  std::vector<std::pair<std::string, int>> rings = {};
 
-  bool asks() const { return automatic || !names.empty() || !corners.empty(); }
+  bool asks() const { return automatic || !names.empty() || !corners.empty() || !rings.empty(); }
 };
 
 /// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
@@ -163,6 +166,22 @@ struct LayerSpec {
 /// How far the layers of a column reach from their curve: the first, the second, ..., the whole. Throws
 /// InputError for numbers that make no layers.
 std::vector<double> layer_heights(const LayerSpec& layer);
+
+/// Rows of quads around round and slotted holes of planar models of curves, and in faces of surfaces.
+struct WasherSpec {
+  double least = 0, most = 0;     ///< diameters of the holes; of slots and ovals their width
+  int rows = 1;                   ///< where there is room
+  int edges = 0;                  ///< around, even; 0: as the size asks for, 6 at least
+  double width = 0;               ///< of all rows; 0: they are about as high as edges are long
+  std::string where = "washers";  ///< who asked for it, for messages
+};
+
+/// Rows of quads across fillets of CAD models: faces of one radius that go on smoothly on two opposite sides.
+struct FilletRows {
+  double least = 0, most = 0;  ///< radii
+  int rows = 1;
+  std::string where = "fillet_rows";  ///< who asked for it, for messages
+};
 
 /// A planar domain bounded by lines, which are kept: each becomes an edge of the mesh.
 ///
@@ -257,6 +276,7 @@ struct SurfaceSpec {
   /// Faces narrower than this length become part of a neighbour, curves shorter than it one with a neighbour
   /// or a point; 0: none.
   double ignore_below = 0;
+  double fill_holes = 0;                 ///< holes and tubes not wider than this diameter are closed; 0: none
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;

@@ -209,6 +209,23 @@ LayerSpec read_layer(const TomlTable& table) {
   return layer;
 }
 
+/// `Spec`: WasherSpec or FilletRows.
+template <class Spec>
+Spec read_rows(const TomlTable& table, const std::string& range, const TomlKeys& keys) {
+  table.require_known(keys);
+  Spec spec;
+  spec.where = table.where();
+  const Vec2 diameters = table.point(range);
+  spec.least = diameters.x, spec.most = diameters.y;
+  spec.rows = static_cast<int>(integer_between(table, "rows", 1, 1000, spec.rows));
+  if constexpr (requires { spec.edges; }) {
+    spec.edges = static_cast<int>(integer_between(table, "edges", 4, kMostDivided, spec.edges));
+    if (table.has("width")) spec.width = table.positive_number("width");
+  }
+  table.finish(keys);
+  return spec;
+}
+
 SymmetrySpec read_symmetry(const TomlTable& table) {
   SymmetrySpec symmetry{.planes = {}, .automatic = false, .where = table.where("symmetry")};
   if (table.kind("symmetry") == TomlKind::kFlag)
@@ -337,6 +354,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
       if (group.size() < 2) throw InputError(table.where("compound") + ": a compound has two faces or more");
   }
   if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
+  if (table.has("fill_holes")) spec.fill_holes = table.positive_number("fill_holes");
   if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");
   if (table.has("feature_angle"))
     spec.feature_angle = checked_feature_angle(table.number("feature_angle"), table.where("feature_angle"));
@@ -389,6 +407,12 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("embed") && !has_planar_model(table)) target.surface.embed = read_embedded_lines(table);
   if (table.has("layer")) target.layers.clear();
   for (const TomlTable& layer : table.tables("layer")) target.layers.push_back(read_layer(layer));
+  if (table.has("washers")) target.washers.clear();
+  for (const TomlTable& washer : table.tables("washers"))
+    target.washers.push_back(read_rows<WasherSpec>(washer, "diameter", washer_keys()));
+  if (table.has("fillet_rows")) target.fillet_rows.clear();
+  for (const TomlTable& fillet : table.tables("fillet_rows"))
+    target.fillet_rows.push_back(read_rows<FilletRows>(fillet, "radius", fillet_keys()));
   if (table.has("size")) target.size = read_size(table);
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))

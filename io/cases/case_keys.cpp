@@ -163,6 +163,7 @@ TomlKeys surface_keys() {
           {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
           {"mirror", "the model is one half", "", mirror_keys},
           {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
+          {"fill_holes", "diameter: holes that are not wider are closed", kPositive},
           {"glue", "whether bodies of CAD share what they touch at", kFlag},
           {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
 }
@@ -230,6 +231,25 @@ TomlKeys layer_keys() {
           {"fan", "degrees by which corners with a fan turn away", above(0, 120)}};
 }
 
+namespace {
+
+TomlKeys range_and_rows(const char* range, const char* of) {
+  return {{range, of, R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})",
+           nullptr, false, true},
+          {"rows", "of quads; 1 if absent", at_least("integer", 1)}};
+}
+
+}  // namespace
+
+TomlKeys washer_keys() {
+  TomlKeys keys = range_and_rows("diameter", "of the holes, [least, most]");
+  keys.push_back({"edges", "around, even; absent: as the size asks for", at_least("integer", 4)});
+  keys.push_back({"width", "of all rows; absent: as high as edges are long", kPositive});
+  return keys;
+}
+
+TomlKeys fillet_keys() { return range_and_rows("radius", "of the fillets, [least, most]"); }
+
 TomlKeys material_keys() {
   return {{"young", "Young's modulus", kPositive, nullptr, false, true},
           {"poisson", "Poisson's ratio", between("number", 0, 1), nullptr, false, true},
@@ -281,6 +301,8 @@ TomlKeys case_keys() {
       {"data", "a surface or MSH file in the folder of --data", kText},
       {"surface", "what becomes of a surface's faces", "", surface_keys},
       {"layer", "thin quads along curves", "", layer_keys, true},
+      {"washers", "rows of quads around holes", "", washer_keys, true},
+      {"fillet_rows", "rows of quads across fillets", "", fillet_keys, true},
       {"size", "wanted edge length", kSize, size_keys},
       {"divide", "numbers of edges of curves", "", division_keys, true},
       {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},

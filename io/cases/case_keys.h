@@ -29,6 +29,8 @@ TomlKeys division_keys();
 TomlKeys size_keys();
 TomlKeys source_keys();
 TomlKeys layer_keys();
+TomlKeys washer_keys();
+TomlKeys fillet_keys();
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
 TomlKeys material_keys();

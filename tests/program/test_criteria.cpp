@@ -100,5 +100,43 @@ TEST(Criteria, AreColumnsOfExperiments) {
   EXPECT_TRUE(contains(run.out + table.out, "failing min_angle")) << run.out << table.out;
 }
 
+TEST(Criteria, JudgeWhatIsImprovedBeforeAndAfter) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", kWedge);
+  ASSERT_EQ(delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--quality", "fast"}).exit_code,
+            0);
+  const ProgramResult r =
+      delquad({"improve", folder / "m.msh", "-o", folder / "n.msh", "--criteria", "batch"});
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto before = r.out.find("criteria batch: ");
+  EXPECT_NE(r.out.find("criteria batch: ", before + 1), std::string::npos) << r.out;
+}
+
+TEST(Washers, AreToldOnTheCommandLine) {
+  const TemporaryFolder folder;
+  const auto model =
+      write_text(folder / "m.toml",
+                 "size = 1\nloop = [{ rectangle = [[0, 0], [20, 20]] }, { circle = { centre = [10, "
+                 "10], radius = 3 } }]\n");
+  const auto run = [&](const std::string& washers) {
+    return delquad({"mesh", model, "-o", folder / "m.msh", "--washers", washers});
+  };
+  const ProgramResult good = run("5-7:2:16:3");
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_TRUE(contains(good.out, "32 quads on 16 edges")) << good.out;
+  for (const auto& [text, part] :
+       {std::pair("5-7", "expected LEAST-MOST:ROWS, perhaps with :EDGES and :WIDTH"),
+        {"5-7:2:15", "15 edges around holes: expected an even number"},
+        {"5-7:0", "0 rows: expected at least 1"},
+        {"5-7:-1", "expected LEAST-MOST:ROWS"},
+        {"5-7:1.5", "expected LEAST-MOST:ROWS"},
+        {"5-x:2", "expected LEAST-MOST:ROWS"},
+        {"7-5:2", "diameters from 7 to 5"}}) {
+    const ProgramResult bad = run(text);
+    EXPECT_EQ(bad.exit_code, 2) << text;
+    EXPECT_TRUE(contains(bad.err, part)) << text << ": " << bad.err;
+  }
+}
+
 }  // namespace
 }  // namespace delquad::testing_support

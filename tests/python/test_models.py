@@ -16,6 +16,17 @@ def test_polygons_with_a_hole():
     assert len(r.triangles) == 0 and r.sound and r.unsound == []
 
 
+def test_washers_around_holes():
+    plate = delquad.planar([delquad.loop([delquad.polyline([(0, 0), (4, 0), (4, 4), (0, 4), (0, 0)])]), delquad.loop([delquad.circle((2, 2), 0.5)])])
+    r = delquad.mesh(plate, size=0.5, washers=[{"diameter": (0.8, 1.2), "rows": 2, "edges": 12, "width": 0.6}])
+    distance = np.hypot(r.points[:, 0] - 2, r.points[:, 1] - 2)
+    for radius in (0.5, 0.8, 1.1):
+        assert np.count_nonzero(np.isclose(distance, radius, atol=0.01)) == 12
+    for bad in ({"diameter": 1}, {"rows": 2}):
+        with pytest.raises(delquad.InputError, match="washers: .*expected a range of two lengths"):
+            delquad.mesh(plate, size=0.5, washers=[bad])
+
+
 def test_layers_along_curves():
     sides = [delquad.segment((0, 0), (2, 0), "floor"), delquad.polyline([(2, 0), (2, 1), (0, 1), (0, 0)], "rest")]
     layer = {"on": "floor", "first": 1e-3, "number": 5}

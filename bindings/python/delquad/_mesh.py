@@ -101,7 +101,7 @@ def _add_layer(problem, layer):
     problem.add_layer(*names, *(read(values[key]) for key, read in _LAYER.items()))
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, fill_holes, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -114,6 +114,8 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_b
         problem.merge_curves(merge_curves)
     if ignore_below is not None:
         problem.ignore_below(ignore_below)
+    if fill_holes is not None:
+        problem.fill_holes(fill_holes)
     if mirror is not None:
         point, normal = mirror
         problem.mirror(point, normal)
@@ -180,6 +182,8 @@ def mesh(
     mapped=(),
     symmetry=(),
     layers=(),
+    washers=(),
+    fillet_rows=(),
     gradation=None,
     curvature=None,
     min_size=None,
@@ -189,6 +193,7 @@ def mesh(
     weld=None,
     merge_curves=None,
     ignore_below=None,
+    fill_holes=None,
     mirror=None,
     glue=False,
     unit=None,
@@ -230,11 +235,14 @@ def mesh(
         (name, corners) tells three or four corners, each a point or the name of one.
     layers: thin quads along curves of a planar model: {"on": name or names, "first": height, "growth": 1.2,
         "number": n or "thickness": height, "fan": 60, "into": name or names of regions} each; see docs/meshing.md.
+    washers: rows of quads around holes: {"diameter": (least, most), "rows": 2, "edges": 16, "width": 4} each; all but the
+        diameters may be left out. fillet_rows: across fillets of CAD: {"radius": (least, most), "rows": 3} each.
     gradation, curvature, min_size, max_size: the most growth of sizes per length, elements per full turn of
         curved surfaces, the least size for that, the largest size.
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
     ignore_below: a length; narrower faces become part of neighbours, shorter curves points.
+    fill_holes: a diameter; holes that are not wider are closed.
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
@@ -285,10 +293,16 @@ def mesh(
                 problem.mapped_corners(name, list(corners))
     for layer in layers:
         _add_layer(problem, layer)
+    for add, what, asked in ((problem.add_washer, "washers", washers), (problem.add_fillet_rows, "fillet_rows", fillet_rows)):
+        for rows in asked:
+            try:
+                add(**rows)
+            except TypeError:
+                raise _core.InputError(f"{what}: {dict(rows)}: expected a range of two lengths, and numbers") from None
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, mirror, glue, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, fill_holes, mirror, glue, unit)
     _embed(problem, embed)
     if quality is not None:
         _core.check_quality(quality)

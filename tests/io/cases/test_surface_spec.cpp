@@ -39,6 +39,30 @@ TEST(SurfaceSpecs, AreReadWhole) {
   EXPECT_TRUE(read_model_case("part.step").surface.where.empty());
 }
 
+TEST(SurfaceSpecs, HolesAndFilletsHaveRanges) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& keys) {
+    return read_model_case(write_text(folder / "m.toml", "model = \"part.step\"\n" + keys));
+  };
+  const Case c = with(
+      "washers = [{ diameter = [5, 12], rows = 2, edges = 16, width = 4 }, { diameter = [12, 20] }]\n"
+      "fillet_rows = { radius = [1, 2.5], rows = 3 }\nsurface.fill_holes = 2\n");
+  ASSERT_EQ(c.washers.size(), 2u);
+  EXPECT_EQ(c.washers[0].most, 12);
+  EXPECT_EQ(c.washers[0].rows, 2);
+  EXPECT_EQ(c.washers[0].edges, 16);
+  EXPECT_EQ(c.washers[0].width, 4);
+  EXPECT_EQ(c.washers[1].rows, 1);
+  EXPECT_EQ(c.washers[1].edges, 0);
+  ASSERT_EQ(c.fillet_rows.size(), 1u);
+  EXPECT_EQ(c.fillet_rows[0].rows, 3);
+  EXPECT_EQ(c.surface.fill_holes, 2);
+  expect_input_error([&] { with("washers = [{ diameter = [5, 12], rows = -1 }]\n"); },
+                     {"m.toml:2", "'rows' is -1", "1 to 1000"});
+  expect_input_error([&] { with("washers = [{ diameter = 5 }]\n"); }, {"m.toml:2", "'diameter'"});
+  expect_input_error([&] { with("washers = [{ diameter = [5, 6], edge = 8 }]\n"); }, {"m.toml:2", "'edges'"});
+}
+
 TEST(SurfaceSpecs, TheMirrorWeldsAsTheModelDoes) {
   EXPECT_EQ(
       read("weld_tolerance = 1e-5\nmirror = { point = [0, 0, 0], normal = [0, 0, 1] }\n").mirror->tolerance,

@@ -1,0 +1,228 @@
+#include "features/washers/hole_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/segment.h"
+#include "base/text.h"
+#include "delquad/error.h"
+
+namespace delquad {
+namespace {
+
+/// Outlines turn by no more at a point, and by no more than this times a full turn in all.
+constexpr double kMostTurn = 50 * std::numbers::pi / 180, kMostTurns = 1.1;
+/// How much distances from the middle of a round outline differ, in radii.
+constexpr double kRound = 0.06;
+/// Diameters are in a range that they miss by this part: triangulations have them so.
+constexpr double kInRange = 1e-3;
+/// Rows are at least so high, of what is asked for.
+constexpr double kLeastHeight = 0.6;
+/// Edges around, where the size asks for less; and edges of a closed boundary of quads.
+constexpr int kFewestEdges = 6, kFewestAsked = 4;
+
+/// Twice the area, along the normal.
+Vec3 area_of(const std::vector<Vec3>& outline) {
+  Vec3 area;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    area = area + cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
+  return area;
+}
+
+std::vector<Vec2> in_its_plane(const std::vector<Vec3>& outline) {
+  const Vec3 normal = area_of(outline);
+  Vec3 along = outline[1] - outline[0];
+  along = along - (dot(along, normal) / dot(normal, normal)) * normal;
+  const Vec3 e = (1 / norm(along)) * along, f = (1 / norm(normal)) * cross(normal, e);
+  std::vector<Vec2> flat;
+  for (const Vec3& x : outline) flat.push_back({dot(x - outline[0], e), dot(x - outline[0], f)});
+  return flat;
+}
+
+/// Of a round one twice the mean distance from the middle of the outline, else the least width along its
+/// sides.
+double diameter_of(const std::vector<Vec2>& flat) {
+  const std::size_t n = flat.size();
+  Vec2 sum;
+  double length = 0, radius = 0, low = std::numeric_limits<double>::infinity(), high = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double side = norm(flat[(i + 1) % n] - flat[i]);
+    sum += 0.5 * side * (flat[i] + flat[(i + 1) % n]);
+    length += side;
+  }
+  for (const Vec2& x : flat) {
+    const double distance = norm(x - (1 / length) * sum);
+    radius += distance / static_cast<double>(n);
+    low = std::min(low, distance), high = std::max(high, distance);
+  }
+  if (high - low <= kRound * radius) return 2 * radius;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 d = flat[(i + 1) % n] - flat[i];
+    const auto [left, right] =
+        std::ranges::minmax(flat, {}, [&](const Vec2& x) { return cross(d, x - flat[i]); });
+    least = std::min(least, (cross(d, right - flat[i]) - cross(d, left - flat[i])) / norm(d));
+  }
+  return least;
+}
+
+/// So many edges, by the lengths of parts; opposite parts of equal lengths get equal numbers.
+std::vector<int> share_edges(const std::vector<double>& parts, int edges) {
+  const std::size_t n = parts.size(), half = n / 2;
+  bool repeats = n > 1 && n % 2 == 0 && edges % 2 == 0;
+  for (std::size_t i = 0; repeats && i < half; ++i)
+    repeats = std::abs(parts[i] - parts[i + half]) <= kInRange * parts[i];
+  if (repeats) {
+    std::vector<int> shares = share_edges({parts.begin(), parts.begin() + half}, edges / 2);
+    shares.insert(shares.end(), shares.begin(), shares.begin() + half);
+    return shares;
+  }
+  std::vector<int> shares(n, 1);
+  for (int left = edges - static_cast<int>(n); left > 0; --left) {
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < n; ++i)
+      if (parts[i] * shares[most] > parts[most] * shares[i] * (1 + kInRange)) most = i;
+    ++shares[most];
+  }
+  return shares;
+}
+
+/// Around the last row. Where no width is given each row is as high as edges at its beginning are long.
+double outer_length(const WasherSpec& washer, double length, int edges) {
+  if (washer.width > 0) return length + 2 * std::numbers::pi * washer.width;
+  return length * std::pow(1 + 2 * std::numbers::pi / edges, washer.rows);
+}
+
+/// An even number: edges at the hole and around the last row are as long as the size, in the mean.
+int edges_for(const WasherSpec& washer, double length, double size) {
+  const auto miss = [&](int n) {
+    return std::log(std::sqrt(length * outer_length(washer, length, n)) / (n * size));
+  };
+  int n = std::max(kFewestEdges, 2 * static_cast<int>(length / size / 2));
+  while (miss(n) > 0 && std::abs(miss(n + 2)) < miss(n)) n += 2;
+  return n;
+}
+
+/// Refuses what is no range, and two that share more than an end. `Spec`: WasherSpec or FilletRows.
+template <class Spec>
+void check_ranges(const std::vector<Spec>& specs, const char* what) {
+  for (const Spec& s : specs) {
+    if (!(s.least >= 0) || !(s.most > 0) || !(s.most >= s.least) || !std::isfinite(s.most))
+      throw InputError(fmt::format("{}: {} from {} to {}: expected two lengths, the lesser first", s.where,
+                                   what, s.least, s.most));
+    if (s.rows < 1) throw InputError(fmt::format("{}: {} rows: expected at least 1", s.where, s.rows));
+    for (const Spec* other = specs.data(); other != &s; ++other)
+      if (s.least < other->most && other->least < s.most)
+        throw InputError(fmt::format("{}: {} from {} to {} overlap those from {} to {} ({})", s.where, what,
+                                     s.least, s.most, other->least, other->most, other->where));
+  }
+}
+
+}  // namespace
+
+double Hole::length() const { return std::accumulate(parts.begin(), parts.end(), 0.0); }
+
+Vec3 Hole::middle() const {
+  return (1.0 / static_cast<double>(outline.size())) *
+         std::accumulate(outline.begin(), outline.end(), Vec3{});
+}
+
+std::optional<double> hole_diameter(const std::vector<Vec3>& outline) {
+  if (outline.size() < 6 || !(norm(area_of(outline)) > 0)) return std::nullopt;
+  const std::vector<Vec2> flat = in_its_plane(outline);
+  double turns = 0;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    const Vec2 in = flat[(i + 1) % flat.size()] - flat[i],
+               out = flat[(i + 2) % flat.size()] - flat[(i + 1) % flat.size()];
+    const double turn = std::abs(std::atan2(cross(in, out), dot(in, out)));
+    if (!(turn <= kMostTurn)) return std::nullopt;
+    turns += turn;
+  }
+  if (turns > kMostTurns * 2 * std::numbers::pi) return std::nullopt;
+  return diameter_of(flat);
+}
+
+HoleRoom::HoleRoom(std::vector<Wall> walls) : walls_(std::move(walls)) {
+  std::vector<Box<Vec3>> boxes;
+  for (const Wall& wall : walls_) boxes.push_back(Box<Vec3>::around(wall.ends));
+  tree_ = BoxTree<Vec3>(boxes);
+}
+
+std::array<double, 2> HoleRoom::around(const Hole& hole, int number, double reach) const {
+  std::array<double, 2> room = {reach, reach};
+  const std::size_t n = hole.outline.size();
+  const double step = hole.diameter / 16;  // what it misses is far less
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 side = hole.outline[(i + 1) % n] - hole.outline[i];
+    const int places = 1 + static_cast<int>(norm(side) / step);
+    for (int k = 0; k < places; ++k) {
+      const Vec3 x = hole.outline[i] + (double(k) / places) * side;
+      double limit = std::max(room[0] * room[0], room[1] * room[1]);
+      tree_.nearest(x, limit, [&](int w) {
+        const Wall& wall = walls_[w];
+        if (wall.hole == number) return;
+        double& least = room[wall.hole < 0 ? 0 : 1];
+        least = std::min(least, distance_to_segment(x, wall.ends[0], wall.ends[1]));
+        limit = std::max(room[0] * room[0], room[1] * room[1]);
+      });
+    }
+  }
+  return room;
+}
+
+const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole) {
+  const auto at = std::ranges::find_if(washers, [&](const WasherSpec& w) {
+    return hole.diameter >= (1 - kInRange) * w.least && hole.diameter <= (1 + kInRange) * w.most;
+  });
+  return at == washers.end() ? nullptr : &*at;
+}
+
+std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
+                                    const HoleRoom& room, std::vector<Warning>& warnings) {
+  const double length = hole.length();
+  const int edges = washer.edges > 0 ? washer.edges : edges_for(washer, length, size);
+  const double asked = (outer_length(washer, length, edges) - length) / (2 * std::numbers::pi) / washer.rows;
+  const std::string label = fmt::format("{}: the hole of diameter {:.4g} at {}", washer.where, hole.diameter,
+                                        show_point(hole.middle()));
+  if (edges < static_cast<int>(hole.parts.size())) {
+    warnings.push_back({"holes without rows", 1,
+                        fmt::format("{} gets no rows: it consists of {} curves, and has {} edges", label,
+                                    hole.parts.size(), edges)});
+    return std::nullopt;
+  }
+  const auto [plain, shared] = room.around(hole, number, (2 * washer.rows + 2) * asked);
+  for (int rows = washer.rows; rows > 0; --rows) {
+    const double height = std::min({asked, plain / (rows + 1), shared / (2 * rows + 1)});
+    if (height < kLeastHeight * asked) continue;
+    if (rows < washer.rows || height < asked)
+      warnings.push_back(
+          {"holes with less room for rows than asked for", asked * washer.rows / (rows * height),
+           fmt::format("{} gets {} of {:.3g}, not {} of {:.3g}: something is {:.3g} away", label,
+                       counted(rows, "row"), height, washer.rows, asked, std::min(plain, shared))});
+    return HoleRows{rows, height, share_edges(hole.parts, edges)};
+  }
+  warnings.push_back({"holes without rows", 1,
+                      fmt::format("{} gets no rows: something is {:.3g} away, and a row is {:.3g} high",
+                                  label, std::min(plain, shared), asked)});
+  return std::nullopt;
+}
+
+void check_washers(const std::vector<WasherSpec>& washers, const std::vector<FilletRows>& fillets) {
+  check_ranges(washers, "diameters");
+  check_ranges(fillets, "radii");
+  for (const WasherSpec& w : washers) {
+    if (w.edges != 0 && (w.edges < kFewestAsked || w.edges % 2 != 0))
+      throw InputError(fmt::format("{}: {} edges around holes: expected an even number, {} at least", w.where,
+                                   w.edges, kFewestAsked));
+    if (!(w.width >= 0) || !std::isfinite(w.width))
+      throw InputError(fmt::format(
+          "{}: rows of width {}: expected a length above 0, or 0 for that of the edges", w.where, w.width));
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "base/warning.h"
+#include "delquad/model.h"
+
+namespace delquad {
+
+/// A smooth and convex outline of a hole.
+struct Hole {
+  std::vector<Vec3> outline;  ///< once around, the first point is not repeated
+  std::vector<double> parts;  ///< lengths of the curves that it consists of, in their order
+  double diameter = 0;        ///< of an oval one: the least width
+  double length() const;
+  Vec3 middle() const;
+};
+/// The diameter; nothing of what has corners of more than 50 degrees or is not convex.
+std::optional<double> hole_diameter(const std::vector<Vec3>& outline);
+
+/// How far a hole is from all else that bounds its region.
+class HoleRoom {
+ public:
+  struct Wall {
+    std::array<Vec3, 2> ends;
+    int hole = -1;  ///< that gets rows, too
+  };
+  explicit HoleRoom(std::vector<Wall> walls);
+  /// From other walls, and from other holes with rows; as much as `reach` where there is nothing.
+  std::array<double, 2> around(const Hole& hole, int number, double reach) const;
+
+ private:
+  std::vector<Wall> walls_;
+  BoxTree<Vec3> tree_;
+};
+
+/// Rows around a hole.
+struct HoleRows {
+  int rows = 0;
+  double height = 0;       ///< of each
+  std::vector<int> edges;  ///< on each part of the outline
+};
+/// The range that a hole falls into; null: none.
+const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
+/// Fewer and lower rows where there is less room: to walls a row is left free, and between two holes with
+/// rows one, too. Nothing where there is no room for one of .6 of its height. Warnings tell of both.
+std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
+                                    const HoleRoom& room, std::vector<Warning>& warnings);
+
+/// Refuses numbers out of range, odd numbers of edges, and ranges that overlap.
+void check_washers(const std::vector<WasherSpec>& washers, const std::vector<FilletRows>& fillets);
+
+}  // namespace delquad

@@ -1,0 +1,143 @@
+#include "features/washers/planar_washers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "base/predicates.h"
+#include "features/washers/hole_rows.h"
+#include "geometry/mesh/entity_names.h"
+#include "geometry/planar/curve_pieces.h"
+#include "geometry/planar/model_chain.h"
+
+namespace delquad {
+namespace {
+
+/// Chords of a curve.
+constexpr int kCurveChords = 64;
+
+/// A loop once around.
+struct SampledLoop {
+  std::vector<Vec2> points;
+  std::vector<int> curves;      ///< one after the other
+  std::vector<double> lengths;  ///< of each
+};
+
+std::vector<Vec2> sample(const Curve& curve, bool forward) {
+  std::vector<double> at = curve.fixed_parameters();
+  at.insert(at.begin(), 0);
+  at.push_back(1);
+  const int chords = std::max(1, kCurveChords / static_cast<int>(at.size() - 1));
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i)
+    for (int k = 0; k < chords; ++k) points.push_back(curve.point(at[i] + k * (at[i + 1] - at[i]) / chords));
+  points.push_back(curve.point(1));
+  if (!forward) std::ranges::reverse(points);
+  return points;
+}
+
+SampledLoop sample(const PlanarModel& model, const ModelChain& chain, std::vector<int> curves) {
+  SampledLoop loop;
+  int node = chain.curve_ends[curves[0]][0];
+  while (!curves.empty()) {
+    const auto next = std::ranges::find_if(
+        curves, [&](int c) { return chain.curve_ends[c][0] == node || chain.curve_ends[c][1] == node; });
+    const int curve = *next;
+    curves.erase(next);
+    const auto& ends = chain.curve_ends[curve];
+    const bool forward = ends[0] == node;
+    node = ends[forward ? 1 : 0];
+    const std::vector<Vec2> points = sample(*model.curves[curve].shape, forward);
+    double& length = loop.lengths.emplace_back(0);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) length += norm(points[i + 1] - points[i]);
+    loop.points.insert(loop.points.end(), points.begin(), points.end() - 1);
+    loop.curves.push_back(curve);
+  }
+  return loop;
+}
+
+bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
+    if ((a.y <= x.y) != (b.y <= x.y) && (orient2d(a, b, x) > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+std::vector<Vec3> in_space(const std::vector<Vec2>& points) {
+  std::vector<Vec3> lifted;
+  for (const Vec2& x : points) lifted.push_back({x.x, x.y, 0});
+  return lifted;
+}
+
+}  // namespace
+
+MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std::vector<Warning>& warnings) {
+  const std::vector<WasherSpec> washers = std::exchange(problem.washers, {});
+  const PlanarModel& model = std::get<PlanarModel>(problem.model);
+  const ModelChain chain = chain_model(model);
+  std::vector<SampledLoop> sampled;
+  for (const ModelLoop& loop : chain.loops) sampled.push_back(sample(model, chain, loop.curves));
+  std::vector<Hole> holes(chain.loops.size());
+  std::vector<const WasherSpec*> of_hole(holes.size(), nullptr);
+  std::vector<int> hole_of(model.curves.size(), -1);
+  for (std::size_t l = 0; l < holes.size(); ++l) {
+    holes[l] = {in_space(sampled[l].points), sampled[l].lengths};
+    const auto diameter = hole_diameter(holes[l].outline);
+    // Loops without a name in others are holes, see regions_of_loops().
+    const bool is_hole =
+        chain.loops[l].region.empty() && std::ranges::any_of(sampled, [&](const SampledLoop& other) {
+          return &other != &sampled[l] && encloses(other.points, sampled[l].points[0]);
+        });
+    if (!diameter || !is_hole) continue;
+    holes[l].diameter = *diameter;
+    of_hole[l] = washer_of(washers, holes[l]);
+    if (of_hole[l] == nullptr) continue;
+    for (const int c : sampled[l].curves) hole_of[c] = static_cast<int>(l);
+  }
+  std::vector<HoleRoom::Wall> walls;
+  for (std::size_t c = 0; c < model.curves.size(); ++c) {
+    const std::vector<Vec3> points = in_space(sample(*model.curves[c].shape, true));
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      walls.push_back({{points[i], points[i + 1]}, hole_of[c]});
+  }
+  for (const ModelPoint& point : model.points) {
+    const Vec3 at{point.at.x, point.at.y, 0};
+    walls.push_back({{at, at}});
+  }
+  const HoleRoom room(std::move(walls));
+  std::set<int> divided;  // curves
+  for (const CurveDivision& division : problem.divisions)
+    for (const int c : entities_named(curve_entities(model), "curve", division.name)) divided.insert(c);
+  for (std::size_t l = 0; l < holes.size(); ++l) {
+    if (of_hole[l] == nullptr) continue;
+    const auto rows =
+        rows_around(holes[l], static_cast<int>(l), *of_hole[l], size(holes[l].outline[0]), room, warnings);
+    if (!rows) continue;
+    // Heights of layers are those of their quads, between nodes that turn.
+    const double turned =
+        std::cos(std::numbers::pi / std::accumulate(rows->edges.begin(), rows->edges.end(), 0));
+    LayerSpec layer{.on = {},
+                    .first = turned * rows->height,
+                    .growth = 1,
+                    .number = rows->rows,
+                    .where = of_hole[l]->where};
+    const std::vector<int>& curves = sampled[l].curves;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      layer.on.push_back(fmt::format("curve_{}", curves[i] + 1));
+      if (divided.insert(curves[i]).second)
+        problem.divisions.push_back({.name = layer.on.back(), .edges = rows->edges[i], .where = layer.where});
+    }
+    problem.layers.push_back(std::move(layer));
+  }
+  return problem;
+}
+
+}  // namespace delquad
