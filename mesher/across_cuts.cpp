@@ -104,6 +104,7 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   problem.max_elements = prepared.settings.max_elements;
   PreparedProblem again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
+  again.size.asked = prepared.size.asked;
   for (PreparedPatch& patch : again.patches)
     patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;
   return again;

@@ -18,6 +18,7 @@
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "features/given/given_worst.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
@@ -147,8 +148,12 @@ std::vector<char> without_lifting(const Finishing& f) {
 
 bool lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
+  const Options& options = on.prepared.settings.options;
+  // Straight limits say nothing of curved elements.
+  const bool stays = is_curved(on) || (on.prepared.is_given_surface() && repair_options(options).keep_given);
   const LiftingSummary lifted =
-      lift_bad_quads({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
+      lift_bad_quads({on.prepared, options, on.state.patches, left_out, on.state.nodes},
+                     stays ? nullptr : &asked_size(on.prepared));
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
   on.result.lifting_cost = lifted.cost;
   add_summary(on.result.log, lifted);
@@ -297,7 +302,8 @@ const OptionTable<RepairOptions>& repair_table() {
                 .help = "of surfaces: whether edges and quads that two faces have in common are parted"},
                &RepairOptions::part_twins)
           .add({.name = "lift_bad_quads",
-                .help = "of surfaces: whether quads that are bad in space are lifted there"},
+                .help = "of surfaces: whether quads that are bad in space are lifted there, and those "
+                        "that fail mended"},
                &RepairOptions::lift_bad_quads)
           .add({.name = "flat_corners",
                 .help = "of curved elements: whether quads with flat corners get a ring of quads"},

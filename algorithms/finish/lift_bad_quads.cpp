@@ -23,6 +23,8 @@ namespace {
 /// Quads below this eta in space are lifted, in so many sweeps.
 constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
+/// Those beyond what is asked for are mended in so many.
+constexpr int kMendingSweeps = 6;
 /// Quads of this eta and less are flat: hardly better than inverted.
 constexpr double kFlat = 1e-3;
 /// Rings are put around what is bad so many times at most.
@@ -31,6 +33,8 @@ constexpr int kRingPasses = 3;
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 /// Places of vertices that are tried in all, see lift_worst_on_surface(): some ten seconds.
 constexpr long long kMostCost = 8'000'000;
+/// And for mending: a second.
+constexpr long long kMostMending = 1'000'000;
 
 /// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
 constexpr int kUnsound = 1000;
@@ -75,19 +79,26 @@ std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
   return which;
 }
 
-/// Returns how many vertices moved.
-int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, Budget& trials,
-             const LiftedBall& ball = {}) {
+/// By the tracks of these patches. Returns how many vertices moved.
+template <class Move>
+int move_on_tracks(const AllPatches& in, const std::vector<std::size_t>& which, const Move& move) {
   const PreparedSurface& surface = *in.prepared.surface;
-  std::vector<SurfaceTracks::Patch> lifted;
+  std::vector<SurfaceTracks::Patch> moving;
   for (const std::size_t i : which)
-    lifted.push_back({&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &in.patches[i].quads,
+    moving.push_back({&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &in.patches[i].quads,
                       &in.patches[i].inside});
-  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(lifted));
+  SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(moving));
   std::vector<Vec3> places = tracks.points();
-  const int moved = lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, trials, ball);
+  const int moved = move(tracks, places);
   if (moved > 0) tracks.store(places);
   return moved;
+}
+
+int lift_all(const AllPatches& in, const std::vector<std::size_t>& which, Budget& trials,
+             const LiftedBall& ball = {}) {
+  return move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
+    return lift_worst_on_surface(tracks, places, kPoorInSpace, kLiftSweeps, trials, ball);
+  });
 }
 
 struct BadQuad {
@@ -296,7 +307,7 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
 
 }  // namespace
 
-LiftingSummary lift_bad_quads(const AllPatches& in) {
+LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size) {
   LiftingSummary summary;
   const std::vector<std::size_t> which = patches_of_quads(in);
   place_inside(in);
@@ -328,6 +339,11 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
     bad = std::move(left);
   }
   while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  Budget mending(kMostMending);
+  if (size != nullptr && total(bad) < kUnsound)
+    summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
+      return mend_failing_on_surface(tracks, places, *size, kMendingSweeps, mending);
+    });
   summary.cost = kMostCost - cost.left();
   if (cost.is_spent() && !bad.empty())
     summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;

@@ -30,8 +30,9 @@ struct Counters<LiftingSummary> {
 /// may have to give way: lifts those that are poor in space, see lift_worst_on_surface(). What is inverted,
 /// folded or turned away from the model then gets a ring of quads inside, which is lifted again and kept if
 /// fewer are bad. Last, quads are merged, and edges turned or opened, around what is bad still or flat, one
-/// at a time, and what helps is kept. Patches of quads hold their places in space afterwards. Returns what
-/// was done.
-LiftingSummary lift_bad_quads(const AllPatches& in);
+/// at a time, and what helps is kept. Where all is sound then, quads that fail by `size` are mended, see
+/// mend_failing_on_surface(); null: none are. Patches of quads hold their places in space afterwards. Returns
+/// what was done.
+LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size = nullptr);
 
 }  // namespace delquad

@@ -64,8 +64,9 @@ inline int ideal_quads(double right_angles) {
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
 /// What engineers ask of quads (criteria "batch"): sides over the wanted size, longest over shortest side,
-/// corners from 40 to 140 degrees.
-inline constexpr double kAskedShort = 0.33, kAskedLong = 1.75, kAskedAspect = 5, kAskedEta = 4.0 / 9;
+/// corners from 40 to 140 degrees, the warpage (quad_warp(), radians).
+inline constexpr double kAskedShort = 0.33, kAskedLong = 1.75, kAskedAspect = 5, kAskedEta = 4.0 / 9,
+                        kAskedWarp = std::numbers::pi / 9;
 /// Whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the least.
 inline bool is_beyond_asked(double shortest, double longest, double aspect, double sine) {
   static const double asked_sine = sine_of_eta(kAskedEta);

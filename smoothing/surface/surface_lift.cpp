@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 
@@ -29,12 +32,26 @@ constexpr double kTurnedOver = 2;
 /// alone would let nodes run into each other.
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
+/// Mending: what quads count that fail, and by how much they do (as a logarithm, 1 at most), beside what
+/// all lack in eta; limits are kept with this to spare (as a part); a move that gains less is not made.
+constexpr double kFailing = 100, kBeyond = 20, kToSpare = 0.02, kLeastMending = 0.02;
+/// What one quad less that fails may cost in eta, summed up over those around it.
+constexpr double kMendingPrice = 1;
+/// Steps of a search; it ends after so many without a gain. Rounds for the vertices of a quad.
+constexpr int kMendingSteps = 8, kFruitless = 3, kMendingRounds = 3;
+
 /// A trial on CAD costs so many on triangles, as it asks for the nearest point of a face.
 constexpr long long kCostOnCad = 10;
+
+constexpr double kDiagonal = std::numbers::sqrt2 / 2;
+constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
+                              {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
 
 /// Places halfway between two neighbours are tried for so many (each is there twice), as their pairs grow
 /// with the square.
 constexpr std::size_t kMostPaired = 24;
+
+const LiftedBall kEverywhere;
 
 class SurfaceLift {
  public:
@@ -52,42 +69,137 @@ class SurfaceLift {
         warp2_(std::pow(std::tan((1 - eta / kWarpFactor) * std::numbers::pi / 2), 2)),
         tried_(places.size(), 0),
         moved_(places.size(), 0) {
-    first_.assign(places.size() + 1, 0);
-    for (const auto& quad : quads_)
-      for (const int v : quad) ++first_[v + 1];
-    for (std::size_t v = 0; v < places.size(); ++v) first_[v + 1] += first_[v];
-    corners_.resize(first_.back());
-    std::vector<int> fill(first_.begin(), first_.end() - 1);
-    for (std::size_t q = 0; q < quads_.size(); ++q)
-      for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
+    find_corners();
+  }
+  /// Of quads beyond what is asked for, see is_beyond_asked(), for this size.
+  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
+      : SurfaceLift(tracks, places, kAskedEta, trials, kEverywhere) {
+    size_ = &size;
   }
 
   /// Ends after max_sweeps; each tries every vertex of a bad quad once. Or once the trials are spent.
   int run(int max_sweeps) {
     outward_ = tracks_.normals();
+    if (size_ != nullptr) find_limits();
     bool again = true;
     for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
       again = false;
       for (const int q : quads_below()) {
         check_cancelled();
-        if (quality(q) >= eta_) continue;
-        for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
+        if (!is_bad(q)) continue;
+        if (size_ != nullptr)
+          again = mend(q) || again;
+        else
+          for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
       }
     }
     return static_cast<int>(std::ranges::count_if(moved_, [](int when) { return when > 0; }));
   }
 
  private:
+  void find_corners() {
+    first_.assign(places_.size() + 1, 0);
+    for (const auto& quad : quads_)
+      for (const int v : quad) ++first_[v + 1];
+    for (std::size_t v = 0; v < places_.size(); ++v) first_[v + 1] += first_[v];
+    corners_.resize(first_.back());
+    std::vector<int> fill(first_.begin(), first_.end() - 1);
+    for (std::size_t q = 0; q < quads_.size(); ++q)
+      for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
+  }
+
   std::vector<int> quads_below() const {
     std::vector<char> is_below(quads_.size(), 0);
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
       for (int q = static_cast<int>(begin); q < static_cast<int>(end); ++q)
-        is_below[q] = is_in_ball(q) && !is_clearly_good(q) && quality(q) < eta_;
+        is_below[q] = is_in_ball(q) && (size_ != nullptr || !is_clearly_good(q)) && is_bad(q);
     });
     std::vector<int> below;
     for (std::size_t q = 0; q < is_below.size(); ++q)
       if (is_below[q]) below.push_back(static_cast<int>(q));
     return below;
+  }
+
+  bool is_bad(int q) const { return size_ != nullptr ? beyond(q) > 0 : quality(q) < eta_; }
+
+  /// Moves the vertices of a quad, and where fewer quads fail then, for not too much of eta, those near it to
+  /// what is best for eta; else they go back.
+  bool mend(int q) {
+    std::vector<int> around;
+    for (const int v : quads_[q])
+      for (int i = first_[v]; i < first_[v + 1]; ++i) around.push_back(corners_[i] / 4);
+    sort_unique(around);
+    const auto n_failing = [&] { return std::ranges::count_if(around, [&](int o) { return is_bad(o); }); };
+    std::array<SurfaceTracks::Spot, 4> spots;
+    std::array<int, 4> moved;
+    for (int k = 0; k < 4; ++k) {
+      const int v = quads_[q][k];
+      spots[k] = {tracks_.position(v), places_[v]}, moved[k] = moved_[v];
+    }
+    const auto lack = [&] {
+      return std::accumulate(around.begin(), around.end(), 0.0,
+                             [&](double sum, int o) { return sum + 1 - std::min(quality(o), 1.0); });
+    };
+    const auto before = n_failing();
+    const double lacked = lack();
+    bool again = true;
+    for (int round = 0; round < kMendingRounds && again; ++round) {
+      again = false;
+      for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
+      for (int k = 0; k < 4 && is_bad(q); ++k)
+        again = (!trials_.is_spent() && shift({quads_[q][k], quads_[q][(k + 1) % 4]})) || again;
+    }
+    const auto fewer = before - n_failing();
+    if (fewer > 0 && lack() - lacked < kMendingPrice * static_cast<double>(fewer)) {
+      std::vector<int> near;
+      for (const int o : around) near.insert(near.end(), quads_[o].begin(), quads_[o].end());
+      sort_unique(near);
+      for (int round = 0; round < kMendingRounds; ++round)
+        for (const int v : near)
+          if (!trials_.is_spent()) improve(v);
+      return true;
+    }
+    for (int k = 0; k < 4; ++k) {
+      const int v = quads_[q][k];
+      if (moved_[v] != moved[k]) tracks_.put(v, spots[k]), places_[v] = spots[k].place, moved_[v] = moved[k];
+    }
+    return false;
+  }
+
+  void find_limits() {
+    delta_.resize(places_.size());
+    least_.resize(quads_.size());
+    parallel_ranges(places_.size(), [&](std::size_t begin, std::size_t end) {
+      int hint = -1;
+      for (std::size_t v = begin; v < end; ++v) delta_[v] = size_->at(places_[v], hint);
+    });
+    parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) least_[q] = quality(static_cast<int>(q));
+    });
+    double worst = 1, warp = 0;
+    for (std::size_t q = 0; q < quads_.size(); ++q)
+      if (least_[q] < worst) worst = std::min(worst, quality(static_cast<int>(q), -1, &warp));
+    for (double& least : least_) least = std::min(least, std::max(worst, kAskedEta));
+  }
+
+  /// By how much a quad is beyond what is asked for, as logarithms; 0: it is not.
+  double beyond(int q) const {
+    const auto& v = quads_[q];
+    double warp = 0, sum = 0, least = std::numeric_limits<double>::max(), most = 0;
+    const auto add = [&](double ratio) {
+      sum += std::max(0.0, std::log(std::max(ratio, kTinyLength)) + kToSpare);
+    };
+    for (int k = 0; k < 4; ++k) {
+      const double length = norm(places_[v[(k + 1) % 4]] - places_[v[k]]);
+      const double part = 2 * length / (delta_[v[k]] + delta_[v[(k + 1) % 4]]);
+      least = std::min(least, length), most = std::max(most, length);
+      add(kAskedShort / std::max(part, kTinyLength));
+      add(part / kAskedLong);
+    }
+    add(most / std::max(least, kTinyLength) / kAskedAspect);
+    add((1 - quality(q, -1, &warp)) / (1 - kAskedEta));
+    add(warp / kAskedWarp);
+    return sum;
   }
 
   bool is_in_ball(int q) const {
@@ -98,7 +210,8 @@ class SurfaceLift {
 
   /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
   /// the corner `skipped` (none: -1). Or what its warp counts as where that is less: 0 for a folded quad.
-  double quality(int q, int skipped = -1) const {
+  /// `warp`: gets it instead, in radians.
+  double quality(int q, int skipped = -1, double* warp = nullptr) const {
     const auto& v = quads_[q];
     const Vec3& outward = outward_[q];
     Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
@@ -115,11 +228,13 @@ class SurfaceLift {
       if (dot(c, normal) < 0) angle = 2 * std::numbers::pi - angle;
       least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
     }
+    double most_warp = 0;
     for (int k = 0; k < 2; ++k) {
       const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
-      const double warp = std::atan2(norm(cross(m, n)), dot(m, n));
-      least = std::min(least, kWarpFactor * (1 - warp * (2 / std::numbers::pi)));
+      most_warp = std::max(most_warp, std::atan2(norm(cross(m, n)), dot(m, n)));
     }
+    if (warp != nullptr) *warp = most_warp;
+    if (warp == nullptr) least = std::min(least, kWarpFactor * (1 - most_warp * (2 / std::numbers::pi)));
     return turned_over ? least - kTurnedOver : least;
   }
 
@@ -161,17 +276,32 @@ class SurfaceLift {
     return shortest;
   }
 
+  /// That edges at a vertex may not fall below; what is to be mended: nor below what is asked for and was.
+  double least_edge(int v) const {
+    const double shortest = shortest_edge(v, start_);
+    if (size_ != nullptr) return std::min(shortest, kAskedShort * delta_[v]);
+    return (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest;
+  }
+
   /// What the quads around v lack, counting in each the corners that the place of v changes: all but the one
   /// opposite.
   double lack_around(int v) const {
     double sum = 0;
-    for (int i = first_[v]; i < first_[v + 1]; ++i)
+    for (int i = first_[v]; size_ != nullptr && i < first_[v + 1]; ++i) {
+      const int q = corners_[i] / 4;
+      const double eta = quality(q), by = beyond(q);
+      if (eta < least_[q]) return std::numeric_limits<double>::infinity();
+      sum += 1 - std::min(eta, 1.0);
+      if (by > 0) sum += kFailing + kBeyond * std::min(by, 1.0);
+    }
+    for (int i = first_[v]; size_ == nullptr && i < first_[v + 1]; ++i)
       sum += lack(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
     return sum;
   }
   static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
 
-  static bool is_gain(double lack, double before) {
+  bool is_gain(double lack, double before) const {
+    if (size_ != nullptr) return lack < before - kLeastMending;
     return lack < before - std::max(kLeastGain * before, kLeastLack);
   }
 
@@ -208,9 +338,8 @@ class SurfaceLift {
     tried_[v] = ++now_;
     const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
     const double before = lack_around(v);
-    if (!is_gain(0, before)) return false;  // whatever would be found
-    const double shortest =
-        (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest_edge(v, start_);
+    if (size_ == nullptr && !is_gain(0, before)) return false;  // whatever would be found
+    const double shortest = least_edge(v);
     SurfaceTracks::Spot at = start;
     double best = before;
     const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
@@ -228,18 +357,56 @@ class SurfaceLift {
       for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
     places_[v] = at.place;
     auto [along, across] = axes(v, free);
-    constexpr double kDiagonal = std::numbers::sqrt2 / 2;
-    constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
-                                  {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
-    for (int step = 0; step < kSteps && best > 0; ++step) {
+    const int steps = size_ != nullptr ? kMendingSteps : kSteps;
+    for (int step = 0, fruitless = 0; step < steps && best > 0; ++step) {
+      if (size_ != nullptr && fruitless == kFruitless && best == before) break;
       const SurfaceTracks::Spot centre = at;
       const double last = best;
       for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
-      if (best == last) along = 0.5 * along, across = 0.5 * across;
+      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
     }
     const bool gained = is_gain(best, before);
     places_[v] = gained ? at.place : start.place;
     if (gained) tracks_.put(v, at), moved_[v] = ++now_;
+    return gained;
+  }
+
+  /// The same for both ends of an edge that move by the same way: alone, each would warp quads more.
+  bool shift(std::array<int, 2> ends) {
+    std::array<SurfaceTracks::Spot, 2> start, at;
+    for (const int k : {0, 1}) {
+      if (norm(tracks_.axes(ends[k])[0]) == 0) return false;
+      start[k] = at[k] = {tracks_.position(ends[k]), places_[ends[k]]};
+    }
+    const std::array shortest{least_edge(ends[0]), least_edge(ends[1])};
+    const auto lack = [&] {
+      for (const int k : {0, 1})
+        if (shortest_edge(ends[k], places_) < shortest[k]) return std::numeric_limits<double>::infinity();
+      return lack_around(ends[0]) + lack_around(ends[1]);
+    };
+    const double before = lack_around(ends[0]) + lack_around(ends[1]);
+    double best = before;
+    const int leader = ends[tracks_.is_on_curve(ends[0]) ? 1 : 0];
+    auto [along, across] = axes(leader, tracks_.axes(leader));
+    for (int step = 0, fruitless = 0; step < kMendingSteps && fruitless < kFruitless; ++step) {
+      const std::array centre = at;
+      const double last = best;
+      for (const Vec2 d : kCompass) {
+        trials_.spend(2 * cost_);
+        std::array<SurfaceTracks::Spot, 2> trial;
+        for (const int k : {0, 1}) {
+          trial[k] = tracks_.spot_near(ends[k], centre[k], centre[k].place + d.x * along + d.y * across);
+          places_[ends[k]] = trial[k].place;
+        }
+        if (const double lacking = lack(); lacking < best) best = lacking, at = trial;
+      }
+      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
+    }
+    const bool gained = is_gain(best, before);
+    for (const int k : {0, 1}) {
+      places_[ends[k]] = gained ? at[k].place : start[k].place;
+      if (gained) tracks_.put(ends[k], at[k]), moved_[ends[k]] = ++now_;
+    }
     return gained;
   }
 
@@ -257,6 +424,9 @@ class SurfaceLift {
   std::vector<Vec3> outward_;         ///< normals at the quads where these were at first
   std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
   int now_ = 0;
+  const SizeField* size_ = nullptr;  ///< of quads that fail
+  std::vector<double> delta_;        ///< by vertex, where it was at first
+  std::vector<double> least_;        ///< of each quad, the quality that it must keep
 };
 
 }  // namespace
@@ -264,6 +434,11 @@ class SurfaceLift {
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball) {
   return SurfaceLift(tracks, places, eta, trials, ball).run(max_sweeps);
+}
+
+int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+                            int max_sweeps, Budget& trials) {
+  return SurfaceLift(tracks, places, size, trials).run(max_sweeps);
 }
 
 }  // namespace delquad

@@ -24,4 +24,10 @@ struct LiftedBall {
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball = {});
 
+/// The same for quads beyond what is asked for, see is_beyond_asked(), or warped more than kAskedWarp, sides
+/// over `size`: vertices of such a quad move where fewer quads fail by that, for not too much of eta. No eta
+/// falls below kAskedEta, nor below the worst of all, and where it was below it does not fall.
+int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+                            int max_sweeps, Budget& trials);
+
 }  // namespace delquad

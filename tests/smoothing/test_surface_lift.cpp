@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fields/fields.h"
 #include "metrics/metrics.h"
 #include "metrics/shape.h"
 #include "patches/places_inside.h"
@@ -133,6 +134,19 @@ TEST(SurfaceLift, WhatIsGoodStays) {
   EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, trials), 0);
   EXPECT_EQ(m.places, before);
   EXPECT_EQ(trials.left(), 1000);
+}
+
+TEST(SurfaceLift, WhatPassesIsNotMended) {
+  Meshed m(surfaces::polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
+  const auto before = m.places;
+  Budget trials(1000);
+  EXPECT_EQ(mend_failing_on_surface(*m.tracks, m.places, *make_constant_size(0.5), 6, trials), 0);
+  EXPECT_EQ(m.places, before);
+  EXPECT_EQ(trials.left(), 1000);
+  // Nothing helps against sides that are all too short.
+  EXPECT_EQ(mend_failing_on_surface(*m.tracks, m.places, *make_constant_size(5), 6, trials), 0);
+  EXPECT_EQ(m.places, before);
+  EXPECT_LT(trials.left(), 1000);
 }
 
 TEST(SurfaceLift, EndsOnceTheTrialsAreSpent) {
