@@ -149,8 +149,9 @@ std::vector<char> without_lifting(const Finishing& f) {
 bool lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
   const Options& options = on.prepared.settings.options;
-  // Straight limits say nothing of curved elements.
-  const bool stays = is_curved(on) || (on.prepared.is_given_surface() && repair_options(options).keep_given);
+  // Straight limits say nothing of curved elements. Words that end with a matching are the paper's.
+  const bool stays = is_curved(on) || on.state.of_quads.empty() ||
+                     (on.prepared.is_given_surface() && repair_options(options).keep_given);
   const LiftingSummary lifted =
       lift_bad_quads({on.prepared, options, on.state.patches, left_out, on.state.nodes},
                      stays ? nullptr : &asked_size(on.prepared));

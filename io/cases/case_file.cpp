@@ -215,8 +215,11 @@ Spec read_rows(const TomlTable& table, const std::string& range, const TomlKeys&
   table.require_known(keys);
   Spec spec;
   spec.where = table.where();
-  const Vec2 diameters = table.point(range);
-  spec.least = diameters.x, spec.most = diameters.y;
+  const std::vector<double> ends = table.numbers(range);
+  if (ends.size() != 2)
+    throw InputError(fmt::format("{}: '{}' has {} numbers: expected the least and the most", spec.where,
+                                 range, ends.size()));
+  spec.least = ends[0], spec.most = ends[1];
   spec.rows = static_cast<int>(integer_between(table, "rows", 1, 1000, spec.rows));
   if constexpr (requires { spec.edges; }) {
     spec.edges = static_cast<int>(integer_between(table, "edges", 4, kMostDivided, spec.edges));
