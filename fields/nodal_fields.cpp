@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"
+#include "delquad/fields.h"
 #include "fields/check_size.h"
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
@@ -71,7 +75,7 @@ class NodalCross final : public CrossField {
   std::vector<Cross> crosses_;
 };
 
-/// `what`: "size", "cross".
+/// `what`: "size", "cross", "metric".
 void check_nodal(const Mesh& mesh, std::size_t n_values, const std::string& what) {
   const std::string where = "the mesh of the nodal " + what;
   require_readable(mesh, where);
@@ -108,6 +112,28 @@ std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<doubl
     crosses.push_back(Cross::from_angle(theta[i]));
   }
   return std::make_unique<NodalCross>(flat, std::move(crosses));
+}
+
+MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric) {
+  check_nodal(mesh, metric.size(), "metric");
+  Mesh flat = mesh;
+  for (Vec3& p : flat.points) p.z = 0;
+  for (std::size_t i = 0; i < metric.size(); ++i)
+    if (!is_metric(metric[i]))
+      throw InputError(
+          fmt::format("the nodal metric {} is [{:.6g}, {:.6g}, {:.6g}] (m11, m12, m22) at {}: expected a "
+                      "finite, positive "
+                      "definite tensor whose lengths differ by a factor of less than {:g}",
+                      i, metric[i].xx, metric[i].xy, metric[i].yy,
+                      show_point(Vec2{mesh.points[i].x, mesh.points[i].y}), kMostAspect));
+  return [nodes = std::make_shared<const Nodes>(flat), metric = std::move(metric)](
+             std::span<const Vec2> points, std::span<Tensor2> at) {
+    int hint = -1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [v, w] = nodes->at({points[i].x, points[i].y, 0}, hint);
+      at[i] = log_mean(std::array{metric[v[0]], metric[v[1]], metric[v[2]]}, w);
+    }
+  };
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #include "fields/size_aware_cross_field.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -138,6 +139,7 @@ class Unknowns {
           if (tri.neighbours[t][k] < 0) alignment[unknown[sides.of_triangle[t][k]]] = CrossDiffusion::kGiven;
       of_patch.push_back(
           {&tri, sides, unknown, std::vector<double>(sides.count, 0), &connections[p].phase_turns()});
+      if (patches[p].pull) pull(patches[p].pull, connections[p], of_patch.back());
     }
   }
 
@@ -156,6 +158,27 @@ class Unknowns {
     }
     z[shared] = 1;
     alignment[shared] = seam.alignment;
+  }
+
+  /// Counts inner sides from what they are drawn to.
+  void pull(const CrossPullAt& pull_at, const SizeConnection& connection, PatchUnknowns& own) {
+    const TriPatch& tri = *own.tri;
+    int hint = -1;
+    std::vector<char> is_turned(own.direction.size(), 0);
+    for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
+      const auto& v = tri.triangles[t];
+      const Corners middle = middles(corners_of(tri, v));
+      const double per_length = mean_per_length(connection, v);
+      for (int k = 0; k < 3; ++k) {
+        if (tri.neighbours[t][k] < 0) continue;
+        const int side = own.sides.of_triangle[t][k];
+        const CrossPull pull = pull_at(middle[k], hint);
+        alignment[own.unknown[side]] += pull.strength * twice_area(tri, v) / 6 * per_length * per_length;
+        if (std::exchange(is_turned[side], 1) != 0) continue;
+        own.direction[side] = std::arg(to_complex(pull.cross));
+        z[own.unknown[side]] *= unit(-own.direction[side]);
+      }
+    }
   }
 
   /// In the parameter plane of a patch, side by side.
@@ -254,7 +277,8 @@ std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
   }
   Unknowns unknowns(patches, connections);
   for (const FieldSeam& seam : seams) unknowns.join(seam);
-  const bool stays_start = seams.empty() && size_dislocations < 1;
+  const bool has_pull = std::ranges::any_of(patches, [](const FieldPatch& p) { return bool(p.pull); });
+  const bool stays_start = seams.empty() && size_dislocations < 1 && !has_pull;
   if (!stays_start) {
     CrossDiffusion diffusion(unknowns.of_patch, unknowns.alignment, unknowns.z);
     for (int i = 0; i < kSteps; ++i) {

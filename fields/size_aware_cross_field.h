@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -11,12 +12,20 @@
 
 namespace delquad {
 
+/// Crosses that a field is drawn to.
+struct CrossPull {
+  Cross cross;
+  double strength;  ///< of its square difference, per area of a quad
+};
+using CrossPullAt = std::function<CrossPull(Vec2 u, int& hint)>;
+
 /// A patch of a surface, for a field on all of them.
 struct FieldPatch {
   /// Of this patch alone; its elements must be small against the length over which delta' varies.
   std::shared_ptr<const BackgroundMesh> background;
   const ParametricSize* size;
   std::shared_ptr<const CrossField> start;  ///< what the iteration starts from
+  CrossPullAt pull = nullptr;               ///< null: to nothing
 };
 
 /// A side of the boundaries of two patches, or at two places of one, across which the surface is smooth and

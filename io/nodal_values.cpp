@@ -4,9 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
+#include <string>
 #include <unordered_map>
 
 #include "base/located.h"
@@ -35,24 +38,76 @@ std::vector<double> in_order(const std::vector<std::pair<long long, double>>& va
   return result;
 }
 
-NodalValues read_msh_view(const std::filesystem::path& path, const std::string& name) {
+/// One of the components of a field that has so many.
+std::vector<std::pair<long long, double>> component(const msh::View& view, int k) {
+  if (k == 0) return view.values;
+  std::vector<std::pair<long long, double>> values = view.values;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i].second =
+        view.further[i * static_cast<std::size_t>(view.n_components - 1) + static_cast<std::size_t>(k - 1)];
+  return values;
+}
+
+/// The components `which` of a field that has `n_components`, those of a point side by side.
+NodalValues read_msh_view(const std::filesystem::path& path, const std::string& name, int n_components,
+                          std::span<const int> which) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner, true);
   const std::vector<msh::View> views = std::move(contents.views);
   std::vector<FieldInFile> fields;
   for (const msh::View& view : views) fields.push_back({view.name, view.is_of_nodes, view.n_components});
-  const msh::View& view = views[choose_field(fields, name, path.string())];
+  const msh::View& view = views[choose_field(fields, name, path.string(), n_components)];
   msh::MeshTags tags;
   NodalValues result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
-  result.values = view.is_of_nodes ? in_order(view.values, tags.points)
-                                   : means_at_points(result.mesh, in_order(view.values, tags.triangles),
-                                                     in_order(view.values, tags.quads));
+  result.values.resize(which.size() * result.mesh.points.size());
+  for (std::size_t c = 0; c < which.size(); ++c) {
+    const auto values = component(view, which[c]);
+    const std::vector<double> at_points =
+        view.is_of_nodes
+            ? in_order(values, tags.points)
+            : means_at_points(result.mesh, in_order(values, tags.triangles), in_order(values, tags.quads));
+    for (std::size_t i = 0; i < at_points.size(); ++i) result.values[which.size() * i + c] = at_points[i];
+  }
   return result;
+}
+
+/// A solution file of Medit, as Mmg and BAMG write metrics, of the mesh with the same name. `width`: numbers
+/// at each point: 1, or 3 of a tensor of the plane.
+NodalValues read_sol(const std::filesystem::path& path, std::size_t width) {
+  const std::filesystem::path mesh_file = std::filesystem::path(path).replace_extension(".mesh");
+  if (!std::filesystem::exists(mesh_file))
+    refuse("{}: its mesh is missing: expected '{}'", path.string(), mesh_file.string());
+  NodalValues result{read_mesh(mesh_file), {}};
+  constexpr int kTensor = 3;
+  TextScanner in(path);
+  long long dimension = 0;
+  while (!in.at_end()) {
+    const std::string keyword(in.token("a keyword"));
+    if (keyword == "MeshVersionFormatted") in.integer("the version", 1, 4);
+    if (keyword == "Dimension") dimension = in.integer("the dimension", 2, 3);
+    if (keyword != "SolAtVertices") continue;
+    const long long n = in.count("the number of values");
+    if (n != std::ssize(result.mesh.points))
+      in.fail("values of {} points: expected {}, as '{}' has", n, result.mesh.points.size(),
+              mesh_file.string());
+    const long long n_fields = in.integer("the number of solutions", 1, 100);
+    const long long kind = in.integer("the type of a solution", 1, kTensor);
+    if (n_fields != 1 || kind != (width == 1 ? 1 : kTensor))
+      in.fail("{} solution(s), the first of type {}: expected one of type {}", n_fields, kind,
+              width == 1 ? 1 : kTensor);
+    const std::size_t given = width == 1 ? 1 : dimension == 3 ? 6 : 3;
+    for (long long i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < given; ++k)
+        if (const double value = in.real("a value", Strays::kKept); k < width) result.values.push_back(value);
+    return result;
+  }
+  in.fail("no SolAtVertices");
 }
 
 /// Lines' own points, which a field on faces says nothing of, go.
 void require_values(NodalValues& field, const std::string& file) {
+  const std::size_t width = field.values.size() / std::max<std::size_t>(1, field.mesh.points.size());
   std::vector<char> is_used(field.mesh.points.size(), 0);
   for (const auto& e : field.mesh.triangles)
     for (const int v : e) is_used[v] = 1;
@@ -60,8 +115,9 @@ void require_values(NodalValues& field, const std::string& file) {
     for (const int v : e) is_used[v] = 1;
   for (std::size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) {
-      field.values[i] = 1;  // is never asked for
-    } else if (std::isnan(field.values[i])) {
+      field.values[width * i] = 1;  // is never asked for
+      if (width > 1) field.values[width * i + 1] = 0, field.values[width * i + 2] = 1;
+    } else if (std::isnan(field.values[width * i])) {
       const Vec3& p = field.mesh.points[i];
       refuse("{}: the field has no value at {}", file, show_point(p));
     }
@@ -71,7 +127,7 @@ void require_values(NodalValues& field, const std::string& file) {
 }  // namespace
 
 std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::string& name,
-                         const std::string& file) {
+                         const std::string& file, int n_components) {
   std::set<std::string> names;
   for (const FieldInFile& field : fields) names.insert(TextScanner::printable(field.name));
   if (fields.empty())
@@ -82,9 +138,9 @@ std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::stri
            std::filesystem::path(file).filename().string());
   for (std::size_t i = fields.size(); i-- > 0;) {
     if (!name.empty() && fields[i].name != name) continue;
-    if (fields[i].n_components == 1) return i;
-    refuse("{}: the field {} has {} components: expected one", file, TextScanner::printable(fields[i].name),
-           fields[i].n_components);
+    if (fields[i].n_components == n_components) return i;
+    refuse("{}: the field {} has {} components: expected {}", file, TextScanner::printable(fields[i].name),
+           fields[i].n_components, n_components == 1 ? "one" : std::to_string(n_components));
   }
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
@@ -110,11 +166,23 @@ std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>&
 
 bool holds_values(const std::filesystem::path& path) {
   const std::string kind = kind_of_file(path);
-  return kind == ".msh" || kind == ".vtu";
+  return kind == ".msh" || kind == ".vtu" || kind == ".sol";
 }
 
 NodalValues read_values(const std::filesystem::path& path, const std::string& name) {
-  NodalValues field = kind_of_file(path) == ".vtu" ? read_vtu_field(path, name) : read_msh_view(path, name);
+  const std::string kind = kind_of_file(path);
+  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name)
+                      : kind == ".sol" ? read_sol(path, 1)
+                                       : read_msh_view(path, name, 1, std::array{0});
+  require_values(field, path.string());
+  return field;
+}
+
+NodalValues read_tensors(const std::filesystem::path& path, const std::string& name) {
+  const std::string kind = kind_of_file(path);
+  if (kind == ".vtu") refuse("{}: tensors are read from MSH and SOL files", path.string());
+  // MSH has rows of three by three.
+  NodalValues field = kind == ".sol" ? read_sol(path, 3) : read_msh_view(path, name, 9, std::array{0, 1, 4});
   require_values(field, path.string());
   return field;
 }

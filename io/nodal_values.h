@@ -17,9 +17,9 @@ struct FieldInFile {
 };
 
 /// The index of the field `name`, the last one of several; of the only name that there is where `name` is
-/// empty. Throws InputError where there is none, or where it has several components.
+/// empty. Throws InputError where there is none, or where it has other than `n_components`.
 std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::string& name,
-                         const std::string& file);
+                         const std::string& file, int n_components = 1);
 
 /// Means, by area, of the values of the elements at each point; NaN where there is no element.
 std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>& of_triangles,

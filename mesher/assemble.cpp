@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "features/layers/add_layers.h"
+#include "features/metric/metric_plane.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/check_invariants.h"
@@ -14,6 +15,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "mesher/runner.h"
+#include "metrics/metric_measures.h"
 
 namespace delquad {
 namespace {
@@ -113,9 +115,7 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   const std::function<void()> parts[] = {
       [&] {
         const Stopwatch watch;
-        result.metrics =
-            evaluate_metrics(result.mesh, prepared.size.field.get(), prepared.size.asked.get(),
-                             prepared.settings.options, sides, quads_in_layers(prepared, result.mesh));
+        result.metrics = metrics_of(prepared, result.mesh, sides);
         metrics_time = watch.time();
       },
       [&] {
@@ -137,6 +137,21 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("metrics", sorted + metrics_time);
   if (has_report) result.log.add_time("surface report", report_time);
   result.log.add_time("soundness", soundness_time);
+}
+
+MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
+  if (!prepared.metric_plane)
+    return evaluate_metrics(mesh, prepared.size.field.get(), prepared.size.asked.get(),
+                            prepared.settings.options, sides, quads_in_layers(prepared, mesh));
+  MeshMetrics metrics = evaluate_metrics(mesh, nullptr, nullptr, prepared.settings.options, sides);
+  const MetricPlane& plane = *prepared.metric_plane;
+  const double scale = plane.scale_of(prepared.size.asked ? *prepared.size.asked : *prepared.size.field);
+  const double factor = 1 / (scale * scale);
+  metrics.values.merge(measure_by_metric(mesh, sides, [&](Vec2 x, int& hint) {
+    const Tensor2 m = plane.metric_at(x, hint);
+    return Tensor2{factor * m.xx, factor * m.xy, factor * m.yy};
+  }));
+  return metrics;
 }
 
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,

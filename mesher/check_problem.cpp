@@ -117,11 +117,15 @@ void check(const ExampleModel& model, const std::string& where) {
   if (model.name.empty()) throw InputError(where + ": the example has no name");
 }
 
-void check(const CrossSpec& cross) {
+void check(const CrossSpec& cross, bool has_metric) {
   const int given = (cross.field != nullptr) + (cross.function != nullptr);
   if (cross.kind == CrossKind::kField && given != 1)
     throw InputError(fmt::format("{}: crosses by a field need a field or a function, and have {}",
                                  cross.where, given == 0 ? "none" : "both"));
+  if (cross.kind == CrossKind::kMetric && !has_metric)
+    throw InputError(cross.where +
+                     ": directions of a metric are asked for, and there is no metric, or none "
+                     "with directions");
   if (cross.kind != CrossKind::kField && given > 0)
     throw InputError(cross.where + ": a field or a function of crosses is given, and another kind asked for");
 }
@@ -255,7 +259,7 @@ void check_problem(const MeshProblem& problem) {
       throw InputError(fmt::format("{}: the normal of a plane of symmetry has no finite length{}",
                                    problem.symmetry.where, is_flat ? " in the plane" : ""));
   for (const CurveDivision& division : problem.divisions) check_division(division);
-  check(problem.cross);
+  check(problem.cross, problem.metric.plane != nullptr);
   check_surface(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
   check_washers(problem);
   check_kind(problem);

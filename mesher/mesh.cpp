@@ -10,7 +10,7 @@
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
 #include "features/crosses/size_aware.h"
-#include "features/layers/add_layers.h"
+#include "features/metric/metric_plane.h"
 #include "features/scaling/scale_sizes.h"
 #include "io/cases/read_problem.h"
 #include "mesher/finish_steps.h"
@@ -48,13 +48,17 @@ class Steps {
 Prepared prepare_now(MeshProblem problem, Steps& steps) {
   steps.begin("boundary and fields");
   const Stopwatch reading;
-  problem = refined(read_files(std::move(problem)));
+  problem = read_files(std::move(problem));
+  std::vector<Warning> of_metric;
+  if (problem.metric.asks()) problem = in_metric_plane(std::move(problem), of_metric);
+  problem = refined(std::move(problem));
   const TimeSpent time = reading.time();
   PreparedProblem made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
   StageLog log;
   log.add_time("read", time);
   add_times(made.times, log);
   made.times = std::move(log.times);
+  made.warnings.insert(made.warnings.begin(), of_metric.begin(), of_metric.end());
   return {std::make_shared<const MeshProblem>(std::move(problem)),
           std::make_shared<const PreparedProblem>(std::move(made))};
 }
@@ -135,8 +139,10 @@ void Meshing::run(const Stage& stage) {
 
 Mesh Meshing::mesh() const {
   const PreparedProblem& prepared = state_->prepared.inside();
-  return assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
-                  std::vector<char>(prepared.boundary.regions.size()));
+  Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
+                       std::vector<char>(prepared.boundary.regions.size()));
+  if (prepared.metric_plane) to_plane(*prepared.metric_plane, mesh);
+  return mesh;
 }
 
 MeshResult Meshing::finish() {
@@ -229,15 +235,15 @@ std::optional<Cross> Prepared::cross_at(Vec2 u, int& hint) const {
 }
 
 MeshMetrics Prepared::metrics(const Mesh& made) const {
-  return evaluate_metrics(made, made_->size.field.get(), made_->size.asked.get(), made_->settings.options,
-                          sorted_half_edges(made), quads_in_layers(*made_, made));
+  return metrics_of(*made_, made, sorted_half_edges(made));
 }
 
 MeshResult Prepared::measure(Mesh of_others) const {
   MeshResult result;
   result.mesh = std::move(of_others);
-  result.metrics = evaluate_metrics(result.mesh, made_->size.field.get(), made_->size.asked.get(),
-                                    made_->settings.options);
+  result.metrics = made_->metric_plane ? metrics(result.mesh)
+                                       : evaluate_metrics(result.mesh, made_->size.field.get(),
+                                                          made_->size.asked.get(), made_->settings.options);
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(
       std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));

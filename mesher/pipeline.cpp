@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
+#include "features/metric/metric_plane.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
@@ -85,6 +86,7 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinemen
 
 PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   PreparedProblem p;
+  p.metric_plane = problem.metric.plane;
   p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
                 problem.keep_going, problem.order, problem.criteria};
   const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(PreparedProblem&)) {
@@ -171,6 +173,7 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   result.mesh = put_together(on);
   state.patches.clear();
   run_finish_steps(FinishAt::kMesh, on);
+  if (prepared.metric_plane) to_plane(*prepared.metric_plane, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, on.left_out, result);
   run_finish_steps(FinishAt::kMeasured, on);
@@ -179,7 +182,9 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   const BadQuads bad =
       judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);
   result.bad_in_corners = bad.in_corners;
-  result.bad_elsewhere = bad.elsewhere;
+  result.bad_elsewhere = prepared.metric_plane
+                             ? count_bad_quads(*prepared.metric_plane, label, result.mesh, result.warnings)
+                             : bad.elsewhere;
   judge_by_criteria(prepared, false, result);
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);

@@ -12,6 +12,7 @@
 #include "features/given/named_domain.h"
 #include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
+#include "features/metric/metric_plane.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
@@ -188,6 +189,10 @@ class PlanarSteps final : public ModelSteps {
     for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
     add_grids(problem_.mapped, domain_.mapped, p);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (problem_.cross.kind == CrossKind::kMetric)
+      make_crosses_size_aware(p, [&](Vec2 u, int& hint) { return p.metric_plane->pull_at(u, hint); });
+    if (p.metric_plane)
+      for (PlacedSingularity& s : p.crosses.singularities) s.at = p.metric_plane->to_plane(s.at);
     if (p.crosses.index_sum_and_expected) check_index_sum(problem_, p);
   }
 

@@ -11,6 +11,7 @@
 #include "base/budget.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/metric/metric_plane.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "mesher/finish_steps.h"
 #include "metrics/judgement/soundness.h"
@@ -60,7 +61,8 @@ std::vector<Vec3> places_of_masters(const PreparedProblem& prepared, const std::
 void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std::vector<SizeSpot>& spots) {
   const std::size_t first_new = spots.size();
   int hint = -1;
-  const auto add = [&](const Vec3& at) {
+  const auto add = [&](const Vec3& place) {
+    const Vec3 at = prepared.metric_plane ? prepared.metric_plane->to_flat(place) : place;
     const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
                                       [&](const SizeSpot& s) { return norm(s.at - at) < s.size; });
     if (is_known || spots.size() == kMostSpots) return;
@@ -83,7 +85,8 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
   const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
   return fmt::format(
       "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {}",
-      prepared.settings.name, spots.size(), least.size, show_point(least.at));
+      prepared.settings.name, spots.size(), least.size,
+      show_point(prepared.metric_plane ? prepared.metric_plane->to_plane(least.at) : least.at));
 }
 
 long long quads_of(const PreparedProblem& prepared, const MeshResult& result) {

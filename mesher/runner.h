@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -39,6 +40,8 @@ Mesh put_together(Finishing& on);
 /// Metrics of the mesh and, at the same time, the report of a surface and what is sound. `left_out`: by
 /// region.
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result);
+/// By the size, or by the metric, that is meshed by.
+MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides);
 /// The same of a curved mesh, after its vertices moved: adds what is not sound of its straight form.
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
                            MeshResult& result);

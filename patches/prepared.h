@@ -101,7 +101,9 @@ struct PreparedProblem : Preparation {
   PreparedPlane plane;
   std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
   std::shared_ptr<const LayerReport> layers;       ///< null: none
-  std::optional<GivenWorst> given_worst;           ///< of a GivenMesh with quads
+  std::shared_ptr<const MetricPlane>
+      metric_plane;                       ///< in which all of this lies; null: it is the domain's own
+  std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
 
   /// Whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }

@@ -275,6 +275,10 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("--size-min", arguments.min, "least size by curvature; default: 1/20 of --size")
       ->check(kLength);
   add_sizes(*mesh, arguments);
+  mesh->add_option(
+      "--metric", arguments.metric,
+      "lengths by direction, in place of a size: FILE or FILE:FIELD, an MSH or SOL file with tensors at "
+      "the points of its mesh (formulas: [metric] in model files)");
   add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
@@ -324,6 +328,13 @@ void set_problem(const MeshArguments& arguments, Case& c) {
   set_options(arguments, c.options);
   set_criteria(arguments, c.criteria);
   set_surface(arguments, c);
+  if (!arguments.metric.empty()) {
+    c.metric = {.file = arguments.metric,
+                .limits = c.metric.limits,
+                .gradation = c.metric.gradation,
+                .complexity = c.metric.complexity,
+                .where = "--metric"};
+  }
   if (!arguments.cross.empty()) c.cross = {.text = arguments.cross, .where = "--cross"};
 }
 

@@ -27,6 +27,7 @@ struct MeshArguments : SurfaceArguments {
   bool improve = false;  ///< the model is a mesh that words begin from
   std::filesystem::path model, output, json;
   std::optional<std::string> size;                        ///< else as the model says
+  std::string metric;                                     ///< empty: as the model says
   std::string cross;                                      ///< empty: as the model says
   std::optional<int> order;                               ///< of the elements; else as the model says
   bool serendipity = false;                               ///< quads of order 2 have 8 nodes

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
+#include "metrics/metric_measures.h"
 
 namespace delquad {
 namespace {
@@ -28,6 +29,8 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics) {
 
 void print_metrics(const MeshMetrics& metrics) {
   for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
+  for (const Metric& metric : metrics_by_metric())
+    if (metrics.values.contains(metric.key)) print_metric(metric, metrics);
 }
 
 void print_criteria(const CriteriaReport& report, const Mesh& mesh) {

@@ -214,7 +214,7 @@ Compounds compounds_named(const std::string& name) {
 /// A problem that Python fills in.
 struct Problem : ModelHandle {
   explicit Problem(const ModelHandle& model) : ModelHandle(model) {}
-  Callbacks callbacks{py::none(), py::none(), py::none()};
+  Callbacks callbacks{py::none(), py::none(), py::none(), py::none()};
 
   /// What the model's file says of its size does not count any more.
   SizeSpec& new_size() { return problem.size = {}; }
@@ -327,6 +327,34 @@ void define_size(py::class_<Problem>& c) {
            });
 }
 
+void define_metric(py::class_<Problem>& c) {
+  c.def("metric_function", [](Problem& p, py::object function) { p.callbacks.metric = std::move(function); })
+      .def("metric_nodal",
+           [](Problem& p, const Mesh& mesh, const py::object& values) {
+             std::vector<Tensor2> metric;
+             for (const Vec3& m : read_points(values, "metric: the values"))
+               metric.push_back({m.x, m.y, m.z});
+             p.problem.metric.function =
+                 located("metric", [&] { return make_nodal_metric(mesh, std::move(metric)); });
+           })
+      .def("metric_texts",
+           [](Problem& p, const std::string& kind, const std::vector<std::string>& texts) {
+             MetricSpec& metric = p.problem.metric;
+             if (kind == "tensor")
+               metric.tensor = texts;
+             else if (kind == "sizes")
+               metric.sizes = texts;
+             else if (texts.size() == 1)
+               (kind == "solution" ? metric.solution : metric.file) = texts[0];
+           })
+      .def("metric_limits",
+           [](Problem& p, double min, double max, double aspect, double gradation, double complexity) {
+             p.problem.metric.limits = {min, max, aspect};
+             p.problem.metric.gradation = gradation;
+             p.problem.metric.complexity = complexity;
+           });
+}
+
 void define_cross(py::class_<Problem>& c) {
   c.def("cross_text",
         [](Problem& p, const std::string& text) {
@@ -382,6 +410,7 @@ void define_problem(py::module_& m) {
   py::class_<Problem> c(m, "Problem", "A model with all that is asked of its mesh.");
   c.def(py::init<const ModelHandle&>());
   define_size(c);
+  define_metric(c);
   define_cross(c);
   define_layers(c);
   define_surface(c);

@@ -1,8 +1,11 @@
 #include "bindings/python/problem.h"
 
+#include <span>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "base/located.h"
 #include "bindings/python/arrays.h"
 #include "delquad/error.h"
 
@@ -119,6 +122,17 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
     problem.size.function = as_function<Vec3>(callbacks.size, python, "the size function");
   if (!callbacks.cross.is_none())
     problem.cross.function = as_function<Vec2>(callbacks.cross, python, "the cross function");
+  if (!callbacks.metric.is_none())
+    problem.metric.function = [&](std::span<const Vec2> points, std::span<Tensor2> metric) {
+      if (points.empty()) return;
+      python.call([&] {
+        const std::vector<Vec3> made =
+            read_points(callbacks.metric(points_for_python(points)), "what the metric function returned");
+        if (made.size() != metric.size())
+          refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
+        for (std::size_t i = 0; i < made.size(); ++i) metric[i] = {made[i].x, made[i].y, made[i].z};
+      });
+    };
   Context context;
   context.threads = threads;
   context.time_limit = time_limit;

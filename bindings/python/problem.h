@@ -61,7 +61,7 @@ void define_hexahedra(py::module_& m);
 
 /// Functions that a problem calls; they are called in the thread that is there while it is meshed.
 struct Callbacks {
-  py::object size, cross, progress;  ///< None: not given
+  py::object size, metric, cross, progress;  ///< None: not given
 };
 
 /// A mesh and all that is known of it.

@@ -136,6 +136,7 @@ std::vector<std::filesystem::path> Experiment::files() const {
     const Case c = read_variant(i);
     add(c.model_file);
     if (const auto size = size_file_of(c.size.text, c.size.folder)) add(size->path);
+    if (const auto metric = size_file_of(c.metric.file, c.metric.folder)) add(metric->path);
     if (!c.may_be_absent) add(model_path(c));
   }
   // Programs of the system stay where they are.

@@ -12,6 +12,7 @@
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
 #include "metrics/judgement/criteria.h"
+#include "metrics/metric_measures.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/table.h"
@@ -182,6 +183,7 @@ std::vector<std::string> Experiment::keys_of_metrics() const {
   std::vector<std::string> keys;
   for (const Metric& m : metric_registry()) keys.push_back(m.key);
   for (const Metric& m : criteria_metrics()) keys.push_back(m.key);
+  for (const Metric& m : metrics_by_metric()) keys.push_back(m.key);
   for (const std::string& solver : solvers)
     for (const Metric& m : metrics_of_solver(solver)) keys.push_back(m.key);
   for (const MetricCommand& command : metrics) keys.push_back(command.metric.key);

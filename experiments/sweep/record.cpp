@@ -10,6 +10,7 @@
 #include "delquad/error.h"
 #include "io/cases/read_problem.h"
 #include "metrics/judgement/criteria.h"
+#include "metrics/metric_measures.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 
@@ -57,6 +58,20 @@ Json size_json(const SizeSpec& size) {
   const double given[] = {size.gradation, size.curvature, size.min, size.max};
   const char* keys[] = {"gradation", "curvature", "min", "max"};
   for (int k = 0; k < 4; ++k) json[keys[k]] = given[k] > 0 ? Json(given[k]) : Json();
+  return json;
+}
+
+Json metric_field_json(const MetricSpec& metric) {
+  Json json = {{"min", metric.limits.min},
+               {"max", metric.limits.max},
+               {"aspect", metric.limits.aspect},
+               {"gradation", metric.gradation},
+               {"complexity", metric.complexity}};
+  if (!metric.tensor.empty()) json["tensor"] = metric.tensor;
+  if (!metric.sizes.empty()) json["sizes"] = metric.sizes;
+  if (!metric.solution.empty()) json["solution"] = metric.solution;
+  if (!metric.file.empty()) json["file"] = metric.file;
+  if (const auto file = size_file_of(metric.file, metric.folder)) json["digest"] = file_digest(file->path);
   return json;
 }
 
@@ -145,6 +160,7 @@ Json options_json(const Case& c) {
                {"cross", text_of(c.cross)},
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
+  if (c.metric.asks()) json["metric"] = metric_field_json(c.metric);
   if (c.refine != 1) json["refine"] = c.refine;
   if (c.quads) json["quads"] = *c.quads;
   for (const CurveDivision& d : c.divisions)
@@ -257,8 +273,9 @@ Json metric_json(const CellIdentity::IdentifiedMetric& of_cell) {
 /// The measures that the project itself does not have, so that tables can be made from records alone.
 Json own_metrics_json(const MeshMetrics& metrics, const CellIdentity* cell) {
   Json json = Json::array();
-  for (const Metric& metric : criteria_metrics())
-    if (metrics.values.contains(metric.key)) json.push_back(metric_json(metric));
+  for (const auto* more : {&criteria_metrics(), &metrics_by_metric()})
+    for (const Metric& metric : *more)
+      if (metrics.values.contains(metric.key)) json.push_back(metric_json(metric));
   for (const OwnMetric& own : own_metrics()) json.push_back(metric_json(*find_metric(own.key)));
   if (cell != nullptr)
     for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));

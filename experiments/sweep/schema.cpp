@@ -152,8 +152,8 @@ TomlKeys experiment_keys() {
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},
                    {"case", "what is meshed", "", experiment_case_keys, true}};
-  const TomlKeys of_cases = case_keys();
-  keys.insert(keys.end(), of_cases.begin(), of_cases.end());
+  for (TomlKey& key : case_keys())  // here 'metric' is a measure
+    if (key.name != "metric") keys.push_back(std::move(key));
   return keys;
 }
 

@@ -169,7 +169,7 @@ std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
 
 }  // namespace
 
-void make_crosses_size_aware(PreparedProblem& prepared) {
+void make_crosses_size_aware(PreparedProblem& prepared, const CrossPullAt& pull) {
   std::vector<PreparedPatch>& patches = prepared.patches;
   const auto n_points = [&](std::size_t i) { return static_cast<double>(patches[i].boundary.points.size()); };
   std::vector<std::shared_ptr<const BackgroundMesh>> backgrounds(patches.size());
@@ -187,7 +187,7 @@ void make_crosses_size_aware(PreparedProblem& prepared) {
         const DoingFace face = doing_patch(prepared, groups[g].patches.front());
         std::vector<FieldPatch> of_group;
         for (const int i : groups[g].patches)
-          of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross});
+          of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross, pull});
         const auto fields = make_size_aware_fields(of_group, groups[g].seams);
         for (std::size_t k = 0; k < fields.size(); ++k) made[groups[g].patches[k]] = fields[k];
       },

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "fields/size_aware_cross_field.h"
 #include "patches/prepared.h"
 
 namespace delquad {
 
 /// Replaces each patch's boundary-aligned field by the size-aware one, on a background mesh made for it: one
 /// that follows delta', so that it resolves it. Notes singularities, sum of indices and dislocations.
-void make_crosses_size_aware(PreparedProblem& prepared);
+/// `pull`: what they are drawn to besides; null: nothing.
+void make_crosses_size_aware(PreparedProblem& prepared, const CrossPullAt& pull = nullptr);
 
 /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean:
 /// see expected_dislocations(). Takes about as long as D unless the fields are size-aware.

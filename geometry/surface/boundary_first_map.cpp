@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "geometry/surface/chart.h"
 #include "geometry/surface/conformal_maps.h"
@@ -35,29 +38,12 @@ std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vec
   return polygon;
 }
 
-}  // namespace
-
-std::vector<Vec2> boundary_first_map(const Chart& chart) {
-  assert(chart.loops.size() == 1 && genus(chart) == 0);
-  const std::size_t n = chart.points.size(), n_boundary = static_cast<std::size_t>(chart.n_boundary);
-  std::vector<char> fixed(n, 0);
-  std::fill_n(fixed.begin(), n_boundary, 1);
-  const LaplaceSolver solver(chart, fixed);
-
-  const std::vector<double> defects = angle_defects(chart);
-  std::vector<double> load(n, 0.0);
-  for (std::size_t v = n_boundary; v < n; ++v) load[v] = -defects[v];
-  const std::vector<double> log_scale = solver.solve(std::vector<double>(n, 0.0), load);
-  const std::vector<double> flux = solver.apply(log_scale);
-
-  std::vector<double> turns, lengths;
-  for (std::size_t i = 0; i < n_boundary; ++i) {
-    turns.push_back(defects[i] + flux[i]);
-    lengths.push_back(norm(chart.points[(i + 1) % n_boundary] - chart.points[i]));
-  }
+/// The disk inside of a closed polygon that turns and has sides like this, by harmonic coordinates.
+std::vector<Vec2> fill_polygon(const LaplaceSolver& solver, const std::vector<double>& turns,
+                               const std::vector<double>& lengths, std::size_t n) {
   const std::vector<Vec2> polygon = close_polygon(turns, lengths);
   std::vector<double> x(n, 0.0), y(n, 0.0);
-  for (std::size_t i = 0; i < n_boundary; ++i) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
     x[i] = polygon[i].x;
     y[i] = polygon[i].y;
   }
@@ -67,6 +53,58 @@ std::vector<Vec2> boundary_first_map(const Chart& chart) {
   std::vector<Vec2> flat(n);
   for (std::size_t v = 0; v < n; ++v) flat[v] = {x[v], y[v]};
   return flat;
+}
+
+/// Of a chart with its boundary's vertices.
+LaplaceSolver solver_inside(const Chart& chart) {
+  std::vector<char> fixed(chart.points.size(), 0);
+  std::fill_n(fixed.begin(), chart.n_boundary, 1);
+  return {chart, fixed};
+}
+
+/// Turns of a boundary from this angle on are corners.
+constexpr double kCorner = std::numbers::pi / 6;
+
+}  // namespace
+
+std::vector<Vec2> boundary_first_map(const Chart& chart) {
+  assert(chart.loops.size() == 1 && genus(chart) == 0);
+  const std::size_t n = chart.points.size(), n_boundary = static_cast<std::size_t>(chart.n_boundary);
+  const LaplaceSolver solver = solver_inside(chart);
+  const std::vector<double> defects = angle_defects(chart);
+  std::vector<double> load(n, 0.0);
+  for (std::size_t v = n_boundary; v < n; ++v) load[v] = -defects[v];
+  const std::vector<double> log_scale = solver.solve(std::vector<double>(n, 0.0), load);
+  const std::vector<double> flux = solver.apply(log_scale);
+
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < n_boundary; ++i) turns.push_back(defects[i] + flux[i]);
+  return fill_polygon(solver, turns, boundary_lengths(chart), n);
+}
+
+std::vector<Vec2> convex_map(const Chart& chart) {
+  assert(chart.loops.size() == 1 && genus(chart) == 0);
+  const std::size_t n = chart.points.size(), n_boundary = static_cast<std::size_t>(chart.n_boundary);
+  const std::vector<double> defects = angle_defects(chart);
+  std::vector<double> lengths = boundary_lengths(chart), turns(n_boundary, 0.0);
+  for (std::size_t i = 0; i < n_boundary; ++i)
+    if (defects[i] > kCorner) turns[i] = defects[i];
+  const double full = 2 * std::numbers::pi, corners = std::accumulate(turns.begin(), turns.end(), 0.0);
+  const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const double part = corners > full ? full / corners : 1;
+  for (std::size_t i = 0; i < n_boundary; ++i)
+    turns[i] = part * turns[i] + (full - part * corners) *
+                                     (lengths[i] + lengths[(i + n_boundary - 1) % n_boundary]) / (2 * length);
+  // The scale with these turns is known up to a factor: far below the first eigenvalue the shift chooses one.
+  const std::vector<double> areas = triangle_areas(chart);
+  const LaplaceSolver free(chart, std::vector<char>(n, 0),
+                           1e-6 / std::accumulate(areas.begin(), areas.end(), 0.0));
+  std::vector<double> load(n, 0.0);
+  for (std::size_t v = 0; v < n; ++v) load[v] = (v < n_boundary ? turns[v] : 0) - defects[v];
+  const std::vector<double> log_scale = free.solve(std::vector<double>(n, 0.0), load);
+  for (std::size_t i = 0; i < n_boundary; ++i)
+    lengths[i] *= std::exp((log_scale[i] + log_scale[(i + 1) % n_boundary]) / 2 - log_scale[0]);
+  return fill_polygon(solver_inside(chart), turns, lengths, n);
 }
 
 }  // namespace delquad

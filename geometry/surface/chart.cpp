@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -189,9 +190,33 @@ int genus(const Chart& chart) {
   return (2 - static_cast<int>(chart.loops.size()) - euler) / 2;
 }
 
+std::array<Vec3, 3> corners_of(const Chart& chart, int triangle) {
+  const auto& [a, b, c] = chart.triangles[triangle];
+  if (chart.sides.empty()) return {chart.points[a], chart.points[b], chart.points[c]};
+  // Lengths of another metric are no triangle's where it changes much within one.
+  constexpr double kFlat = 1e-6;
+  const auto& [bc, ca, ab] = chart.sides[triangle];
+  const double x = (ab * ab + ca * ca - bc * bc) / (2 * ab);
+  return {Vec3{}, Vec3{ab, 0, 0}, Vec3{x, std::sqrt(std::max(ca * ca - x * x, kFlat * kFlat * ab * ab)), 0}};
+}
+
+std::vector<double> boundary_lengths(const Chart& chart) {
+  std::vector<double> lengths(static_cast<std::size_t>(chart.n_boundary));
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      if (chart.neighbours[t][k] >= 0) continue;
+      const std::array<Vec3, 3> at = corners_of(chart, static_cast<int>(t));
+      lengths[chart.triangles[t][(k + 1) % 3]] = norm(at[(k + 2) % 3] - at[(k + 1) % 3]);
+    }
+  return lengths;
+}
+
 std::vector<double> triangle_areas(const Chart& chart) {
   std::vector<double> areas;
-  for (const auto& v : chart.triangles) areas.push_back(norm(area_vector(chart.points, v)) / 2);
+  for (int t = 0; t < std::ssize(chart.triangles); ++t) {
+    const auto [a, b, c] = corners_of(chart, t);
+    areas.push_back(norm(cross(b - a, c - a)) / 2);
+  }
   return areas;
 }
 
@@ -205,10 +230,11 @@ std::vector<std::vector<int>> triangles_around(const Chart& chart) {
 std::vector<double> angle_defects(const Chart& chart) {
   std::vector<double> defect(chart.points.size(), 2 * std::numbers::pi);
   std::fill_n(defect.begin(), chart.n_boundary, std::numbers::pi);
-  for (const auto& v : chart.triangles)
+  for (int t = 0; t < std::ssize(chart.triangles); ++t) {
+    const std::array<Vec3, 3> at = corners_of(chart, t);
     for (int k = 0; k < 3; ++k)
-      defect[v[k]] -= angle_between(chart.points[v[(k + 1) % 3]] - chart.points[v[k]],
-                                    chart.points[v[(k + 2) % 3]] - chart.points[v[k]]);
+      defect[chart.triangles[t][k]] -= angle_between(at[(k + 1) % 3] - at[k], at[(k + 2) % 3] - at[k]);
+  }
   return defect;
 }
 

@@ -18,7 +18,13 @@ struct Chart {
   std::vector<int> fine_triangle;              ///< of each triangle
   std::vector<std::vector<int>> loops;         ///< vertices, the chart on the left; the longest loop first
   int n_boundary = 0;                          ///< how many vertices lie on loops
+  /// Lengths of the sides opposite to each corner of each triangle, by which the chart is measured in place
+  /// of its points: those of another metric. Empty: none.
+  std::vector<std::array<double, 3>> sides = {};
 };
+
+/// The corners of a triangle, or any others at these lengths from each other.
+std::array<Vec3, 3> corners_of(const Chart& chart, int triangle);
 
 /// The charts that the wanted triangles form, in the order of their first triangles. Throws InputError where
 /// a side is neither a line nor shared by two triangles of one face that agree in orientation. `open` (empty:
@@ -28,6 +34,9 @@ std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wan
 
 /// Number of handles: 0 for a disk, an annulus, a sphere.
 int genus(const Chart& chart);
+
+/// Of the side from each vertex of a disk's boundary to the next.
+std::vector<double> boundary_lengths(const Chart& chart);
 
 /// Area of each triangle.
 std::vector<double> triangle_areas(const Chart& chart);

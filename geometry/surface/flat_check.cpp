@@ -63,7 +63,8 @@ FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat) {
   for (std::size_t t = 0; t < areas.size(); ++t) {
     if (areas[t] <= least) continue;
     const auto& [a, b, c] = chart.triangles[t];
-    const Vec3 e1 = chart.points[b] - chart.points[a], e2 = chart.points[c] - chart.points[a];
+    const auto at = corners_of(chart, static_cast<int>(t));
+    const Vec3 e1 = at[1] - at[0], e2 = at[2] - at[0];
     // The triangle in its plane: (l, 0) and (x, y).
     const double l = norm(e1), x = dot(e1, e2) / l, y = 2 * areas[t] / l;
     const Vec2 f1 = flat[b] - flat[a], f2 = flat[c] - flat[a];

@@ -48,26 +48,7 @@ constexpr double kMostAreas = 300;
 /// Charts with more loops are divided before any map is tried: one seam after the other would take too long.
 constexpr std::size_t kManyLoops = 8;
 
-struct Map {
-  std::vector<Vec2> flat;
-  FlatQuality quality;
-  std::string method;
-};
-
-/// Scales to the chart's area; none when the map is not one-to-one.
-std::optional<Map> checked(const Chart& chart, std::vector<Vec2> flat, const char* method) {
-  double flat_area = 0;
-  for (const auto& [a, b, c] : chart.triangles) flat_area += cross(flat[b] - flat[a], flat[c] - flat[a]) / 2;
-  const std::vector<double> areas = triangle_areas(chart);
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  if (!(flat_area > 0) || !(area > 0)) return std::nullopt;
-  const double scale = std::sqrt(area / flat_area);
-  if (!std::isfinite(scale)) return std::nullopt;
-  for (Vec2& p : flat) p = scale * p;
-  if (!is_one_to_one(chart, flat)) return std::nullopt;
-  const FlatQuality quality = measure_flat(chart, flat);
-  return Map{std::move(flat), quality, method};
-}
+using Map = ConformalMap;
 
 /// What became of a chart: a map, or how it is to be cut. Neither only for a triangle without area.
 struct Outcome {
@@ -111,7 +92,7 @@ class ChartWork {
   Outcome plan() const {
     if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
     if (auto flat = planar_map(chart_, tolerance_))
-      if (auto map = checked(chart_, std::move(*flat), "plane")) return {std::move(map), {}, false};
+      if (auto map = checked_map(chart_, std::move(*flat), "plane")) return {std::move(map), {}, false};
     return chart_.loops.size() > 1 ? flatten_with_holes() : flatten_disk();
   }
 
@@ -126,7 +107,7 @@ class ChartWork {
     const double limit = elements_                  ? options_.max_area_ratio
                          : chart_.loops.size() == 2 ? kMaxUncutAnnulus
                                                     : kMaxUncutHoles;
-    std::optional<Map> map = checked(chart_, spectral_map(chart_), "spectral");
+    std::optional<Map> map = checked_map(chart_, spectral_map(chart_), "spectral");
     if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
       return {std::move(map), {}, false};
     auto seam = elements_ ? path_from(chart_.loops[1], chart_.loops[0]) : plan_seam(chart_, ends_);
@@ -138,10 +119,10 @@ class ChartWork {
   }
 
   Outcome flatten_disk() const {
-    std::optional<Map> map = checked(chart_, boundary_first_map(chart_), "boundary-first");
+    std::optional<Map> map = checked_map(chart_, boundary_first_map(chart_), "boundary-first");
     const bool good = map && map->quality.sigma_95 <= kGoodSigma && map->quality.area_ratio <= kGoodAreaRatio;
     if (!good) {
-      std::optional<Map> other = checked(chart_, spectral_map(chart_), "spectral");
+      std::optional<Map> other = checked_map(chart_, spectral_map(chart_), "spectral");
       if (other && (!map || better(other->quality, map->quality))) map = std::move(other);
     }
     if (!map || map->quality.area_ratio > kMinTipRatio) {
@@ -526,6 +507,20 @@ class Flattener {
 };
 
 }  // namespace
+
+std::optional<ConformalMap> checked_map(const Chart& chart, std::vector<Vec2> flat, const char* method) {
+  double flat_area = 0;
+  for (const auto& [a, b, c] : chart.triangles) flat_area += cross(flat[b] - flat[a], flat[c] - flat[a]) / 2;
+  const std::vector<double> areas = triangle_areas(chart);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(flat_area > 0) || !(area > 0)) return std::nullopt;
+  const double scale = std::sqrt(area / flat_area);
+  if (!std::isfinite(scale)) return std::nullopt;
+  for (Vec2& p : flat) p = scale * p;
+  if (!is_one_to_one(chart, flat)) return std::nullopt;
+  const FlatQuality quality = measure_flat(chart, flat);
+  return ConformalMap{std::move(flat), quality, method};
+}
 
 Flattening flatten(SurfaceModel& model, const FlattenOptions& options) {
   assert(options.left_out.empty() || options.left_out.size() == model.fine.regions.size());

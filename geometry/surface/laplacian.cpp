@@ -18,11 +18,12 @@ constexpr double kFlattest = 1e-6;
 
 std::vector<std::array<double, 3>> corner_cotangents(const Chart& chart) {
   std::vector<std::array<double, 3>> cotangents;
-  for (const auto& v : chart.triangles) {
+  for (int t = 0; t < std::ssize(chart.triangles); ++t) {
+    const std::array<Vec3, 3> at = corners_of(chart, t);
     Vec3 side[3];  // side[k] is opposite to vertex k
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
-      side[k] = chart.points[v[(k + 2) % 3]] - chart.points[v[(k + 1) % 3]];
+      side[k] = at[(k + 2) % 3] - at[(k + 1) % 3];
       longest = std::max(longest, dot(side[k], side[k]));
     }
     const double twice_area =

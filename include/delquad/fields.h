@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -165,6 +166,7 @@ inline constexpr double kLeastPerTurn = 3;
 enum class CrossKind {
   kBoundary,   ///< harmonic, aligned with the boundary [paper, section 3]
   kSizeAware,  ///< the same, turned so that the size asks for as few irregular vertices as it can
+  kMetric,     ///< the same, and along the axes of a metric as far as its lengths differ
   kGradient,   ///< along grad delta; planar domains only
   kField,      ///< `field` or `function`; planar domains only
 };
@@ -178,6 +180,91 @@ struct CrossSpec {
   std::shared_ptr<const CrossField> field = nullptr;
   CrossFunction function = nullptr;
   std::string where = "cross";  ///< who asked for it, for messages
+};
+
+// --- sizes that depend on the direction, in the plane
+
+/// A symmetric, positive definite tensor M: a vector d has the length sqrt(d M d), and quads are wanted that
+/// are unit squares by it.
+struct Tensor2 {
+  double xx = 1, xy = 0, yy = 1;
+  friend bool operator==(const Tensor2&, const Tensor2&) = default;
+};
+
+/// Wanted lengths along two perpendicular directions.
+struct MetricAxes {
+  double h1 = 1, h2 = 1;
+  double theta = 0;  ///< of the first direction, radians
+};
+Tensor2 tensor_of(const MetricAxes& axes);
+/// With h1 <= h2 and theta in (-pi/2, pi/2].
+MetricAxes axes_of(const Tensor2& m);
+/// Whether it is finite and positive definite, and its lengths differ by less than kMostAspect.
+bool is_metric(const Tensor2& m);
+inline constexpr double kMostAspect = 1e6;
+
+/// The length of d where the metric goes from `a` to `b` along it as the exponential of a linear function:
+/// (la - lb) / log(la / lb) with the lengths by both.
+double metric_length(Vec2 d, const Tensor2& a, const Tensor2& b);
+/// The largest tensor whose unit circle lies in those of both: by their simultaneous reduction [alauzet2010].
+Tensor2 intersection(const Tensor2& a, const Tensor2& b);
+/// exp(sum of weight log) [arsigny2006].
+Tensor2 log_mean(std::span<const Tensor2> tensors, std::span<const double> weights);
+/// What a metric allows at a distance, which is measured by it, where sizes grow by a factor of `gradation`
+/// (above 1) per unit length [alauzet2010].
+Tensor2 grown(const Tensor2& m, double length, double gradation);
+
+/// Bounds of a metric's lengths; 0: none. Where they contradict each other the least length counts first.
+struct MetricLimits {
+  double min = 0, max = 0;
+  double aspect = 0;  ///< the most that h2 is of h1: the larger becomes less
+};
+Tensor2 limited(const Tensor2& m, const MetricLimits& limits);
+
+/// Writes the metric at each point of a batch. Called from the thread that calls mesh(), before anything is
+/// meshed.
+using MetricFunction = std::function<void(std::span<const Vec2> points, std::span<Tensor2> metric)>;
+
+/// |H| det(|H|)^(-1/6) of a symmetric H: in proportion to it the L2 error of linear interpolation of what has
+/// that Hessian is least for a number of elements [loseille2011]. Curvatures below a millionth of the larger
+/// one count as that, and in the determinant below a thousandth. It is a metric once it has limits
+/// and a complexity.
+Tensor2 l2_metric(const Tensor2& hessian);
+
+/// m11, m12 and m22 as formulas in x and y.
+MetricFunction make_expression_metric(const std::array<std::string, 3>& tensor);
+/// The length h1 along theta (radians) and h2 across it, as formulas.
+MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, const std::string& theta);
+/// l2_metric() of a formula's Hessian, taken by differences over `step`.
+MetricFunction make_solution_metric(const std::string& solution, double step);
+/// At the points of a mesh of triangles or quads, exp(linear) between them. Throws InputError unless there is
+/// one metric for each point.
+MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric);
+/// That of a file at the points of its mesh: the tensors of an MSH view or a VTU array. `field`: empty for
+/// the only one.
+MetricFunction make_file_metric(const std::filesystem::path& file, const std::string& field = {});
+
+struct MetricPlane;
+
+/// The metric that a planar problem is meshed by, in place of a size. Of `function`, `tensor`, `sizes`,
+/// `solution` and `file` one is given.
+struct MetricSpec {
+  MetricFunction function = nullptr;
+  std::vector<std::string> tensor = {};  ///< see make_expression_metric()
+  std::vector<std::string> sizes = {};   ///< h1, h2 and, if it is not 0, theta
+  std::string solution = {};             ///< see make_solution_metric()
+  std::string file = {};                 ///< FILE or FILE:FIELD, which counts from `folder`
+  std::filesystem::path folder = {};
+  MetricLimits limits = {};
+  double gradation = 0;          ///< the most that sizes grow by per unit length, above 1; 0: no limit
+  double complexity = 0;         ///< the integral of sqrt(det M), about the number of quads; 0: as it is
+  std::string where = "metric";  ///< who asked for it, for messages
+  /// Made by prepare() for itself.
+  std::shared_ptr<const MetricPlane> plane = nullptr;
+
+  bool asks() const {
+    return function || !tensor.empty() || !sizes.empty() || !solution.empty() || !file.empty();
+  }
 };
 
 }  // namespace delquad

@@ -124,6 +124,7 @@ struct MeshProblem {
   SurfaceSpec surface = {};            ///< of a TriangleModel, CadModel or ExampleModel
   std::vector<LayerSpec> layers = {};  ///< of a PlanarModel or LineModel
   SizeSpec size = {};
+  MetricSpec metric = {};  ///< in place of a size, of planar models of curves
   CrossSpec cross = {};
   std::vector<CurveDivision> divisions = {};  ///< sizes beside these curves follow their edges
   std::vector<PeriodicPair> periodic = {};

@@ -270,6 +270,30 @@ SizeSpec read_size(const TomlTable& table) {
   return size;
 }
 
+MetricSpec read_metric_spec(const TomlTable& table) {
+  table.require_known(metric_spec_keys());
+  MetricSpec metric;
+  metric.where = table.where();
+  metric.folder = table.file().parent_path();
+  const auto formulas = [&](const char* key) {
+    return table.has(key) ? table.texts(key) : std::vector<std::string>();
+  };
+  metric.tensor = formulas("tensor");
+  metric.sizes = formulas("sizes");
+  metric.solution = table.text("solution", "");
+  metric.file = table.text("file", "");
+  if (table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") != 1)
+    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution' and 'file'");
+  const auto length = [&](const char* key) { return table.has(key) ? table.positive_number(key) : 0; };
+  metric.limits = {length("min"), length("max"), number_at_least(table, "aspect", 1, 0)};
+  if (metric.limits.max > 0 && metric.limits.min > metric.limits.max)
+    throw InputError(table.where("min") + ": 'min' is larger than 'max'");
+  metric.gradation = number_at_least(table, "gradation", 1, 0);
+  metric.complexity = length("complexity");
+  table.finish(metric_spec_keys());
+  return metric;
+}
+
 void set_model(Model model, Case& target) {
   target.model = std::move(model);
   target.model_file.clear();
@@ -417,6 +441,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
   for (const TomlTable& fillet : table.tables("fillet_rows"))
     target.fillet_rows.push_back(read_rows<FilletRows>(fillet, "radius", fillet_keys()));
   if (table.has("size")) target.size = read_size(table);
+  if (table.kind("metric") == TomlKind::kTable) target.metric = read_metric_spec(table.table("metric"));
   if (table.has("divide")) target.divisions.clear();
   for (const TomlTable& division : table.tables("divide"))
     target.divisions.push_back(read_division(division));

@@ -221,6 +221,18 @@ TomlKeys size_keys() {
           {"max", "largest size", kPositive}};
 }
 
+TomlKeys metric_spec_keys() {
+  return {{"tensor", "formulas of m11, m12 and m22", kTexts},
+          {"sizes", "formulas of h1, h2 and the direction of h1, in radians", kTexts},
+          {"solution", "a formula that is to be interpolated well", kText},
+          {"file", "FILE or FILE:FIELD with tensors at the points of its mesh", kText},
+          {"min", "least length", kPositive},
+          {"max", "largest length", kPositive},
+          {"aspect", "the most that one length is of the other", at_least("number", 1)},
+          {"gradation", "the most that lengths grow by per unit length, a factor", at_least("number", 1)},
+          {"complexity", "about the number of quads: lengths are scaled to it", kPositive}};
+}
+
 TomlKeys layer_keys() {
   return {{"on", "names of curves that bound regions", kTextOrTexts, nullptr, false, true},
           {"into", "names of the regions that get them; absent: on both sides of the curves", kTextOrTexts},
@@ -304,6 +316,7 @@ TomlKeys case_keys() {
       {"washers", "rows of quads around holes", "", washer_keys, true},
       {"fillet_rows", "rows of quads across fillets", "", fillet_keys, true},
       {"size", "wanted edge length", kSize, size_keys},
+      {"metric", "lengths by direction, in place of a size", "", metric_spec_keys},
       {"divide", "numbers of edges of curves", "", division_keys, true},
       {"periodic", "curves and faces that get the nodes of others", "", periodic_keys, true},
       {"symmetry", "planes of symmetry, or \"auto\"", one_of({"auto"}), symmetry_keys, true},

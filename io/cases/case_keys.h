@@ -31,6 +31,7 @@ TomlKeys source_keys();
 TomlKeys layer_keys();
 TomlKeys washer_keys();
 TomlKeys fillet_keys();
+TomlKeys metric_spec_keys();
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
 TomlKeys material_keys();

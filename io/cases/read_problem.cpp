@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -18,6 +19,7 @@
 #include "delquad/model.h"
 #include "fields/fields.h"
 #include "geometry/mesh/outline.h"
+#include "geometry/planar/model_chain.h"
 #include "geometry/planar/planar_model.h"
 #include "io/cases/expression.h"
 #include "io/formats/msh.h"
@@ -31,10 +33,14 @@ const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off", ".ply", ".
 
 constexpr const char* kFromBoundary = "boundary";
 constexpr const char* kFromGradient = "gradient";
+constexpr const char* kFromMetric = "metric";
 constexpr const char* kSizeAware = "size-aware";
 constexpr std::pair<CrossKind, const char*> kCrosses[] = {{CrossKind::kBoundary, kFromBoundary},
                                                           {CrossKind::kSizeAware, kSizeAware},
+                                                          {CrossKind::kMetric, kFromMetric},
                                                           {CrossKind::kGradient, kFromGradient}};
+
+const std::vector<std::string> kPlane = {"x", "y"};
 
 /// A field whose errors say where it was written.
 template <class Field, class Point, class Value>
@@ -84,6 +90,40 @@ void read_size(SizeSpec& size) {
   if (!size.from_boundary) size.field = make_field(size);
 }
 
+/// Of the second differences of a solution that is known as a formula, in diagonals of the domain: far below
+/// what a mesh resolves and far above rounding.
+constexpr double kHessianStep = 5e-5;
+
+double hessian_step(const Model& model) {
+  constexpr int kChords = 64;  // a curve
+  const auto* planar = std::get_if<PlanarModel>(&model);
+  if (planar == nullptr || planar->curves.empty()) return kHessianStep;
+  const Box<Vec2> box = box_of(*planar, kChords);
+  return kHessianStep * norm(box.high - box.low);
+}
+
+void read_metric(const Model& model, MetricSpec& metric) {
+  if (metric.function || !metric.asks()) return;
+  metric.function = located(metric.where, [&]() -> MetricFunction {
+    if (!metric.tensor.empty() && metric.tensor.size() != 3)
+      throw InputError(
+          fmt::format("a tensor of {} formulas: expected m11, m12 and m22", metric.tensor.size()));
+    if (!metric.tensor.empty())
+      return make_expression_metric({metric.tensor[0], metric.tensor[1], metric.tensor[2]});
+    if (!metric.sizes.empty() && metric.sizes.size() != 2 && metric.sizes.size() != 3)
+      throw InputError(
+          fmt::format("{} sizes: expected h1, h2 and, if it is not 0, theta", metric.sizes.size()));
+    if (!metric.sizes.empty())
+      return make_sizes_metric(metric.sizes[0], metric.sizes[1],
+                               metric.sizes.size() == 3 ? metric.sizes[2] : "0");
+    if (!metric.solution.empty()) return make_solution_metric(metric.solution, hessian_step(model));
+    const auto file = size_file_of(metric.file, metric.folder);
+    if (!file)
+      throw InputError("the metric '" + metric.file + "': expected FILE or FILE:FIELD, .msh or .sol");
+    return make_file_metric(file->path, file->field);
+  });
+}
+
 void read_cross(CrossSpec& cross) {
   if (cross.text.empty() || cross.kind) return;
   const auto* word = std::ranges::find(kCrosses, cross.text, &std::pair<CrossKind, const char*>::second);
@@ -94,7 +134,7 @@ void read_cross(CrossSpec& cross) {
   cross.kind = CrossKind::kField;
   cross.field = located(cross.where, [&] {
     return std::make_shared<Located<CrossField, Vec2, Cross>>(
-        formula_or_word(cross.text, {kFromBoundary, kFromGradient, kSizeAware},
+        formula_or_word(cross.text, {kFromBoundary, kFromGradient, kSizeAware, kFromMetric},
                         [&] { return make_expression_cross(cross.text); }),
         cross.where);
   });
@@ -145,6 +185,7 @@ MeshProblem read_files(MeshProblem problem) {
     problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going); });
   if (problem.size.where.empty()) problem.size.where = problem.where;
   read_size(problem.size);
+  read_metric(problem.model, problem.metric);
   read_cross(problem.cross);
   return problem;
 }
@@ -155,6 +196,7 @@ void check_case(const Case& c) {
   MeshProblem fields;
   fields.size = c.size;
   fields.cross = c.cross;
+  fields.metric = c.metric;
   read_files(fields);
 }
 
@@ -196,6 +238,56 @@ std::unique_ptr<CrossField> make_expression_cross(const std::string& text) {
         return theta(values);
       },
       fmt::format("cross field '{}'", theta.shown()));
+}
+
+MetricFunction make_expression_metric(const std::array<std::string, 3>& tensor) {
+  std::vector<Expression> m;
+  for (const std::string& text : tensor) m.emplace_back(text, kPlane);
+  return [m](std::span<const Vec2> points, std::span<Tensor2> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double at[] = {points[i].x, points[i].y};
+      metric[i] = {m[0](at), m[1](at), m[2](at)};
+    }
+  };
+}
+
+MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, const std::string& theta) {
+  const Expression along(h1, kPlane), across(h2, kPlane), angle(theta, kPlane);
+  return [along, across, angle](std::span<const Vec2> points, std::span<Tensor2> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double at[] = {points[i].x, points[i].y};
+      const MetricAxes axes{along(at), across(at), angle(at)};
+      if (!(axes.h1 > 0) || !(axes.h2 > 0) || !std::isfinite(axes.h1 + axes.h2 + axes.theta))
+        throw InputError(
+            fmt::format("h1 is {}, h2 {} and theta {} at {}: lengths must be finite and positive", axes.h1,
+                        axes.h2, axes.theta, show_point(points[i])));
+      metric[i] = tensor_of(axes);
+    }
+  };
+}
+
+MetricFunction make_file_metric(const std::filesystem::path& file, const std::string& field) {
+  const NodalValues tensors = read_tensors(file, field);
+  std::vector<Tensor2> metric;
+  for (std::size_t i = 0; i + 2 < tensors.values.size(); i += 3)
+    metric.push_back({tensors.values[i], tensors.values[i + 1], tensors.values[i + 2]});
+  return located(file.string(), [&] { return make_nodal_metric(tensors.mesh, std::move(metric)); });
+}
+
+MetricFunction make_solution_metric(const std::string& solution, double step) {
+  const Expression u(solution, kPlane);
+  return [u, step](std::span<const Vec2> points, std::span<Tensor2> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto value = [&](int a, int b) {
+        const double at[] = {points[i].x + a * step, points[i].y + b * step};
+        return u(at);
+      };
+      const double here = value(0, 0), h2 = step * step;
+      metric[i] = l2_metric({(value(1, 0) - 2 * here + value(-1, 0)) / h2,
+                             (value(1, 1) - value(1, -1) - value(-1, 1) + value(-1, -1)) / (4 * h2),
+                             (value(0, 1) - 2 * here + value(0, -1)) / h2});
+    }
+  };
 }
 
 std::shared_ptr<const Curve> make_expression_curve(const std::string& x_text, const std::string& y_text,

@@ -45,6 +45,7 @@ struct View {
   bool is_of_nodes;
   int n_components;
   std::vector<std::pair<long long, double>> values;  ///< by tag; of several components the first
+  std::vector<double> further;                       ///< the others of each
 };
 
 using DimTag = std::pair<int, int>;

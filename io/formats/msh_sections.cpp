@@ -176,7 +176,7 @@ class SectionReader {
 
   /// Titles, times and counts are text in binary files, too.
   void view(const std::string& section) {
-    View view{"", section == "NodeData", 1, {}};
+    View view{"", section == "NodeData", 1, {}, {}};
     const long long n_texts = in_.integer("the number of a view's texts", 0, INT_MAX);
     for (long long k = 0; k < n_texts; ++k) {
       std::string line(in_.token("a view's text"));
@@ -200,7 +200,7 @@ class SectionReader {
     for (long long i = 0; i < count; ++i) {
       const long long tag = numbers_.integer("the tag of a value", 1, kLargestTag);
       view.values.emplace_back(tag, numbers_.real("a value"));
-      for (int k = 1; k < view.n_components; ++k) numbers_.real("a value");
+      for (int k = 1; k < view.n_components; ++k) view.further.push_back(numbers_.real("a value"));
     }
     contents_.views.push_back(std::move(view));
     expect_end(section);

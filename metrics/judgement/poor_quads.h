@@ -28,8 +28,9 @@ struct BadQuads {
 /// Counts the bad quads of a mesh. Warns in one line of those that are poor, with the worst of them, why
 /// that is as far as it is known, and what helps; and of quads that single precision cannot hold. Says which
 /// elements are beyond the limits that were asked for, see Soundness::beyond, and what of the model stands in
-/// the way of ones that are inverted or flat. Aspects and sides of layers,
-/// and of grids that were asked for, are as they are on purpose. `label` names the case and pipeline.
+/// the way of ones that are inverted or flat. Aspects and sides of layers, and of grids that were asked for,
+/// are as they are on purpose; of quads by a metric only what was asked for and single precision count.
+/// `label` names the case and pipeline.
 BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 

@@ -180,6 +180,7 @@ def mesh(
     model: Model | Mesh | _Path,
     size: float | str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
     *,
+    metric: Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | Mapping[str, Any] | None = None,
     word: str | None = None,
     quality: Literal["fast", "good", "best"] | None = None,
     cross: str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,

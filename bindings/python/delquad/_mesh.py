@@ -76,6 +76,24 @@ def _set_size(problem, size):
     problem.size_number(number)
 
 
+def _set_metric(problem, metric):
+    asked = dict(metric) if isinstance(metric, dict) else {"tensor": metric}
+    limits = [float(asked.pop(key, 0)) for key in ("min", "max", "aspect", "gradation", "complexity")]
+    if len(asked) != 1 or not asked.keys() <= {"tensor", "sizes", "solution", "file"}:
+        raise TypeError(
+            "metric: expected one of 'tensor', 'sizes', 'solution' and 'file', with 'min', 'max', 'aspect', "
+            f"'gradation' and 'complexity', got {', '.join(asked) or 'none'}"
+        )
+    [(kind, given)] = asked.items()
+    if callable(given):
+        problem.metric_function(given)
+    elif kind == "tensor" and len(given) == 2:
+        problem.metric_nodal(*given)
+    else:
+        problem.metric_texts(kind, [str(given)] if kind in ("solution", "file") else [str(text) for text in given])
+    problem.metric_limits(*limits)
+
+
 def _set_cross(problem, cross):
     if not _set_field(problem, "cross", cross):
         raise TypeError(
@@ -172,6 +190,7 @@ def mesh(
     model,
     size=None,
     *,
+    metric=None,
     word=None,
     quality=None,
     cross=None,
@@ -220,8 +239,12 @@ def mesh(
         or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .msh or .toml.
     size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z,
         "boundary" or a file of sizes ("error.vtu:h") as text, or (mesh, values at its points).
+    metric: lengths by direction, of planar models, in place of a size: a function of points of shape (n, 2) that returns
+        m11, m12, m22 of shape (n, 3), (mesh, such values at its points), or a dictionary with one of "tensor" (these, or
+        three formulas), "sizes" (formulas of h1, h2 and the direction of h1), "solution" (a formula) and "file", and with
+        "min", "max", "aspect", "gradation" and "complexity"; see docs/anisotropy.md.
     word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
-    cross: "boundary", "size-aware", "gradient", or angles in radians: a function of points of shape (n, 2), a
+    cross: "boundary", "size-aware", "gradient", "metric" (along its axes), or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).
     sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
     size_on: {name: size} of curves, points, regions and faces, or {name: {"size": 0.1, "reach": 0.5, "growth": 0.3}}
@@ -268,6 +291,8 @@ def mesh(
     problem = _core.Problem(_as_model(model))
     if size is not None:
         _set_size(problem, size)
+    if metric is not None:
+        _set_metric(problem, metric)
     if quads is not None and isinstance(size, numbers.Real):
         raise _core.InputError(
             "size and quads: a size that is a number says how many quads there are: expected one of both"

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "delquad/fields.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// A side of triangles on a curve.
+struct CurveSegment {
+  int piece;  ///< index into PlanarDomain::pieces
+  std::array<int, 2> nodes;
+  std::array<double, 2> t;  ///< of the piece's shape
+};
+
+/// A triangulation of a planar domain that is fine where its metric changes, and Delaunay in it.
+struct MetricMesh {
+  Mesh fine;                           ///< triangles of all regions, which share their points
+  std::vector<Tensor2> metric;         ///< at each point, within its limits
+  std::vector<CurveSegment> segments;  ///< of all curves
+  double complexity = 0;
+};
+
+/// `domain`: with its curves as coarse as they may be; its nodes come first, in their order. Throws
+/// InputError for what is no metric, with the place and the tensor, and for more quads than are allowed.
+MetricMesh resolve_metric(const PlanarDomain& domain, const MetricFunction& metric, const MetricSpec& spec,
+                          long long max_elements);
+
+/// By which factor lengths differ, at most, as a logarithm.
+double difference(const Tensor2& a, const Tensor2& b);
+
+}  // namespace delquad

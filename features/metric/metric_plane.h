@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "delquad/fields.h"
+#include "delquad/mesher.h"
+#include "features/metric/metric_mesh.h"
+#include "features/seed/perturb.h"
+#include "fields/background_mesh.h"
+#include "fields/size_aware_cross_field.h"
+
+// A plane with a metric is a surface, and conformally flat: a domain is laid into a plane in which the metric
+// is the square of a scalar times the identity, and is meshed there as any other. What is near 1 there is
+// near 1 in the metric: lengths over the size, and all measures of shapes.
+
+namespace delquad {
+
+/// How a domain and its flat image hang together: one triangulation in both.
+struct MetricPlane {
+  BackgroundMesh flat, plane;
+  std::vector<Tensor2> metric;  ///< at the vertices, as the mesh follows it
+  std::vector<double> size;     ///< the lengths of 1 there, in the flat plane
+  struct Segment {
+    std::shared_ptr<const Curve> shape;
+    std::array<double, 2> t;
+    std::array<Vec2, 2> flat;
+  };
+  std::vector<Segment> segments;  ///< of all curves
+  BoxTree<Vec2> segment_tree;     ///< of their flat images
+  Rotation turn;                  ///< of what is meshed, against `flat`
+  FlatQuality quality;            ///< of the worst part
+
+  /// The place of the domain that lies at a place of the turned flat one, which may be a little outside.
+  Vec2 to_plane(Vec2 u, int& hint) const;
+  /// The same of a node on a curve, on the true one.
+  Vec2 curve_to_plane(Vec2 u) const;
+  /// The other way round.
+  Vec2 to_flat(Vec2 x, int& hint) const;
+  Vec3 to_plane(const Vec3& u) const;
+  Vec3 to_flat(const Vec3& x) const;
+  Tensor2 metric_at(Vec2 x, int& hint) const;
+  /// By which factor a size of the turned flat plane is larger than the metric's own.
+  double scale_of(const SizeField& other) const;
+  /// How much a field of the turned flat plane is drawn to the metric's axes.
+  CrossPull pull_at(Vec2 u, int& hint) const;
+};
+
+/// The problem in the flat plane of its metric, which is its size then. Where the metric has no directions,
+/// it is a size. Throws InputError for a metric that cannot be followed, see resolve_metric(), for a domain
+/// that cannot be laid flat in one piece, and for what does not go with a metric.
+MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings);
+
+/// Brings a mesh of the flat plane to the domain's own, its nodes on lines to the true curves.
+void to_plane(const MetricPlane& plane, Mesh& mesh);
+
+/// The number of quads of a mesh of the domain whose eta is below kBadEta in the metric, with a warning.
+int count_bad_quads(const MetricPlane& plane, const std::string& label, const Mesh& mesh,
+                    std::vector<Warning>& warnings);
+
+}  // namespace delquad

@@ -1,0 +1,118 @@
+#include "metrics/metric_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "metrics/shape.h"
+
+namespace delquad {
+namespace {
+
+/// Edges in range have lengths of this at most, and no less than its inverse.
+constexpr double kRange = std::numbers::sqrt2;
+/// An edge is along an axis that it differs from by no more, in the metric.
+constexpr double kAlong = 8 * std::numbers::pi / 180;
+
+Vec2 flat(const Vec3& x) { return {x.x, x.y}; }
+
+double metric_eta(const Mesh& mesh, const std::array<int, 4>& quad, const std::vector<Tensor2>& metric) {
+  std::array<Tensor2, 4> at;
+  for (int k = 0; k < 4; ++k) at[k] = metric[quad[k]];
+  const MetricAxes axes = axes_of(log_mean(at, std::array{0.25, 0.25, 0.25, 0.25}));
+  const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
+  std::array<Vec2, 4> x;
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 p = flat(mesh.points[quad[k]]);
+    x[k] = {dot(p, e) / axes.h1, cross(e, p) / axes.h2};
+  }
+  return quad_eta(x[0], x[1], x[2], x[3]);
+}
+
+std::vector<Tensor2> metric_at_points(const Mesh& mesh, const MetricAt& metric_at) {
+  std::vector<Tensor2> metric(mesh.points.size());
+  parallel_ranges(metric.size(), [&](std::size_t begin, std::size_t end) {
+    int hint = -1;
+    for (std::size_t i = begin; i < end; ++i) metric[i] = metric_at(flat(mesh.points[i]), hint);
+  });
+  return metric;
+}
+
+std::vector<double> etas_by(const Mesh& mesh, const std::vector<Tensor2>& metric) {
+  std::vector<double> etas(mesh.quads.size());
+  parallel_ranges(etas.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) etas[q] = metric_eta(mesh, mesh.quads[q], metric);
+  });
+  return etas;
+}
+
+/// The angle of d from the nearest axis, in the metric.
+double angle_from_axes(Vec2 d, const Tensor2& metric) {
+  const MetricAxes axes = axes_of(metric);
+  const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
+  const double u = std::abs(dot(d, e)) / axes.h1, v = std::abs(cross(e, d)) / axes.h2;
+  return std::atan2(std::min(u, v), std::max(u, v));
+}
+
+}  // namespace
+
+const std::vector<Metric>& metrics_by_metric() {
+  using enum Better;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  static const std::vector<Metric> all = {
+      {"metric_eta_mean", "eta_M mean", "", kHigher, 0, "eta in the metric, mean over quads"},
+      {"metric_eta_worst", "eta_M worst", "", kHigher, 0, "eta in the metric, least over quads"},
+      {"metric_tau", "tau_M", "%", kHigher, 0, "tau by lengths in the metric"},
+      {"metric_in_range", "in range", "%", kHigher, 0,
+       "edges whose lengths in the metric are from 1 / sqrt 2 to sqrt 2 [ugawg2017]", 1},
+      {"metric_edge_min", "edge_M min", "", kHigher, 0, "shortest edge, in the metric"},
+      {"metric_edge_max", "edge_M max", "", kLower, kInfinite, "longest edge, in the metric"},
+      {"metric_aligned", "aligned", "%", kNeither, 0,
+       "inner edges within 8 degrees of an axis of the metric, in the metric", 1},
+  };
+  return all;
+}
+
+std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric) {
+  return etas_by(mesh, metric_at_points(mesh, metric));
+}
+
+std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<const HalfEdge> sides,
+                                                const MetricAt& metric_at) {
+  std::map<std::string, double> values;
+  for (const Metric& m : metrics_by_metric()) values[m.key] = std::numeric_limits<double>::quiet_NaN();
+  if (sides.empty()) return values;
+  const std::vector<Tensor2> metric = metric_at_points(mesh, metric_at);
+  const std::vector<double> etas = etas_by(mesh, metric);
+  double edges = 0, sum = 0, in_range = 0, inner = 0, aligned = 0;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const Vec2 a = flat(mesh.points[edge[0].lo]), b = flat(mesh.points[edge[0].hi]);
+    const Tensor2 &at_a = metric[edge[0].lo], &at_b = metric[edge[0].hi];
+    const double length = metric_length(b - a, at_a, at_b);
+    ++edges;
+    sum += length < 1 ? length - 1 : 1 / length - 1;
+    in_range += length <= kRange && length * kRange >= 1 ? 1 : 0;
+    shortest = std::min(shortest, length), longest = std::max(longest, length);
+    if (edge.size() != 2) return;
+    ++inner;
+    const Tensor2 mean = log_mean(std::array{at_a, at_b}, std::array{0.5, 0.5});
+    aligned += angle_from_axes(b - a, mean) <= kAlong ? 1 : 0;
+  });
+  if (!etas.empty()) {
+    values["metric_eta_mean"] =
+        std::accumulate(etas.begin(), etas.end(), 0.0) / static_cast<double>(etas.size());
+    values["metric_eta_worst"] = *std::ranges::min_element(etas);
+  }
+  values["metric_tau"] = 100 * std::exp(sum / edges);
+  values["metric_in_range"] = 100 * in_range / edges;
+  values["metric_edge_min"] = shortest;
+  values["metric_edge_max"] = longest;
+  if (inner > 0) values["metric_aligned"] = 100 * aligned / inner;
+  return values;
+}
+
+}  // namespace delquad

@@ -1,0 +1,296 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "delquad/mesher.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::TemporaryFolder;
+
+MeshProblem square(double side = 1) {
+  MeshProblem problem;
+  problem.model = polygons({{{0, 0}, {side, 0}, {side, side}, {0, side}}});
+  return problem;
+}
+
+MeshProblem by_sizes(MeshProblem problem, const std::string& h1, const std::string& h2,
+                     const std::string& theta = "0") {
+  problem.metric.sizes = {h1, h2, theta};
+  return problem;
+}
+
+double value(const MeshResult& result, const char* key) { return result.metrics.values.at(key); }
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& v : mesh.quads) {
+    const Vec3 d1 = mesh.points[v[2]] - mesh.points[v[0]], d2 = mesh.points[v[3]] - mesh.points[v[1]];
+    sum += cross(d1, d2).z / 2;
+  }
+  return sum;
+}
+
+// hx = 0.1 and rows that grow from the middle: a structured grid of the unit square.
+TEST(MetricPlane, LinearLayersAreAGrid) {
+  for (const char* h0 : {"0.001", "0.0001"}) {
+    const MeshResult result =
+        mesh(by_sizes(square(), "0.1", std::string(h0) + "+2*(0.1-" + h0 + ")*abs(y-0.5)"), "good");
+    EXPECT_TRUE(result.soundness.sound());
+    EXPECT_EQ(value(result, "n_irregular"), 0);
+    EXPECT_EQ(value(result, "metric_in_range"), 100);
+    EXPECT_GT(value(result, "metric_eta_worst"), 0.99);
+    EXPECT_EQ(value(result, "n_triangles"), 0);
+    EXPECT_NEAR(area(result.mesh), 1, 1e-12);
+  }
+}
+
+// A constant metric along the axes: 5 by 100 rectangles, all alike.
+TEST(MetricPlane, AConstantMetricIsAGridOfEqualRectangles) {
+  const MeshResult result = mesh(by_sizes(square(), "0.2", "0.01"), "DB");
+  ASSERT_EQ(result.mesh.quads.size(), 500u);
+  EXPECT_NEAR(value(result, "metric_eta_worst"), 1, 1e-6);
+  EXPECT_NEAR(value(result, "metric_edge_min"), 1, 1e-6);
+  EXPECT_NEAR(value(result, "metric_edge_max"), 1, 1e-6);
+  EXPECT_NEAR(result.prepared->size.expected_quads, 500, 1);
+}
+
+TEST(MetricPlane, TheComplexityIsTheNumberOfQuads) {
+  MeshProblem problem = by_sizes(square(), "1", "1+10*x", "0.5+y");
+  problem.metric.complexity = 800;
+  EXPECT_NEAR(prepare(problem)->size.expected_quads, 800, 16);
+  // Boundaries that do not follow the axes need more; by sizes that are larger there are as many as are
+  // asked.
+  problem.quads = 800;
+  const MeshResult result = mesh(problem, "good");
+  EXPECT_NEAR(static_cast<double>(result.mesh.quads.size()), 800, 24);
+  EXPECT_GT(value(result, "metric_in_range"), 80);
+  problem.quads.reset();
+  problem.refine = 2;
+  EXPECT_GT(value(mesh(problem, "good"), "metric_tau"), 85);
+}
+
+// Nodes of the outline lie on the true circle although the flat plane knows a polygon.
+TEST(MetricPlane, NodesLieOnTheTrueCurves) {
+  MeshProblem problem;
+  PlanarModel model;
+  model.source = "disc with a hole";
+  model.curves = {{make_circle({0, 0}, 1), "outer", "", false},
+                  {make_circle({0.2, 0}, 0.3), "inner", "", false}};
+  model.loops = {{{0}, "ring", "", false}, {{1}, "", "", true}};
+  problem.model = model;
+  problem = by_sizes(problem, "0.02+0.1*abs(y)", "0.15", "pi/2");
+  const MeshResult result = mesh(problem, "good");
+  ASSERT_TRUE(result.soundness.sound());
+  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l)
+    for (const int v : result.mesh.lines[l]) {
+      const Vec3 p = result.mesh.points[v];
+      const bool is_inner = result.mesh.curves[result.mesh.line_curve[l]].names.at(0) == "inner";
+      EXPECT_NEAR(is_inner ? std::hypot(p.x - 0.2, p.y) : std::hypot(p.x, p.y), is_inner ? 0.3 : 1, 1e-14);
+    }
+  EXPECT_GT(value(result, "metric_eta_mean"), 0.8);
+}
+
+MeshProblem ring(double outer, double inner) {
+  MeshProblem problem;
+  PlanarModel model;
+  model.source = "ring";
+  model.curves = {{make_circle({0, 0}, outer), "outer", "", false},
+                  {make_circle({0, 0}, inner), "inner", "", false}};
+  model.loops = {{{0}, "ring", "", false}, {{1}, "", "", true}};
+  problem.model = model;
+  return problem;
+}
+
+// Rows that are thinner than the sagitta of their length, and a hole that is smaller than all lengths: sides
+// along bends become shorter, and lengths grow from there on.
+TEST(MetricPlane, BendsAndSmallHolesStayUpright) {
+  for (const MeshProblem& problem :
+       {by_sizes(ring(1, 0.5), "0.0005+0.2*(sqrt(x^2+y^2)-0.5)", "0.05", "atan2(y,x)"),
+        by_sizes(ring(1, 0.001), "0.2", "0.04")}) {
+    const MeshResult result = mesh(problem, "good");
+    EXPECT_TRUE(result.soundness.sound());
+    EXPECT_GT(value(result, "metric_eta_worst"), 0.2);
+    EXPECT_GT(value(result, "metric_in_range"), 85);
+  }
+}
+
+// Regions side by side, one of them twice on the same curve, and a line inside of one.
+TEST(MetricPlane, RegionsAndEmbeddedCurvesStay) {
+  MeshProblem problem;
+  PlanarModel model;
+  model.source = "two";
+  model.curves = {{make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}), "left", "", false},
+                  {make_polyline({{1, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}}), "right", "", false},
+                  {make_segment({0.2, 0.3}, {0.8, 0.6}), "inside", "", false}};
+  model.loops = {{{0}, "a", "", false}, {{1}, "b", "", false}};
+  model.points = {{{1.5, 0.25}, "spot", ""}};
+  problem.model = model;
+  const MeshResult result = mesh(by_sizes(problem, "0.1", "0.02+0.05*y"), "good");
+  ASSERT_TRUE(result.soundness.sound());
+  EXPECT_NEAR(area(result.mesh), 2, 1e-12);
+  EXPECT_EQ(result.mesh.regions.size(), 2u);
+  double inside = 0;
+  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l) {
+    const auto& names = result.mesh.curves[result.mesh.line_curve[l]].names;
+    const auto [a, b] = result.mesh.lines[l];
+    if (!names.empty() && names[0] == "inside") inside += norm(result.mesh.points[b] - result.mesh.points[a]);
+  }
+  EXPECT_NEAR(inside, std::hypot(0.6, 0.3), 1e-12);
+  ASSERT_EQ(result.mesh.named_points.size(), 1u);
+  EXPECT_NEAR(norm(result.mesh.points[result.mesh.named_points[0].point] - Vec3{1.5, 0.25, 0}), 0, 1e-9);
+}
+
+// A shock that is a hundred times thinner than the largest quads.
+TEST(MetricPlane, FollowsASolutionAndStaysUpright) {
+  MeshProblem problem = square();
+  problem.metric.solution = "tanh(50*(x^2+y^2-0.5))";
+  problem.metric.gradation = 1.5;
+  problem.metric.complexity = 1000;
+  for (const CrossKind kind : {CrossKind::kSizeAware, CrossKind::kMetric}) {
+    problem.cross.kind = kind;
+    const MeshResult result = mesh(problem, "DBCO");
+    EXPECT_TRUE(result.soundness.sound());
+    EXPECT_EQ(value(result, "n_inverted"), 0);
+    EXPECT_GT(value(result, "metric_eta_mean"), 0.85);
+    EXPECT_GT(value(result, "metric_in_range"), 90);
+    EXPECT_NEAR(value(result, "n_quads"), 1000, 60);
+  }
+}
+
+TEST(MetricPlane, CrossesGoAlongTheAxesWhereTheyAreAsked) {
+  MeshProblem problem = by_sizes(square(4), "0.2", "0.05", "0.3");
+  problem.cross.kind = CrossKind::kBoundary;
+  const double without = value(mesh(problem, "DB"), "metric_aligned");
+  problem.cross.kind = CrossKind::kMetric;
+  EXPECT_GT(value(mesh(problem, "DB"), "metric_aligned"), without + 5);
+}
+
+TEST(MetricPlane, WithoutDirectionsItIsASize) {
+  MeshProblem by_size = square();
+  by_size.size.field = make_expression_size("0.05+0.1*x");
+  MeshProblem by_metric = square();
+  by_metric.metric.function = [](std::span<const Vec2> points, std::span<Tensor2> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double h = 0.05 + 0.1 * points[i].x;
+      metric[i] = {1 / (h * h), 0, 1 / (h * h)};
+    }
+  };
+  const Mesh a = mesh(by_size, "good").mesh, b = mesh(by_metric, "good").mesh;
+  ASSERT_EQ(a.quads, b.quads);
+  for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_LT(norm(a.points[i] - b.points[i]), 1e-9);
+}
+
+TEST(MetricPlane, ASeedTurnsTheMeshAndNotTheDomain) {
+  MeshProblem problem = by_sizes(square(), "0.1", "0.02");
+  problem.seed = 3;
+  const MeshResult result = mesh(problem, "DB");
+  EXPECT_TRUE(result.soundness.sound());
+  EXPECT_NEAR(area(result.mesh), 1, 1e-12);
+  for (const Vec3& p : result.mesh.points) EXPECT_TRUE(p.x > -1e-12 && p.x < 1 + 1e-12 && p.y > -1e-12);
+}
+
+TEST(MetricPlane, SameBytesForEveryNumberOfThreads) {
+  MeshProblem problem = by_sizes(square(), "0.05", "0.01+0.1*x", "y");
+  const Mesh one = mesh(problem, "good", {.threads = 1}).mesh,
+             two = mesh(problem, "good", {.threads = 2}).mesh;
+  EXPECT_EQ(one.quads, two.quads);
+  EXPECT_EQ(one.points, two.points);
+}
+
+TEST(MetricPlane, RefusesWhatIsNoMetricWithItsPlace) {
+  const auto meshed = [](const std::array<std::string, 3>& tensor) {
+    MeshProblem problem = square();
+    problem.metric.tensor = {tensor.begin(), tensor.end()};
+    problem.metric.where = "model.toml:7";
+    mesh(problem, "DB");
+  };
+  expect_input_error(
+      [&] {
+        meshed({"1", "2", "1"});
+      },
+      {"model.toml:7", "[1, 2, 1] (m11, m12, m22) at (0, 0)"});
+  expect_input_error([&] { meshed({"100/(x-0.3)*abs(x-0.3)", "0", "100"}); }, {"m11, m12, m22) at ("});
+  expect_input_error([&] { meshed({"sqrt(x-0.5)", "0", "1"}); }, {"nan, 0, 1]"});
+  expect_input_error([&] { meshed({"1e24", "0", "1"}); }, {"[1e+24, 0, 1]", "differ"});
+  expect_input_error([&] { meshed({"1e12", "0", "1e12"}); }, {"1e+12 quads", "max-elements"});
+  MeshProblem negative = by_sizes(square(), "0.1", "0.5-y");
+  negative.metric.where = "model.toml:7";
+  expect_input_error([&] { mesh(negative, "DB"); }, {"model.toml:7", "h2 -0.5", "at (1, 1)"});
+  expect_input_error([&] { meshed({"1", "0", "z"}); }, {"model.toml:7", "z"});
+}
+
+// Two triangles with h = 0.1 x 0.02, as Mmg writes them and as a view of Gmsh.
+TEST(MetricPlane, ReadsTensorsFromFiles) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  };
+  write("a.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+        "Triangles\n2\n1 2 3 1\n1 3 4 1\nEnd\n");
+  const std::string head = "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n";
+  const std::string sol =
+      write("a.sol", head + "4\n1 3\n100 0 2500\n100 0 2500\n100 0 2500\n100 0 2500\nEnd\n");
+  std::string view = "$NodeData\n1\n\"M\"\n1\n0\n3\n0\n9\n4\n";
+  for (int i = 1; i <= 4; ++i) view += std::to_string(i) + " 100 0 0 0 2500 0 0 0 1\n";
+  const std::string msh =
+      write("a.msh",
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+            "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n" +
+                view + "$EndNodeData\n");
+  for (const std::string& file : {sol, msh, msh + ":M"}) {
+    MeshProblem problem = square();
+    problem.metric.file = file;
+    EXPECT_EQ(mesh(problem, "DB").mesh.quads.size(), 500u) << file;
+  }
+  const auto refused = [&](const std::string& text) {
+    MeshProblem problem = square();
+    problem.metric.file = write("a.sol", text);
+    return message_of([&] { mesh(problem, "DB"); });
+  };
+  EXPECT_NE(refused(head + "3\n1 3\n1 0 1\n1 0 1\n1 0 1\nEnd\n").find("values of 3 points: expected 4"),
+            std::string::npos);
+  EXPECT_NE(refused(head + "4\n1 1\n1\n1\n1\n1\nEnd\n").find("expected one of type 3"), std::string::npos);
+  EXPECT_NE(
+      refused(head + "4\n1 3\n1 2 1\n1 0 1\n1 0 1\n1 0 1\n").find("[1, 2, 1] (m11, m12, m22) at (0, 0)"),
+      std::string::npos);
+  EXPECT_NE(refused("MeshVersionFormatted 2\n").find("no SolAtVertices"), std::string::npos);
+}
+
+TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
+  MeshProblem problem = by_sizes(square(), "0.1", "0.2");
+  MeshProblem other = problem;
+  other.size.field = make_constant_size(0.1);
+  expect_input_error([&] { mesh(other, "DB"); }, {"a size does", "not go with a metric"});
+  other = problem;
+  other.order = 2;
+  expect_input_error([&] { mesh(other, "DB"); }, {"order 2", "not go with a metric"});
+  other = problem;
+  other.symmetry.automatic = true;
+  expect_input_error([&] { mesh(other, "DB"); }, {"planes of symmetry"});
+  other = problem;
+  other.metric.gradation = 0.5;
+  expect_input_error([&] { mesh(other, "DB"); }, {"gradation 0.5", "above 1"});
+  other = problem;
+  other.metric.limits = {.min = 2, .max = 1};
+  expect_input_error([&] { mesh(other, "DB"); }, {"lengths from 2 to 1"});
+  other = problem;
+  other.model = ExampleModel{"torus"};
+  expect_input_error([&] { mesh(other, "DB"); }, {"surfaces"});
+  other = square();
+  other.size.field = make_constant_size(0.1);
+  other.cross.kind = CrossKind::kMetric;
+  expect_input_error([&] { mesh(other, "DB"); }, {"there is no metric"});
+}
+
+}  // namespace
+}  // namespace delquad
