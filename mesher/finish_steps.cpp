@@ -108,11 +108,15 @@ bool keep_better(Finishing& on) {
   }
   if (best) take_mesh(std::move(*best), result);
   if (!result.soundness.sound()) return best.has_value();
-  std::string price = text_of_price(on.prepared, result, before);
+  const std::string price = text_of_price(on.prepared, result, before);
   if (costs_too_much(result, before) && !repair_options(on.prepared.settings.options).at_any_price)
-    result.soundness.beyond.push_back(price + "; --set repair.at_any_price=true takes it");
+    result.soundness.beyond.push_back(
+        fmt::format("given quads that are inverted, folded or flat become sound only at a price: {}; "
+                    "--set repair.at_any_price=true takes it",
+                    price));
   else
-    result.warnings.push_back(fmt::format("{}: {}", on.label, price));
+    result.warnings.push_back(fmt::format(
+        "{}: given quads that were inverted, folded or flat are sound now, at a price: {}", on.label, price));
   return best.has_value();
 }
 

@@ -208,6 +208,12 @@ void remove_scratch(const Cell& cell) {
   fs::remove_all(scratch_of(cell.folder), ignored);
 }
 
+/// Each names its case.
+void say_warnings(const Case& c, const std::vector<Warning>& warnings) {
+  for (const std::string& line : lines_of(warnings))
+    say(fmt::format("warning: {}{}", line.starts_with(c.name) ? "" : c.folder + ": ", line));
+}
+
 }  // namespace
 
 void say(const std::string& text) {
@@ -223,7 +229,7 @@ bool is_done(const Cell& cell) {
 void VariantWork::prepare() {
   const DoingStage preparing("fields");
   prepared = delquad::prepare(c);
-  for (const std::string& line : lines_of(prepared->warnings)) say("warning: " + line);
+  say_warnings(c, prepared->warnings);
   meshing.emplace(prepared);
   if (!pictures) return;
   try {
@@ -244,7 +250,7 @@ void VariantWork::finish(const Cell& cell) {
                           : meshing->finish();
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
-  for (const std::string& line : lines_of(result.warnings_on_mesh())) say("warning: " + line);
+  say_warnings(c, result.warnings_on_mesh());
   // What others make is shown as it is.
   if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
   if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));

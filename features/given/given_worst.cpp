@@ -118,8 +118,7 @@ std::string text_of_price(const PreparedProblem& prepared, const MeshResult& aft
     prices.push_back(fmt::format("the largest aspect of sound quads goes {}, {}", was_is("aspect_max"),
                                  at_least([](const auto& x) { return -quad_aspect(x); })));
   if (harm.number > 0) prices.push_back(fmt::format("the number of quads goes {}", was_is("n_quads")));
-  return fmt::format("given quads that were inverted, folded or flat are sound now, at a price: {}",
-                     fmt::join(prices, "; "));
+  return fmt::format("{}", fmt::join(prices, "; "));
 }
 
 }  // namespace delquad

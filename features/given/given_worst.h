@@ -29,7 +29,7 @@ Harm harm_of(const MeshResult& after, const MeshResult& before);
 /// Whether what is worse is that of a poor quad, see poor_quads.h, or the number of quads.
 bool costs_too_much(const MeshResult& after, const MeshResult& before);
 
-/// What it costs that quads are sound now, and where.
+/// What it costs that quads are sound now, and where: "the worst eta goes from ...; ...".
 std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
 
 }  // namespace delquad

@@ -249,7 +249,7 @@ TEST(GivenSurfaces, ACureThatMakesQuadsPoorIsAskedFor) {
     ADD_FAILURE() << "poor quads are taken";
   } catch (const UnsoundError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("sound now, at a price: "), std::string::npos) << text;
+    EXPECT_NE(text.find("become sound only at a price: "), std::string::npos) << text;
     EXPECT_NE(text.find("--set repair.at_any_price=true takes it"), std::string::npos) << text;
   }
   problem.options.set("repair.at_any_price", true);
