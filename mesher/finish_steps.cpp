@@ -54,6 +54,19 @@ MeshResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) 
   return std::move(on.result);
 }
 
+/// Quads of the result are sound that were not before.
+void tell_price(Finishing& on, const MeshResult& before) {
+  const std::string price = text_of_price(on.prepared, on.result, before);
+  if (costs_too_much(on.result, before) && !repair_options(on.prepared.settings.options).at_any_price)
+    on.result.soundness.beyond.push_back(
+        fmt::format("given quads that are inverted, folded or flat become sound only at a price: {}; "
+                    "--set repair.at_any_price=true takes it",
+                    price));
+  else
+    on.result.warnings.push_back(fmt::format(
+        "{}: given quads that were inverted, folded or flat are sound now, at a price: {}", on.label, price));
+}
+
 /// Where the mesh that the stages made of given quads is worse than these, see is_worse(), it becomes what
 /// fewer of the stages make, if that is not, or else the given mesh. A warning says so. Returns whether it is
 /// another.
@@ -108,15 +121,7 @@ bool keep_better(Finishing& on) {
   }
   if (best) take_mesh(std::move(*best), result);
   if (!result.soundness.sound()) return best.has_value();
-  const std::string price = text_of_price(on.prepared, result, before);
-  if (costs_too_much(result, before) && !repair_options(on.prepared.settings.options).at_any_price)
-    result.soundness.beyond.push_back(
-        fmt::format("given quads that are inverted, folded or flat become sound only at a price: {}; "
-                    "--set repair.at_any_price=true takes it",
-                    price));
-  else
-    result.warnings.push_back(fmt::format(
-        "{}: given quads that were inverted, folded or flat are sound now, at a price: {}", on.label, price));
+  tell_price(on, before);
   return best.has_value();
 }
 

@@ -14,6 +14,7 @@
 #include "features/metric/metric_plane.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "mesher/finish_steps.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
 
 namespace delquad {

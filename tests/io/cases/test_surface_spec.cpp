@@ -59,7 +59,7 @@ TEST(SurfaceSpecs, HolesAndFilletsHaveRanges) {
   EXPECT_EQ(c.surface.fill_holes, 2);
   expect_input_error([&] { with("washers = [{ diameter = [5, 12], rows = -1 }]\n"); },
                      {"m.toml:2", "'rows' is -1", "1 to 1000"});
-  expect_input_error([&] { with("washers = [{ diameter = 5 }]\n"); }, {"m.toml:2", "'diameter'"});
+  expect_input_error([&] { with("washers = [{ diameter = 5 }]\n"); }, {"m.toml:2", "'washers.diameter'"});
   expect_input_error([&] { with("washers = [{ diameter = [5, 6], edge = 8 }]\n"); }, {"m.toml:2", "'edges'"});
 }
 
