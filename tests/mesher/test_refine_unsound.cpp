@@ -145,6 +145,7 @@ MeshProblem rubble(int seed) {
   problem.size.field = make_constant_size(0.7);
   problem.surface.feature_angle = 180;
   problem.allow_unsound = true;
+  problem.options.set("repair.ignore_small", false);
   return problem;
 }
 
