@@ -332,6 +332,7 @@ class MetricMesher {
     if (segments_.contains(key_of(split.a, split.b))) return split;
     for (const int t : editor.triangles_on(split.a, split.b)) {
       const int tip = opposite(t, split.a, split.b);
+      if (tip >= std::ssize(metric_)) continue;  // made in this pass: the side waits for the next
       for (const int end : {split.a, split.b}) {
         const auto segment = segments_.find(key_of(end, tip));
         if (segment == segments_.end() ||
@@ -353,7 +354,8 @@ class MetricMesher {
       const Split split = segment_instead(editor, wanted);
       if (split.length < kShortest / 2) continue;
       const std::vector<int> beside = editor.triangles_on(split.a, split.b);
-      if (std::ranges::any_of(beside, [&](int t) { return t >= std::ssize(is_taken) || is_taken[t] != 0; }) ||
+      if (beside.empty() ||  // halved in place of another
+          std::ranges::any_of(beside, [&](int t) { return t >= std::ssize(is_taken) || is_taken[t] != 0; }) ||
           !std::ranges::all_of(beside, [&](int t) { return stays_upright(t, split); }))
         continue;
       for (const int t : beside) is_taken[t] = 1;
