@@ -30,8 +30,8 @@ constexpr int kFirstWithFeatures = 4;
 constexpr double kPart = 0.5, kReach = 3;
 /// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
 /// about as long, and with the steps that its curves took: at least so many, some 30 seconds; of large meshes
-/// so many times those of the first; a third more for meshes without what is small, where these are not
-/// spent.
+/// so many times those of the first; a third more for meshes without what is small, if one of them is likely
+/// not to need more.
 constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
@@ -239,11 +239,11 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
 
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result) {
-  const long long most = std::max(kLeastQuads, kMostTimes * quads_of(prepared, result));
+  const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
   Budget finer(most), without_small(most / 3);
-  finer.spend(quads_of(prepared, result));
+  finer.spend(once);
   make_finer(prepare_anew, word, finer, prepared, result);
-  if (!result.soundness.sound() && !finer.is_spent())
+  if (!result.soundness.sound() && once < most / 3)
     leave_out_small(prepare_anew, word, without_small, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
