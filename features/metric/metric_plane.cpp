@@ -95,7 +95,7 @@ const PlanarModel& model_for_metric(const MeshProblem& problem) {
   const SizeSpec& size = problem.size;
   if (size.field || size.function || size.from_boundary || !size.sources.empty() || !size.named.empty() ||
       size.gradation > 0 || size.max > 0)
-    refuse("a size does (the metric has its own lengths, limits and gradation)", size.where);
+    refuse("a size does", size.where);
   const auto kind = problem.cross.kind.value_or(CrossKind::kBoundary);
   if (kind == CrossKind::kField || kind == CrossKind::kGradient)
     refuse("given directions and those of a gradient do", problem.cross.where);
